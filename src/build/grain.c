@@ -18,7 +18,9 @@
 #include "build/method.h"
 #include "support/fail.h"
 
-enum { EFFORT, HEIGHT, TUNING, PEEL };
+enum { EFFORT, HEIGHT, TUNING, PEEL, GUARDS };
+#define GROWTH 1.4                   /* fragments in place of one at which cells are thinned out: */
+enum { LEAST = 512, OBJECTS = 128 }; /* cells of so many, into cubes with the guards of so many */
 enum { EFFORT_LOG = 2, EFFORT_MIN = 3, LOW = 2 };
 
 static const char *const efforts[] = {"fast", "default", "log", "min", NULL};
@@ -29,6 +31,7 @@ static const froe_option_info options[] = {
                 -1, -1, 1000, NULL, false},
     [TUNING] = {0},
     [PEEL] = {"peel", "cells of so many pieces may take as many levels: fewer pieces", 0, 0, 1e9, NULL, true},
+    [GUARDS] = {"guards", "left in a cube where a cell is thinned out; 0: cells are not", -1, -1, 1e9, NULL, true},
     {0},
 };
 
@@ -40,19 +43,24 @@ static const split_effort presets[] = {
 };
 
 static void resolve_grain(const froe_scene *scene, uint32_t leaf, double *option) {
-    (void)scene;
     (void)leaf;
+    if (option[GUARDS] < 0) option[GUARDS] = OBJECTS << scene->dim;
     if (option[HEIGHT] < 0) option[HEIGHT] = option[EFFORT] == EFFORT_MIN ? 5 : LOW;
 }
 
 /** See the head of this file. Every cut leaves fewer fragments on either side, so n is a bound, too; but for a first
  * cut that is given, below which all of them may be on one side. */
-static double promised_height(const build_job *job, const split_grain *grain) {
+static double promised_height(const build_job *job, const split_grain *grain, const split_thin_notes *thinned) {
     double n = job->scene->object_count, v = job->scene->vertex_count;
     double need = split_grain_need(job->leaf, n), bound = grain->height > need ? grain->height : need;
     if (atomic_load(&grain->notes->medians)) bound += 3 * (base_log2(v + 1) + 1);
-    bound += atomic_load(&grain->notes->unbalanced) + grain->peel;
-    return (grain->height > 0 && bound < n ? bound : n) + build_levels_given(job);
+    bound += atomic_load(&grain->notes->unbalanced) + grain->peel + thinned->largest;
+    return (grain->height > 0 && bound < n ? bound : n) + thinned->height + build_levels_given(job);
+}
+
+/** See split/charge/thin.h. Growth is rounded at every cut. */
+static double promised_fragments(const build_job *job, const split_thin_notes *thinned) {
+    return GROWTH * (1 + 0x1p-12) * job->scene->object_count + (double)(thinned->after - thinned->before);
 }
 
 /** A tree of at most C log2 n + 2 levels, if cuts can be found. */
@@ -61,17 +69,24 @@ static froe_status grow_grain(build_job *job, const split_job *split, int effort
     split_grain grain = {.leaf = job->leaf,
                          .seed = job->seed,
                          .effort = presets[effort],
+                         .thin = {GROWTH, LEAST, (uint32_t)job->option[GUARDS]},
                          .peel = (uint32_t)job->option[PEEL],
                          .notes = &notes};
     if (c > 0) grain.height = c * base_log2(job->scene->object_count + 1.0) + 2;
+    split_thin_notes thinned = {0};
+    split_job grown = *split;
+    grown.thinned = &thinned;
     split_method method = {.config = &grain,
                            .choose = split_grain_choose,
                            .scratch_new = split_grain_scratch_new,
                            .scratch_free = split_grain_scratch_free,
-                           .height = grain.height > 0 ? grain.height + grain.peel : 0};
-    froe_status status = split_grow(split, &method, out);
-    if (!status) tree_promise_anew(*out, "height", promised_height(job, &grain));
-    return status;
+                           .height = grain.height > 0 ? grain.height + grain.peel : 0,
+                           .thin = grain.thin};
+    froe_status status = split_grow(&grown, &method, out);
+    if (status) return status;
+    tree_promise_anew(*out, "height", promised_height(job, &grain, &thinned));
+    tree_promise_anew(*out, "charged_fragments", promised_fragments(job, &thinned));
+    return FROE_OK;
 }
 
 /** More levels mean fewer pieces, except where every cut has to split: the low tree of effort=log, or a taller one if
@@ -99,7 +114,8 @@ static froe_status grow_two(build_job *job, froe_tree **out) {
 static froe_status build_grain(build_job *job, froe_tree **out) {
     const double c = job->option[HEIGHT];
     const split_job split = build_split_job(job);
-    build_promise(job, "height", 0, 0); /* renewed once it is known */
+    build_promise(job, "height", 0, 0); /* renewed once they are known */
+    build_promise(job, "charged_fragments", 0, 0);
     if (job->option[EFFORT] == EFFORT_MIN && (c == 0 || c > LOW)) return grow_two(job, out);
     return grow_grain(job, &split, (int)job->option[EFFORT], c, out);
 }

@@ -1,6 +1,7 @@
 /* cell.c: one step of the loop in grow.c. */
 #include "split/cell.h"
 #include "base/random.h"
+#include "split/charge/thin.h"
 #include <string.h>
 
 enum { PREFETCH = 64 }; /* objects asked for at once, at most */
@@ -110,10 +111,16 @@ static froe_status deal_fragments_of_cell(split_set *set, const split_cell *cell
     return FROE_OK;
 }
 
-/** Cuts in place and makes the children; *useless as for cell_cut, NULL: cut all the same. *listed: pieces of the
- * node. */
+/** Does a cut that deals so with the cell's fragments keep the limits? */
+static bool keep_limits(const split_cell *cell, const class_counts *n, cell_limits *limits) {
+    limits->useless = !n->of[SPLIT_ON] && (!n->of[SPLIT_NEG] || !n->of[SPLIT_POS]);
+    limits->kept = !limits->useless && !thin_refuses(limits->thin, cell, n->of[SPLIT_BOTH]);
+    return limits->kept;
+}
+
+/** Cuts in place and makes the children; limits as for cell_cut. *listed: pieces of the node. */
 static froe_status cut_in_two(split_work *work, const split_cell *parent, const froe_cut *cut, uint8_t flags,
-                              bool *useless, split_cell side[2], uint32_t *listed) {
+                              cell_limits *limits, split_cell side[2], uint32_t *listed) {
     split_cell of_parent = *parent, *cell = &of_parent;
     split_set *set = &work->set;
     split_plane plane;
@@ -122,8 +129,7 @@ static froe_status cut_in_two(split_work *work, const split_cell *parent, const 
     froe_status status = classify(set, cell, cut, &plane, &n);
     work->tests += cell->count;
     if (status) return status;
-    if (useless) *useless = !n.of[SPLIT_ON] && (!n.of[SPLIT_NEG] || !n.of[SPLIT_POS]);
-    if (useless && *useless) return FROE_OK;
+    if (limits && !keep_limits(cell, &n, limits)) return FROE_OK;
     status = draft_split(set->draft, local, &plane.cut, flags, &child);
     if (!status) status = emit_fragments(set, cell, n.of[SPLIT_ON], true);
     cover_drop(set, cell);
@@ -138,6 +144,7 @@ static froe_status cut_in_two(split_work *work, const split_cell *parent, const 
                                .first = cell->first + (s ? 0 : positive),
                                .count = s ? positive : negative,
                                .corner_top = (uint32_t)work->set.corners.count,
+                               .thinned = cell->thinned,
                                .guard = FROE_NONE};
     const size_t bytes = set->boxes ? (size_t)set->scene->dim * sizeof *cell->lo : 0;
     for (int s = 0; s < 2; s++) {
@@ -171,11 +178,12 @@ static void note_progress(const split_cell *parent, uint32_t listed, split_cell 
     }
 }
 
-froe_status cell_cut(split_work *work, const split_cell *cell, const froe_cut *cut, uint8_t flags, bool *useless) {
+froe_status cell_cut(split_work *work, const split_cell *cell, const froe_cut *cut, uint8_t flags,
+                     cell_limits *limits) {
     split_cell side[2];
     uint32_t listed;
-    froe_status status = cut_in_two(work, cell, cut, flags, useless, side, &listed);
-    if (status || (useless && *useless)) return status;
+    froe_status status = cut_in_two(work, cell, cut, flags, limits, side, &listed);
+    if (status || (limits && !limits->kept)) return status;
     note_progress(cell, listed, side);
     return push_child_cells(work, side);
 }

@@ -19,10 +19,16 @@ froe_status cell_leaf(split_work *work, const split_cell *cell, uint8_t flags);
 froe_status cell_take(split_work *work, const split_lowest_nodes *lowest, split_cell *cell, uint32_t count);
 /** How the cut would deal with the cell's fragments, exactly. */
 froe_status cell_tally(split_work *work, const split_cell *cell, const froe_cut *cut, split_tally *out);
+/** What a cut has to keep: it separates something, and splits no more than a charged cell may. */
+typedef struct cell_limits {
+    const split_thin_rule *thin;
+    bool kept, useless; /**< out; neither: it would split too much */
+} cell_limits;
+
 /** Cuts a cell without whole objects. On success its fragments are replaced by those of the children, child 0
- * on top, and both children are pushed, child 0 last. *useless: nothing was done, since every fragment would have
- * stayed on one side; NULL: the cell is cut all the same. `flags`: TREE_GUARD. */
-froe_status cell_cut(split_work *work, const split_cell *cell, const froe_cut *cut, uint8_t flags, bool *useless);
+ * on top, and both children are pushed, child 0 last. Where the limits are not kept, nothing is done; NULL: the cell is
+ * cut all the same. `flags`: TREE_GUARD, TREE_CHARGED. */
+froe_status cell_cut(split_work *work, const split_cell *cell, const froe_cut *cut, uint8_t flags, cell_limits *limits);
 /** Cuts a cell by its node of the guard tree, whatever that separates. */
 froe_status cell_cut_guard(split_work *work, const split_job *job, split_cell *cell);
 /** Moves the covers among a cell's fragments, which are on top, before the others; all keep their order. FROE_E_MEMORY.

@@ -1,5 +1,6 @@
 /* grow.c: the shared loop, in one thread down to small cells, then one task per small cell. */
 #include "split/cell.h"
+#include "split/charge/thin.h"
 #include "split/guard/trial.h"
 #include "support/fail.h"
 #include <math.h>
@@ -66,28 +67,40 @@ static bool fit_rooms(const split_method *method, split_work *work) {
 
 /** Cuts the cell and fills the rooms of its children. */
 static froe_status divide_cell(const split_method *method, split_work *work, const split_cell *cell,
-                               const froe_cut *cut, bool guard, bool *useless) {
-    froe_status status = cell_cut(work, cell, cut, guard ? TREE_GUARD : 0, useless);
-    if (status || !method->divided || (useless && *useless)) return status;
+                               const froe_cut *cut, uint8_t flags, cell_limits *limits) {
+    froe_status status = cell_cut(work, cell, cut, flags, limits);
+    if (status || !method->divided || (limits && !limits->kept)) return status;
     if (!fit_rooms(method, work)) return FROE_E_MEMORY;
     unsigned char *negative = work->rooms.data + method->room * work->cells.count, *positive = negative - method->room;
     memcpy(positive, work->rooms.data, method->room);
     memcpy(negative, work->rooms.data, method->room);
-    method->divided(method->config, work, cell, cut, guard, positive, negative);
+    method->divided(method->config, work, cell, cut, flags & TREE_GUARD, positive, negative);
     return FROE_OK;
 }
 
 froe_status split_step(const split_method *method, split_work *work, split_cell *cell) {
     froe_cut cut = {.kind = FROE_CUT_NONE};
     froe_status status = FROE_OK;
-    for (bool useless = true; useless && !status; cell->attempt++) {
+    while (!status) {
         split_verdict verdict = method->choose(method->config, work, cell, &cut);
         if (verdict > SPLIT_CUT_GUARD) return failure_of(verdict);
         if (verdict < SPLIT_CUT && verdict != SPLIT_LEAF && !method->shaped && cover_peel(&work->set, cell, &cut))
             verdict = SPLIT_CUT_ANYWAY;
         if (verdict < SPLIT_CUT) return cell_leaf(work, cell, leaf_flags(verdict));
-        if (verdict > SPLIT_CUT) return divide_cell(method, work, cell, &cut, verdict == SPLIT_CUT_GUARD, NULL);
-        status = divide_cell(method, work, cell, &cut, false, &useless);
+        const uint8_t guard = verdict == SPLIT_CUT_GUARD ? TREE_GUARD : 0;
+        if (verdict > SPLIT_CUT) return divide_cell(method, work, cell, &cut, guard, NULL);
+        cell_limits limits = {.thin = &method->thin};
+        const uint8_t charged = thin_charges(&method->thin, cell) ? TREE_CHARGED : 0;
+        status = divide_cell(method, work, cell, &cut, charged, &limits);
+        if (status || limits.kept) return status;
+        if (limits.useless) {
+            cell->attempt++;
+            continue;
+        }
+        bool begun = false;
+        status = thin_begin(&method->thin, work, cell, &begun);
+        if (begun) return status;
+        cell->growth = 0; /* cluttered: charged no more, and asked again */
     }
     return status;
 }
@@ -103,7 +116,9 @@ static froe_status refine_cell(grow *g, split_work *work, split_cell *cell) {
 
 static froe_status grow_cell(grow *g, split_work *work, split_cell *cell) {
     froe_status status = FROE_OK;
-    if (trial_cuts_by_guard(g->job, g->method, cell)) {
+    if (cell->thin) {
+        status = thin_cut(work, cell);
+    } else if (trial_cuts_by_guard(g->job, g->method, cell)) {
         status = cell_cut_guard(work, g->job, cell);
     } else {
         if (trial_is_due(g->job, cell)) status = trial_begin(g->job, work, cell);
@@ -155,10 +170,10 @@ static froe_status grow_cells(grow *g, split_work *work, bool main_part) {
         const size_t room = g->method->room;
         if (room) memcpy(work->rooms.data, work->rooms.data + room * (work->cells.count + 1), room);
         work->set.corners.count = cell.corner_top;
-        work->deepest = cell.depth > work->deepest ? cell.depth : work->deepest;
+        work->deepest = cell.depth > work->deepest && !cell.thinned ? cell.depth : work->deepest;
         uint32_t load = split_load(&cell);
         bool whole = trial_is_due(g->job, &cell) && !trial_cuts_by_guard(g->job, g->method, &cell);
-        if (main_part && !work->first.open && (load <= g->task_size || whole) && load > TASK_TINY)
+        if (main_part && !work->first.open && !cell.thin && (load <= g->task_size || whole) && load > TASK_TINY)
             status = put_off(g, work, &cell);
         else
             status = grow_cell(g, work, &cell);
@@ -193,7 +208,7 @@ static froe_status start_workers(grow *g) {
 /** The root cell: all objects, not yet cut, in the order of lowest_nodes.h; or as fragments without a guard stage. */
 static froe_status push_root(grow *g, split_work *work) {
     uint32_t n = g->job->scene->object_count;
-    split_cell root = {.path = 1, .guard = FROE_NONE, .growth = 1};
+    split_cell root = {.path = 1, .guard = FROE_NONE, .growth = g->job->root ? 0 : 1};
     for (int k = 0; k < g->job->scene->dim; k++) root.lo[k] = -INFINITY, root.hi[k] = INFINITY;
     if (g->job->guard && n && !g->job->root) {
         root.guard = 0;
@@ -213,7 +228,7 @@ static froe_status push_root(grow *g, split_work *work) {
 static froe_status cut_root(grow *g, split_work *work) {
     if (!g->job->root) return FROE_OK;
     const split_cell root = work->cells.data[--work->cells.count];
-    return divide_cell(g->method, work, &root, g->job->root, false, NULL);
+    return divide_cell(g->method, work, &root, g->job->root, 0, NULL);
 }
 
 static froe_status main_part(grow *g) {
@@ -272,12 +287,15 @@ static froe_status do_task(void *user, unsigned worker, size_t index) {
     grow *g = user;
     split_work *work = g->workers + worker;
     grow_task *task = g->tasks.data + index;
+    const split_thin_notes before_task = work->thinned;
     froe_status status = grow_task_from(g, work, task, 0);
     /* A subtree that is `over` levels too deep is grown again, each time as if it began as much further down as the
      * last reached too far, while that helps. The lowest stays. */
     uint32_t over = levels_over(g, work, 0);
     for (uint32_t turn = 0, sunk = 0; turn < REGROWN && over && !status; turn++) {
         tree_draft before = task->draft;
+        const split_thin_notes noted = work->thinned;
+        work->thinned = before_task;
         size_t pieces = before.pieces.count;
         sunk += over;
         work->most = 2 * (uint64_t)pieces;
@@ -286,7 +304,7 @@ static froe_status do_task(void *user, unsigned worker, size_t index) {
         bool lower = !status && levels_over(g, work, sunk) < over && 2 * task->draft.pieces.count >= pieces;
         if (status == FROE_E_BUDGET) status = FROE_OK;
         draft_free(lower ? &before : &task->draft);
-        if (!lower) task->draft = before;
+        if (!lower) task->draft = before, work->thinned = noted;
         over = lower ? levels_over(g, work, sunk) : 0;
     }
     return status ? status : count_pieces(g, &task->draft);
@@ -299,6 +317,8 @@ static froe_status seal(grow *g, froe_tree **out) {
     if (!grafts) return FROE_E_MEMORY;
     for (size_t i = 0; i < count; i++) grafts[i] = (tree_graft){g->tasks.data[i].cell.node, &g->tasks.data[i].draft};
     for (unsigned i = 0; i < g->worker_count && g->job->sums; i++) trial_add_up(g->job->sums, g->workers + i);
+    for (unsigned i = 0; i < g->worker_count && g->job->thinned; i++)
+        thin_add_up(g->job->thinned, &g->workers[i].thinned);
     if (g->method->note) g->method->note(g->method->config);
     for (unsigned i = 0; i < g->worker_count; i++) num_stats_add(&g->main.predicates, &g->workers[i].set.context.stats);
     froe_status status = draft_seal(&g->main, grafts, count, g->job->scene, g->job->meta, out);
@@ -340,6 +360,7 @@ froe_status split_grow(const split_job *job, const split_method *method, froe_tr
         array_free(alloc, &work->cells);
         array_free(alloc, &work->rooms);
         trial_free(alloc, work);
+        split_guard_tree_free(alloc, &work->thin);
     }
     support_free(alloc, g.workers, g.job->task->threads * sizeof *g.workers);
     for (size_t i = 0; i < g.tasks.count; i++) draft_free(&g.tasks.data[i].draft);

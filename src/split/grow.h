@@ -26,6 +26,8 @@ typedef struct split_cell {
     uint32_t barren;        /**< cuts in a row that left nearly all fragments in this cell */
     uint32_t tried;         /**< load at which refinement was last taken back, here or above: guard/trial.h */
     bool plain;             /**< to be cut along its fragments alone, in random order */
+    uint32_t thin;          /**< 1 + the node of work->thin that it is to be cut by, or 0 (charge/thin.h) */
+    bool thinned;           /**< it is part of a cell that was thinned out */
     uint32_t attempt;       /**< how often the chosen cut separated nothing */
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM]; /**< bounds by the axis-parallel cuts above; where set->boxes only */
 } split_cell;
@@ -86,6 +88,19 @@ typedef struct split_trial {
     ARRAY(split_fragment) items;
 } split_trial;
 
+/** How a cell is thinned out where its cut would split too much (charge/thin.h). */
+typedef struct split_thin_rule {
+    double growth;   /**< fragments in place of one at which a cut is refused; 0: never */
+    uint32_t least;  /**< cells of fewer fragments are cut as they are */
+    uint32_t guards; /**< left in a cube; 0: cells are cut as they are, whatever that splits */
+} split_thin_rule;
+
+/** What thinning cells out came to. */
+typedef struct split_thin_notes {
+    uint64_t before, after;   /**< fragments of cells that were thinned out, and in what they became */
+    uint32_t height, largest; /**< most levels of guard cuts, and most fragments of a cell below */
+} split_thin_notes;
+
 /** One thread's working state; `scratch` is the builder's, one per worker. */
 typedef struct split_work {
     split_set set;
@@ -95,9 +110,11 @@ typedef struct split_work {
     base_task *task;
     split_trial first, later;
     split_books books;
-    uint64_t tests;       /**< fragments compared with planes: with cuts and with candidates for them */
-    double tests_allowed; /**< the most that trials allow of these */
-    uint64_t carried;     /**< fragments that guard cuts have led anywhere; these and those, what failed, too */
+    uint64_t tests;        /**< fragments compared with planes: with cuts and with candidates for them */
+    double tests_allowed;  /**< the most that trials allow of these */
+    uint64_t carried;      /**< fragments that guard cuts have led anywhere; these and those, what failed, too */
+    split_guard_tree thin; /**< of the cell that is being thinned out */
+    split_thin_notes thinned;
     uint32_t crossing[2]; /**< on SPLIT_REFUSE; otherwise FROE_NONE */
     uint32_t deepest;     /**< depth of the deepest cell of the current subtree */
     uint64_t most;        /**< pieces that a subtree grown again may have; 0: the first time, max_fragments counts */
@@ -133,6 +150,7 @@ typedef struct split_method {
     void (*scratch_free)(split_work *work);
     /** Levels wanted: a small subtree that reaches deeper is grown again as if it began deeper. 0: any. */
     double height;
+    split_thin_rule thin;
 } split_method;
 
 /** What a build came to, with all that was taken back. */
@@ -155,8 +173,9 @@ typedef struct split_job {
     const split_trial_terms *trials;  /**< with guard: refinement is on trial; or NULL */
     double span;                      /**< share of the task's progress */
     const tree_meta *meta;
-    split_sums *sums; /**< may be NULL */
-    num_stage first;  /**< where predicates start: NUM_FILTER, later ones for tests */
+    split_sums *sums;          /**< may be NULL */
+    num_stage first;           /**< where predicates start: NUM_FILTER, later ones for tests */
+    split_thin_notes *thinned; /**< receives what thinning came to; may be NULL */
     froe_diagnostic *diag;
 } split_job;
 

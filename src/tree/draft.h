@@ -29,7 +29,7 @@ froe_status draft_new(const froe_allocator *alloc, int dim, uint32_t outer, tree
 void draft_free(tree_draft *draft);
 
 /** Makes `node` inner with this cut; *child is the negative child, *child + 1 the
- * positive. FROE_CUT_AXIS without in-cut list stays in the node. `flags`: TREE_GUARD. */
+ * positive. FROE_CUT_AXIS without in-cut list stays in the node. `flags`: of tree_node. */
 froe_status draft_split(tree_draft *draft, uint32_t node, const froe_cut *cut, uint8_t flags, uint32_t *child);
 /** Makes `node` a leaf. Its list starts empty. */
 void draft_leaf(tree_draft *draft, uint32_t node, uint8_t flags);

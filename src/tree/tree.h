@@ -31,8 +31,9 @@
 #define TREE_EDGE_CUT 0x80000000u /**< ring entry: the rest is a node id; otherwise an own edge or end */
 #define TREE_MOST 0x7ffffffeu     /**< nodes, and pieces: ids leave a bit for TREE_EDGE_CUT */
 
-enum { TREE_LEAF = 0, TREE_PLAIN = 1, TREE_TABLED = 2 };         /* tree_node.type */
-enum { TREE_GUARD = 1, TREE_INSEPARABLE = 2, TREE_CROWDED = 4 }; /* tree_node.flags */
+enum { TREE_LEAF = 0, TREE_PLAIN = 1, TREE_TABLED = 2 }; /* tree_node.type */
+/* tree_node.flags. CHARGED: the fragments of the cell are counted by a promise (split/charge/thin.h) */
+enum { TREE_GUARD = 1, TREE_INSEPARABLE = 2, TREE_CROWDED = 4, TREE_CHARGED = 8 };
 
 typedef struct tree_node { /* 16 bytes */
     union {
@@ -152,8 +153,8 @@ froe_status tree_take_arrays(froe_tree *tree);
 froe_status tree_finish(froe_tree *tree);
 /** Measures what a promise of that name is about, on a finished tree: height, size, fragments, leaf_load (most
  * pieces in a leaf), guard_leaves (cells of the guard stage), guard_fragments (over those cells and the stage's own
- * cuts), aspect (of its cells, above dimension 3: audit/aspect.h). FROE_E_UNSUPPORTED for other names;
- * FROE_E_MEMORY. */
+ * cuts), charged_fragments (the same of charged cells), aspect (of the guard stage's cells, above dimension 3:
+ * audit/aspect.h). FROE_E_UNSUPPORTED for other names; FROE_E_MEMORY. */
 froe_status tree_measure(const froe_tree *tree, const char *name, double *out);
 /** Replaces the promise of a name, for a value that a builder finds while it builds. */
 void tree_promise_anew(froe_tree *tree, const char *name, double promised);

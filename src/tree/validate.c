@@ -133,7 +133,8 @@ static froe_status check_node(check *c) {
     const froe_tree *t = c->tree;
     const tree_node *n = t->nodes + c->walk.node;
     const bool leaf = n->type == TREE_LEAF, packed = tree_is_packed(t);
-    const int known = !packed ? TREE_GUARD | TREE_INSEPARABLE | TREE_CROWDED : leaf ? TREE_CROWDED : 0;
+    const int general = TREE_GUARD | TREE_INSEPARABLE | TREE_CROWDED | (leaf ? 0 : TREE_CHARGED);
+    const int known = !packed ? general : leaf ? TREE_CROWDED : 0;
     if (n->type > TREE_TABLED || n->flags & ~known || n->unused) return bad_node(c, "an unknown type or flag");
     if (leaf) {
         if (n->axis) return bad_node(c, "an unused field that is not 0");

@@ -162,6 +162,15 @@ static void a_wrong_report_is_found(void **state) {
     froe_tree_free(t);
 }
 
+static void a_torn_charge_is_found(void **state) {
+    (void)state;
+    froe_tree *t = sample();
+    uint32_t tabled = find_node(t, TREE_TABLED, 1);
+    t->nodes[tabled].flags |= TREE_CHARGED;
+    assert_wrong(t, "a charged node whose parent is not");
+    froe_tree_free(t);
+}
+
 static void a_torn_guard_stage_is_found(void **state) {
     (void)state;
     froe_tree *t = sample();
@@ -653,6 +662,7 @@ int main(void) {
         cmocka_unit_test(huge_and_tiny_coordinates_pass),
         cmocka_unit_test(broken_structure_is_found),
         cmocka_unit_test(a_wrong_report_is_found),
+        cmocka_unit_test(a_torn_charge_is_found),
         cmocka_unit_test(a_torn_guard_stage_is_found),
         cmocka_unit_test(every_missing_piece_is_found),
         cmocka_unit_test(every_stray_piece_is_found),

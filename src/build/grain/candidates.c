@@ -5,6 +5,9 @@
 #include <math.h>
 #include <string.h>
 
+#define TINY 0x1p-40 /* sweeps round directions to 40 bits */
+enum { TRIES = 64 };
+
 /** A number below n > 0: the next of this cell's. */
 static uint32_t draw_below(split_grain_search *s, uint32_t n) {
     return base_below(base_hash(s->config->seed, s->contest.cell->path, s->draws++), n);
@@ -84,14 +87,32 @@ static void improve(split_grain_search *s, split_candidate *k) {
     }
 }
 
+/** An edge of some object of the cell, in the plane an end of one; returns the corners of the object. */
+static uint32_t draw_axle(split_grain_search *s, uint32_t *axle) {
+    const froe_scene *scene = s->contest.work->set.scene;
+    uint32_t object = drawn_object(s), n = scene_corners(scene, object), corner = draw_below(s, n);
+    axle[0] = scene_corner(scene, object, corner);
+    axle[1] = scene_corner(scene, object, corner + 1 < n ? corner + 1 : 0);
+    return n;
+}
+
+/** Is it so short beside the cell that doubles cannot tell the planes through it from those through its neighbours?
+ * Where objects shrink geometrically towards a point, so are nearly all. */
+static bool tiny(const split_view *view, const froe_scene *scene, const uint32_t *axle) {
+    double p[3], q[3], square = 0;
+    if (scene->dim < 3) return false;
+    split_view_local(view, scene_vertex(scene, axle[0]), p);
+    split_view_local(view, scene_vertex(scene, axle[1]), q);
+    for (int k = 0; k < 3; k++) square += (q[k] - p[k]) * (q[k] - p[k]);
+    return square < TINY * TINY;
+}
+
 void split_enter_through(split_grain_search *s) {
     split_contest *c = &s->contest;
     const froe_scene *scene = c->work->set.scene;
     for (uint32_t i = 0; i < s->config->effort.starts && !c->done && !c->failed; i++) {
-        /* an edge of some object of the cell, in the plane an end of one */
-        uint32_t object = drawn_object(s), n = scene_corners(scene, object), corner = draw_below(s, n);
-        uint32_t axle[2] = {scene_corner(scene, object, corner),
-                            scene_corner(scene, object, corner + 1 < n ? corner + 1 : 0)};
+        uint32_t axle[2] = {FROE_NONE, FROE_NONE}, tries = 0, n = 0;
+        while (tries++ < TRIES && (n = draw_axle(s, axle), tiny(c->view, scene, axle))) continue;
         split_candidate k;
         if ((n == 1 && scene->dim == 3) || !turn_about(s, axle, &k)) continue;
         improve(s, &k);

@@ -4,6 +4,7 @@
 #include "base/random.h"
 #include "build/grain/candidates.h"
 #include "split/cell.h"
+#include "split/charge/thin.h"
 #include "split/fallback.h"
 #include <string.h>
 
@@ -58,9 +59,10 @@ double split_grain_need(uint32_t leaf, double n) {
 
 static split_terms terms_of(const split_grain *config, int dim, const split_cell *cell) {
     double m = cell->count, most = m;
-    bool peel = m <= config->peel || (config->height <= 0 && m <= PEEL_MOST);
-    if (m > config->peel && config->height > 0) {
-        double levels = config->height - cell->depth, left = levels - 1 - need_of_few(config->leaf);
+    const double height = cell->thinned ? 0 : config->height; /* few fragments are left there */
+    bool peel = m <= config->peel || (height <= 0 && m <= PEEL_MOST);
+    if (m > config->peel && height > 0) {
+        double levels = height - cell->depth, left = levels - 1 - need_of_few(config->leaf);
         most = few(config->leaf); /* what can be separated in the levels left, but at least SHARE */
         for (; left >= 1 && most < m; left--) most /= SHARE;
         most = most > SHARE * m ? most : SHARE * m;
@@ -80,23 +82,30 @@ static split_verdict take_one(const split_grain_search *s, froe_cut *cut) {
     return found ? SPLIT_CUT : SPLIT_INSEPARABLE;
 }
 
+/** Notes that a cell has no balanced cut. */
+static void note_unbalanced(const split_grain_search *s) {
+    const split_contest *c = &s->contest;
+    atomic_uint *unbalanced = &s->config->notes->unbalanced;
+    unsigned most = atomic_load(unbalanced);
+    if (c->count && thin_refuses(&s->config->thin, c->cell, c->best->tally.both)) return; /* nor will it be cut so */
+    while (c->cell->count > most && !atomic_compare_exchange_weak(unbalanced, &most, c->cell->count)) continue;
+}
+
 /** Where no candidate is balanced: a plane at the median of vertices, if it does better. All fragments are shown. */
 static split_verdict balance_vertices(split_grain_search *s, froe_cut *cut) {
     const split_contest *c = &s->contest;
-    split_grain_notes *notes = s->config->notes;
     split_tally tally;
     froe_cut median;
     if (split_vertex_median(c->view, c->work->set.scene, &median)) {
         if (cell_tally(c->work, c->cell, &median, &tally)) return SPLIT_MEMORY;
         uint32_t larger = c->count ? split_tally_larger(c->best->tally) : c->cell->count;
         if (split_tally_useful(tally) && split_tally_larger(tally) < larger) {
-            atomic_store(&notes->medians, true);
+            if (!thin_refuses(&s->config->thin, c->cell, tally.both)) atomic_store(&s->config->notes->medians, true);
             *cut = median;
             return SPLIT_CUT;
         }
     }
-    unsigned most = atomic_load(&notes->unbalanced);
-    while (c->cell->count > most && !atomic_compare_exchange_weak(&notes->unbalanced, &most, c->cell->count)) continue;
+    note_unbalanced(s);
     return c->count ? SPLIT_CUT : take_one(s, cut);
 }
 

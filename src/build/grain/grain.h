@@ -34,6 +34,7 @@ typedef struct split_grain {
     uint64_t seed;
     split_effort effort;
     double height; /**< levels; 0: no limit */
+    split_thin_rule thin;
     uint32_t peel; /**< cells of at most so many fragments are peeled without a limit */
     split_grain_notes *notes;
 } split_grain;

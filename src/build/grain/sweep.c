@@ -86,6 +86,18 @@ static void note_fragment(split_sweep *s, const uint32_t *corner, const uint32_t
                  first_negative < first_positive ? first_negative : first_positive);
 }
 
+static double square_of(const split_view *f, uint32_t corner) {
+    double x = f->x.data[corner], y = f->y.data[corner], z = f->z.data[corner];
+    return x * x + y * y + z * z;
+}
+
+/** Of two corners in one direction, which names the plane: the input vertex, or the later one, unless it lies among
+ * others that doubles cannot tell apart, in the middle of a scene of all scales. */
+static bool stands_for(const split_view *f, uint32_t corner, uint32_t other) {
+    if (f->vertex.data[corner] == FROE_NONE || corner == other) return false;
+    return f->vertex.data[other] == FROE_NONE || square_of(f, other) <= 0x1p20 * square_of(f, corner);
+}
+
 static uint32_t winner(split_sweep *s, const split_view *f, const split_price *price, const split_terms *terms,
                        bool any) {
     /* the different directions get numbers */
@@ -104,7 +116,7 @@ static uint32_t winner(split_sweep *s, const split_view *f, const split_price *p
     for (size_t i = 0; i < s->order.count; i++) {
         uint32_t corner = (uint32_t)x[i] & ((1u << INDEX) - 1);
         if (!i || x[i] >> INDEX != x[i - 1] >> INDEX) s->at.data[ranks++] = corner;
-        if (f->vertex.data[corner] != FROE_NONE) s->at.data[ranks - 1] = corner;
+        if (stands_for(f, corner, s->at.data[ranks - 1])) s->at.data[ranks - 1] = corner;
         s->met.data[corner] |= ranks - 1;
     }
     if (!ranks) return FROE_NONE;

@@ -36,23 +36,28 @@ static froe_status count_chunk(void *user, unsigned worker, size_t chunk) {
     return FROE_OK;
 }
 
+size_t guards_of_box(int dim, const double *lo, const double *hi, double *out) {
+    const size_t d = (size_t)dim;
+    size_t count = 1;
+    memcpy(out, lo, d * sizeof *out);
+    /* Doubles the list of vertices for every axis on which the box is not flat. */
+    for (size_t i = 0; i < d; i++) {
+        if (!(lo[i] < hi[i])) continue;
+        memcpy(out + count * d, out, count * d * sizeof *out);
+        for (size_t v = count; v < 2 * count; v++) out[v * d + i] = hi[i];
+        count *= 2;
+    }
+    return count;
+}
+
 static froe_status write_chunk(void *user, unsigned worker, size_t chunk) {
     (void)worker;
     collection *c = user;
     size_t dim = (size_t)c->scene->dim;
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM], *to = c->points + c->starts[chunk] * dim;
     for (size_t at = chunk * OBJECTS_PER_CHUNK; at < chunk_end(c, chunk); at++) {
-        size_t count = 1;
         bounds_of(c, at, lo, hi);
-        memcpy(to, lo, dim * sizeof *to);
-        /* Doubles the list of vertices for every axis on which the box is not flat. */
-        for (size_t i = 0; i < dim; i++) {
-            if (!(lo[i] < hi[i])) continue;
-            memcpy(to + count * dim, to, count * dim * sizeof *to);
-            for (size_t v = count; v < 2 * count; v++) to[v * dim + i] = hi[i];
-            count *= 2;
-        }
-        to += count * dim;
+        to += dim * guards_of_box(c->scene->dim, lo, hi, to);
     }
     return FROE_OK;
 }

@@ -96,18 +96,19 @@ static froe_status check_report(const audit *a) {
     return same ? FROE_OK : support_fail(a->diag, FROE_E_AUDIT, "The report does not tell what is in the tree.");
 }
 
-static froe_status check_guard_stage(const audit *a) {
+static froe_status check_stages(const audit *a) {
     const froe_tree *t = a->tree;
     for (uint32_t i = 0; i < t->node_count; i++) {
         const tree_node *n = t->nodes + i;
         if (tree_is_leaf(n)) continue;
-        if (!(n->flags & TREE_GUARD)) {
-            for (uint32_t c = n->child; c < n->child + 2; c++)
-                if (t->nodes[c].flags & TREE_GUARD)
-                    return bad_node(a, c, "a node of the guard stage whose parent is not");
-        } else if (tree_cut_at(t, i).kind != FROE_CUT_AXIS && tree_cut_at(t, i).kind != FROE_CUT_PLANE) {
-            return bad_node(a, i, "a node of the guard stage whose cut depends on the objects");
+        for (uint32_t c = n->child; c < n->child + 2; c++) {
+            const uint8_t begun = t->nodes[c].flags & ~n->flags;
+            if (begun & TREE_GUARD) return bad_node(a, c, "a node of the guard stage whose parent is not");
+            if (begun & TREE_CHARGED) return bad_node(a, c, "a charged node whose parent is not");
         }
+        const froe_cut_kind kind = tree_cut_at(t, i).kind;
+        if (n->flags & TREE_GUARD && kind != FROE_CUT_AXIS && kind != FROE_CUT_PLANE)
+            return bad_node(a, i, "a node of the guard stage whose cut depends on the objects");
     }
     return FROE_OK;
 }
@@ -312,7 +313,7 @@ static froe_status check_all(audit *a) {
         if (a->diag) a->diag->status = status;
     }
     if (!status) status = check_report(a);
-    if (!status) status = check_guard_stage(a);
+    if (!status) status = check_stages(a);
     if (status) return status;
     if (tree_is_packed(t) && packed_frame_refuted(t, &node, &why)) return support_fail_memory(a->diag);
     if (why) return bad_node(a, node, why);

@@ -2,18 +2,19 @@
  *
  * The guard stage is the connected top part of the tree whose nodes carry TREE_GUARD; what hangs
  * below it are its cells. A convex object has one fragment in a cell, whatever the refinement
- * of the cell cut it into, so the fragments of a cell are the different objects in its slice. */
+ * of the cell cut it into, so the fragments of a cell are the different objects in its slice. The
+ * same holds for the stage of charged cells (TREE_CHARGED). */
 #include "tree/audit/aspect.h"
 #include "tree/list.h"
 #include "tree/walk.h"
 #include <string.h>
 
-static bool in_guard_stage(const froe_tree *t, uint32_t node) {
-    return !tree_is_leaf(t->nodes + node) && t->nodes[node].flags & TREE_GUARD;
+static bool in_stage(const froe_tree *t, uint8_t flag, uint32_t node) {
+    return !tree_is_leaf(t->nodes + node) && t->nodes[node].flags & flag;
 }
 
-/* The cell of a node: its highest ancestor-or-self outside the guard stage; itself within. */
-static froe_status guard_fragments(const froe_tree *t, double *out) {
+/* The cell of a node: its highest ancestor-or-self outside the stage; itself within. */
+static froe_status stage_fragments(const froe_tree *t, uint8_t flag, double *out) {
     const size_t objects = t->scene->object_count;
     uint32_t *met =
         support_calloc(&t->alloc, objects, sizeof *met); /* per object: 1 + root of the last cell it was in */
@@ -26,7 +27,7 @@ static froe_status guard_fragments(const froe_tree *t, double *out) {
         if (tree_walk_depth(&walk) <= depth) depth = SIZE_MAX;
         if (depth == SIZE_MAX) {
             cell = walk.node;
-            if (!in_guard_stage(t, cell)) depth = tree_walk_depth(&walk);
+            if (!in_stage(t, flag, cell)) depth = tree_walk_depth(&walk);
         }
         tree_objects list = tree_list(t, walk.node);
         for (uint32_t i = 0; i < list.count; i++) {
@@ -53,9 +54,11 @@ froe_status tree_measure(const froe_tree *t, const char *name, double *out) {
         *out = (double)r->max_leaf;
     } else if (!strcmp(name, "guard_leaves")) {
         *out = 1;
-        for (uint32_t i = 0; i < t->node_count; i++) *out += in_guard_stage(t, i);
+        for (uint32_t i = 0; i < t->node_count; i++) *out += in_stage(t, TREE_GUARD, i);
     } else if (!strcmp(name, "guard_fragments")) {
-        return guard_fragments(t, out);
+        return stage_fragments(t, TREE_GUARD, out);
+    } else if (!strcmp(name, "charged_fragments")) {
+        return stage_fragments(t, TREE_CHARGED, out);
     } else if (!strcmp(name, "aspect") && t->scene->dim > 3) {
         return tree_aspect(t, out);
     } else {
