@@ -148,7 +148,7 @@ static void enter_separators(refine_search *s) {
     for (uint64_t i = 0; i < SEPARATORS && !s->contest.done && !s->contest.failed; i++) {
         uint64_t draw = draw_of(s, 200000 + i);
         uint32_t a = object_of(s, base_below(draw, m)), b = FROE_NONE;
-        for (uint32_t t = 0; t < 1u << i % 8; t++) {
+        for (uint32_t t = 0; t < 1u << i % 8 && !(far && t >= m); t++) {
             uint32_t other = object_of(s, base_below(base_mix(draw + 1 + t), m));
             if (other == a || (b != FROE_NONE && centre_distance(scene, a, other) >= centre_distance(scene, a, b)))
                 continue;

@@ -108,6 +108,20 @@ static froe_scene *nested(void) {
     return scene;
 }
 
+/* Two balls 2^-101 of their size apart, which no plane of doubles separates, across a direction of 3, 4. */
+static froe_scene *narrow(int dim) {
+    const double k = 0x1p49, radii[2] = {5 * k, 5 * k};
+    double centres[2 * FROE_MAX_DIM] = {0};
+    froe_objects o = froe_objects_defaults();
+    froe_scene *scene;
+    centres[dim] = 6 * k + 4;
+    centres[dim + 1] = 8 * k - 3;
+    need(froe_scene_new(dim, NULL, &scene), "narrow");
+    o.kind = FROE_BALL, o.count = 2, o.coords = centres, o.radii = radii;
+    need(froe_scene_add(scene, &o, NULL), "narrow");
+    return scene;
+}
+
 /* ------------------------------------------------------------------- trees -- */
 
 /* False: that was enough. A method that does not serve the scene is passed over. */
@@ -180,7 +194,8 @@ static bool snapshot(samples_fn *fn, void *user) {
 }
 
 void samples_each(samples_fn *fn, void *user) {
-    bool on = build_all(areas(), "areas", fn, user) && build_all(nested(), "nested", fn, user);
+    bool on = build_all(areas(), "areas", fn, user) && build_all(nested(), "nested", fn, user) &&
+              build_all(narrow(2), "narrow", fn, user) && build_all(narrow(5), "narrow-5d", fn, user);
     for (size_t i = 0; on && i < sizeof scenes / sizeof *scenes; i++)
         on = build_all(scatter(scenes + i), scenes[i].name, fn, user);
     if (on && section(fn, user)) (void)snapshot(fn, user);
