@@ -119,7 +119,7 @@ static bool note_pair(void *user, const froe_pair *pair) {
 
 /* Those of a tree that is not packed: test_pairs.c holds such trees against brute force. */
 static void reference_pairs(froe_scene *scene, pairs *out) {
-    froe_tree *tree = trees_build(scene, "density", 4);
+    froe_tree *tree = trees_build(scene, "density", scene->object_count); /* one leaf */
     froe_query *q;
     out->count = 0;
     assert_int_equal(froe_query_new(tree, &q, NULL), FROE_OK);

@@ -11,6 +11,7 @@ typedef struct apart_search {
     const geom_body *a, *b;
     geom_convex set_a, set_b;
     geom_simplex simplex; /* of the guess */
+    bool meeting;         /* for certain, without their radii */
     double *rows;
 } apart_search;
 
@@ -66,6 +67,7 @@ static bool guess_direction(apart_search *s, double direction[FROE_MAX_DIM]) {
     if (dim <= 3) {
         const geom_body core_a = core_of(s->a), core_b = core_of(s->b);
         const geom_gap gap = geom_gap_between(s->context, &core_a, &core_b);
+        s->meeting = gap.zero;
         s->simplex.count = gap.count;
         for (int i = 0; i < gap.count; i++) s->simplex.a[i] = gap.a[i], s->simplex.b[i] = gap.b[i];
         return !gap.zero && geom_gap_guess(&core_a, &core_b, &gap, direction);
@@ -168,7 +170,7 @@ int geom_apart(num_context *context, const geom_body *a, const geom_body *b, dou
     s.set_a = geom_convex_of(a);
     s.set_b = geom_convex_of(b);
     if (guess_plane(&s)) return 1;
-    if (geom_meet(context, &s.set_a, &s.set_b) || !find_coefficients(&s, coefficients)) return 0;
+    if (s.meeting || geom_meet(context, &s.set_a, &s.set_b) || !find_coefficients(&s, coefficients)) return 0;
     cut_into_rows(&s, coefficients);
     for (int count = 1; count < GEOM_FINE_ROWS; count *= 2)
         if (is_between(&s, count)) return count;
