@@ -108,7 +108,7 @@ typedef struct density {
 static void resolve_density(const froe_scene *scene, uint32_t leaf, double *option) {
     bool plane = scene->dim == 2, segments = plane;
     for (uint32_t i = 0; i < scene->object_count && segments; i++) segments = scene_form(scene, i) == FROE_SEGMENT;
-    if (option[K] < 0) option[K] = !plane ? 16 : option[GUARDS] ? 64 : 256;
+    if (option[K] < 0) option[K] = !plane ? 16 : option[GUARDS] != 0 ? 64 : 256;
     if (option[STOP] < 0) option[STOP] = plane ? (leaf > 32 ? leaf : 32) : 256;
     if (option[SUPPORTS] < 0) option[SUPPORTS] = plane ? 8 : 20;
     if (option[QUANTILES] < 0) option[QUANTILES] = segments ? 0 : plane ? 3 : 10;
@@ -268,7 +268,7 @@ static froe_status by_cost(guard_stage *g) {
 static froe_status place_boxes(guard_stage *g) {
     const build_job *job = g->job;
     froe_status status = split_grid_boxes_make(&job->alloc, job->task, job->scene, &g->grid_boxes);
-    if (!status && job->option[GUARDS]) {
+    if (!status && job->option[GUARDS] != 0) {
         status = split_shapes_make(&job->alloc, job->scene, &g->shapes);
         if (!status) status = split_grid_boxes_make(&job->alloc, job->task, g->shapes.boxes, &g->shape_boxes);
     }
