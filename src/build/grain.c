@@ -12,7 +12,11 @@
  *     of vertices that lie between others on that axis, which no other cut increases;
  *   - other cuts, which take at least one fragment off each side: at most U on a path, where U is the number of
  *     fragments in the largest cell to which that happened. Each adds one level at most.
- * Hence the promise: H, + 3 (log2 v + 1) if there were such medians, + U. */
+ * Hence the promise: H, + 3 (log2 v + 1) if there were such medians, + U; and where cells were thinned out, which a
+ * path meets once at most, the levels of their guards and the fragments of the largest cell left by them.
+ *
+ * Size. Fragments are charged (split/charge/thin.h): cells where the charge ends have GROWTH n fragments at most, and
+ * those that were thinned out what the guards made of them. */
 #include "build/grain/grain.h"
 #include "base/log2.h"
 #include "build/method.h"
@@ -124,7 +128,8 @@ const build_method build_method_grain = {
     .info = {.name = "grain",
              .summary = "cuts along the mesh, through its vertices: fewest pieces",
              .source = "froe's own; information against splits, after Paterson and Yao 1990",
-             .guarantee = "height <= C log2 n + 2, + 3 log2 v + U where no cut is balanced",
+             .guarantee =
+                 "height <= C log2 n + 2, + 3 log2 v + U where no cut is balanced, + levels of guards in nests",
              .kinds = BUILD_SERVES(1u << 2 | 1u << 3, 1u << FROE_POINT | 1u << FROE_SEGMENT | 1u << FROE_POLYGON),
              .options = options},
     .tunable = true,
