@@ -102,6 +102,10 @@ static const scene_generator generators[] = {
     {{"debris-5d", 5, FROE_BOX, "the same in dimension 5", false}, formats_make_debris},
     {{"balls", 2, FROE_BALL, "small discs", true}, formats_make_balls},
     {{"balls-3d", 3, FROE_BALL, "small balls", false}, formats_make_balls},
+    {{"segments-4d", 4, FROE_SEGMENT, "short segments in the unit cube of dimension 4", false}, formats_make_needles},
+    {{"simplices-4d", 4, FROE_HULL, "small simplices in the unit cube of dimension 4", false}, formats_make_simplices},
+    {{"hulls-5d", 5, FROE_HULL, "small hulls of six to eleven points in the unit cube of dimension 5", false},
+     formats_make_hulls},
 };
 enum { GENERATORS = sizeof generators / sizeof *generators };
 

@@ -52,7 +52,8 @@ void formats_make_cuboid(formats_maker *maker, const double *lo, const double *h
 void formats_make_group(formats_maker *maker, const char *word, size_t number, const char *material);
 
 /* the kinds, by file */
-formats_make_fn formats_make_points, formats_make_boxes, formats_make_balls; /* make_simple.c */
+formats_make_fn formats_make_points, formats_make_boxes, formats_make_balls, formats_make_needles,
+    formats_make_simplices, formats_make_hulls; /* make_simple.c */
 formats_make_fn formats_make_rows, formats_make_sticks, formats_make_slabs, formats_make_towers,
     formats_make_panels; /* make_boxes.c */
 formats_make_fn formats_make_shells, formats_make_bars, formats_make_plates, formats_make_moons, formats_make_bricks,

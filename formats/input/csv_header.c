@@ -37,25 +37,43 @@ static int axis_of(const char *name, bool sided) {
     return number <= FROE_MAX_DIM ? (int)number - 1 : FROE_MAX_DIM;
 }
 
+/* Added to the role of a column from_ or to_ until it is known whether the rows are segments. */
+enum { SEGMENT_END = 64 };
+
+/* The beginning of a column's name, and what it adds to the role of the axis: lo_, hi_ of boxes, from_, to_ of
+ * segments. */
+typedef struct name_side {
+    size_t length; /* 0: none */
+    int role;
+} name_side;
+
+static name_side side_of(const char *name) {
+    static const char *const words[] = {"lo_", "hi_", "from_", "to_"};
+    static const int roles[] = {0, FROE_MAX_DIM, SEGMENT_END, SEGMENT_END + FROE_MAX_DIM};
+    for (size_t i = 0; i < 4; i++) {
+        size_t at = 0;
+        while (words[i][at] && (name[at] | 0x20) == (words[i][at] | 0x20)) at++;
+        if (!words[i][at]) return (name_side){at, roles[i]};
+    }
+    return (name_side){0, 0};
+}
+
 static int role_of(const char *name, bool *beyond) {
     if (support_equal_nocase(name, "r") || support_equal_nocase(name, "radius")) return FORMATS_CSV_RADIUS;
     if (support_equal_nocase(name, "tag")) return FORMATS_CSV_TAG;
+    if (support_equal_nocase(name, "hull")) return FORMATS_CSV_HULL;
     if (support_equal_nocase(name, "wkt") || support_equal_nocase(name, "geometry") ||
         support_equal_nocase(name, "geom"))
         return FORMATS_CSV_GEOMETRY;
-    int corner = (name[0] | 0x20) == 'h';
-    bool sided = strlen(name) > 3 && name[2] == '_';
-    char side[3] = {name[0], sided ? name[1] : '\0', '\0'};
-    if (sided && !support_equal_nocase(side, "lo") && !support_equal_nocase(side, "hi")) return FORMATS_CSV_LEFT_ALONE;
-    int axis = axis_of(sided ? name + 3 : name, sided);
+    const name_side side = side_of(name);
+    int axis = axis_of(name + side.length, side.length > 0);
     if (axis < 0) return FORMATS_CSV_LEFT_ALONE;
     if (axis >= FROE_MAX_DIM) return *beyond = true, FORMATS_CSV_LEFT_ALONE;
-    /* a plain axis is stored as corner 0; `sided` is told apart by the presence of corner 1 */
-    return (sided && corner ? FROE_MAX_DIM : 0) + axis;
+    return side.role + axis; /* a plain axis is stored as corner 0; sides are told apart by the presence of corner 1 */
 }
 
 /* Counts the roles; settles kind and dimension. False: it is no header of this reader. */
-static bool settle(formats_csv_table *t, bool sided) {
+static bool settle(formats_csv_table *t, froe_kind sided) {
     int count[FORMATS_CSV_LEFT_ALONE + 1] = {0}, dim = 0, high = 0;
     for (int i = 0; i < t->columns; ++i) ++count[t->role[i]];
     for (int role = 0; role < FORMATS_CSV_LEFT_ALONE; ++role)
@@ -65,8 +83,11 @@ static bool settle(formats_csv_table *t, bool sided) {
     for (int k = 0; k < FROE_MAX_DIM; ++k)
         if ((count[k] && k >= dim) || (count[FROE_MAX_DIM + k] && k >= high)) return false;
     t->dim = dim;
-    t->kind = sided ? FROE_BOX : count[FORMATS_CSV_RADIUS] ? FROE_BALL : FROE_POINT;
-    return dim >= 2 && !count[FORMATS_CSV_GEOMETRY] && high == (sided ? dim : 0);
+    t->kind = sided != FROE_POINT         ? sided
+              : count[FORMATS_CSV_HULL]   ? FROE_HULL
+              : count[FORMATS_CSV_RADIUS] ? FROE_BALL
+                                          : FROE_POINT;
+    return dim >= 2 && !count[FORMATS_CSV_GEOMETRY] && high == (sided != FROE_POINT ? dim : 0);
 }
 
 formats_csv_header formats_csv_read_header(char **at, formats_csv_table *t) {
@@ -74,18 +95,25 @@ formats_csv_header formats_csv_read_header(char **at, formats_csv_table *t) {
     char *line = *at;
     t->separator = memchr(line, ',', length) ? ',' : memchr(line, ';', length) ? ';' : '\t';
     bool last = false, beyond = false;
-    int sided = 0, plain = 0;
+    int sided = 0, plain = 0, ends = 0;
     for (t->columns = 0; !last; ++t->columns) {
         if (t->columns == FORMATS_CSV_COLUMNS) return FORMATS_CSV_OTHER;
         char *name = formats_csv_field(at, t->separator, &last);
         int role = role_of(name, &beyond);
         if (role < FORMATS_CSV_RADIUS) ++*(strchr(name, '_') ? &sided : &plain);
+        ends += role >= SEGMENT_END;
         t->role[t->columns] = (unsigned char)role;
     }
+    const bool segments = ends && !sided && !plain; /* else such columns are others */
+    for (int i = 0; i < t->columns; ++i)
+        if (t->role[i] >= SEGMENT_END)
+            t->role[i] = segments ? (unsigned char)(t->role[i] - SEGMENT_END) : FORMATS_CSV_LEFT_ALONE;
     if (beyond) return FORMATS_CSV_BEYOND;
-    if (!(sided && plain) && settle(t, sided)) return FORMATS_CSV_OURS;
-    return sided > 1 && !memchr(t->role, FORMATS_CSV_GEOMETRY, (size_t)t->columns) ? FORMATS_CSV_HALVES
-                                                                                   : FORMATS_CSV_OTHER;
+    if (!(sided && plain) && settle(t, segments ? FROE_SEGMENT : sided ? FROE_BOX : FROE_POINT))
+        return FORMATS_CSV_OURS;
+    return sided + (segments ? ends : 0) > 1 && !memchr(t->role, FORMATS_CSV_GEOMETRY, (size_t)t->columns)
+               ? FORMATS_CSV_HALVES
+               : FORMATS_CSV_OTHER;
 }
 
 /* Reads the header from the file's first bytes. */

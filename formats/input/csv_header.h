@@ -1,13 +1,15 @@
-/* csv_header.h: the header line of comma-separated values: is it one of points, boxes or balls? */
+/* csv_header.h: the header line of comma-separated values: is it one of points, boxes, balls, segments or
+ * hulls? */
 #ifndef FROE_FORMATS_CSV_HEADER_H
 #define FROE_FORMATS_CSV_HEADER_H
 #include "formats/input/source.h"
 
 enum { FORMATS_CSV_COLUMNS = 512 };
-/** What a column holds. Corner c (0, or 1 for hi_) of axis a is c * FROE_MAX_DIM + a. */
+/** What a column holds. Corner c (0, or 1 for hi_ and to_) of axis a is c * FROE_MAX_DIM + a. */
 enum {
     FORMATS_CSV_RADIUS = 2 * FROE_MAX_DIM,
     FORMATS_CSV_TAG,
+    FORMATS_CSV_HULL,     /**< the number of the hull that the row is a corner of */
     FORMATS_CSV_GEOMETRY, /**< well-known text */
     FORMATS_CSV_LEFT_ALONE
 };
@@ -16,7 +18,7 @@ typedef enum formats_csv_header {
     FORMATS_CSV_OURS,
     FORMATS_CSV_OTHER,  /**< left to OGR */
     FORMATS_CSV_BEYOND, /**< more axes than there can be */
-    FORMATS_CSV_HALVES  /**< ends of boxes, but not both on the same axes */
+    FORMATS_CSV_HALVES  /**< ends of boxes or segments, but not both on the same axes */
 } formats_csv_header;
 
 typedef struct formats_csv_table {
@@ -32,7 +34,7 @@ typedef struct formats_csv_table {
 char *formats_csv_field(char **at, char separator, bool *last);
 /** Reads the header line, which it changes, and moves `at` behind it. */
 formats_csv_header formats_csv_read_header(char **at, formats_csv_table *table);
-/** Does the header line say points, boxes or balls, or try to? */
+/** Does the header line say points, boxes, balls, segments or hulls, or try to? */
 bool formats_csv_recognise(const formats_source *source);
 /** Does the header line name a column of well-known text? */
 bool formats_csv_has_geometry(const formats_source *source);

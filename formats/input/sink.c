@@ -50,13 +50,17 @@ froe_status formats_sink_progress(formats_sink *sink, double done) {
 
 /* ------------------------------------------------------------- the batch -- */
 
+static bool has_starts(froe_kind kind) {
+    return kind == FROE_POLYGON || kind == FROE_HULL;
+}
+
 static froe_status flush(formats_sink *sink) {
     if (!sink->count) return FROE_OK;
     froe_objects batch = froe_objects_defaults();
     batch.kind = sink->kind;
     batch.count = sink->count;
     batch.coords = sink->coords.data;
-    batch.starts = sink->kind == FROE_POLYGON ? sink->starts.data : NULL;
+    batch.starts = has_starts(sink->kind) ? sink->starts.data : NULL;
     batch.radii = sink->kind == FROE_BALL ? sink->radii.data : NULL;
     batch.tags = sink->tags.data;
     batch.faces = sink->object_faces.data;
@@ -87,9 +91,9 @@ static froe_status put_in_sink(formats_sink *sink, froe_kind kind, const double 
     sink->kind = kind;
     const uint32_t id = (uint32_t)sink->total;
     const size_t dim = (size_t)sink->dim, start = sink->coords.count / dim;
-    const bool first = kind == FROE_POLYGON && !sink->count;
+    const bool first = has_starts(kind) && !sink->count;
     if ((first && !array_push(alloc, &sink->starts, start)) ||
-        (kind == FROE_POLYGON && !array_push(alloc, &sink->starts, start + corners)) ||
+        (has_starts(kind) && !array_push(alloc, &sink->starts, start + corners)) ||
         !array_append(alloc, &sink->coords, coords, corners * dim) ||
         !array_push(alloc, &sink->object_faces, sink->face == FROE_NONE ? id : sink->face) ||
         !array_push(alloc, &sink->groups, sink->group) ||
@@ -192,6 +196,10 @@ static froe_status add_pair(formats_sink *sink, froe_kind kind, const double *a,
 
 froe_status formats_sink_segment(formats_sink *sink, const double *a, const double *b) {
     return add_pair(sink, FROE_SEGMENT, a, b);
+}
+
+froe_status formats_sink_hull(formats_sink *sink, const double *corners, size_t count) {
+    return add_to_sink(sink, FROE_HULL, corners, count);
 }
 
 froe_status formats_sink_box(formats_sink *sink, const double *lo, const double *hi) {

@@ -60,6 +60,8 @@ void formats_sink_new_face(formats_sink *sink);
 /** Points of dim doubles. FROE_E_INPUT when a coordinate is not finite. */
 froe_status formats_sink_point(formats_sink *sink, const double *p);
 froe_status formats_sink_segment(formats_sink *sink, const double *a, const double *b);
+/** Of one corner or more. */
+froe_status formats_sink_hull(formats_sink *sink, const double *corners, size_t count);
 froe_status formats_sink_box(formats_sink *sink, const double *lo, const double *hi);
 froe_status formats_sink_ball(formats_sink *sink, const double *centre, double radius);
 froe_status formats_sink_triangle(formats_sink *sink, const double *a, const double *b, const double *c);

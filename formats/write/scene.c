@@ -120,23 +120,29 @@ static void header(pen *p, const char *prefix) {
     }
 }
 
+/* Hulls have a row for each corner. */
 static void write_csv(pen *p) {
-    froe_kind kind = p->objects ? froe_scene_object(p->scene, 0).kind : FROE_POINT;
-    header(p, kind == FROE_BOX ? "lo_" : "");
-    if (kind == FROE_BOX) header(p, "hi_");
+    const froe_kind kind = p->objects ? froe_scene_object(p->scene, 0).kind : FROE_POINT;
+    const bool box = kind == FROE_BOX, segment = kind == FROE_SEGMENT, hull = kind == FROE_HULL;
+    if (hull) formats_put(&p->writer, "hull,");
+    header(p, box ? "lo_" : segment ? "from_" : "");
+    if (box || segment) header(p, box ? "hi_" : "to_");
     formats_put(&p->writer, kind == FROE_BALL ? "r,tag\n" : "tag\n");
     for (uint32_t i = 0; i < p->objects; ++i) {
-        froe_object o = froe_scene_object(p->scene, i);
-        for (uint32_t c = 0; c < (kind == FROE_BOX ? 2u : 1u); ++c) {
+        const froe_object o = froe_scene_object(p->scene, i);
+        const uint32_t rows = hull ? o.corners : 1, each = box || segment ? 2 : 1;
+        for (uint32_t c = 0; c < rows * each; ++c) {
+            if (hull) formats_put_whole(&p->writer, i), formats_put(&p->writer, ",");
             formats_put_point(&p->writer, place_of_corner(p, i, &o, c), p->dim, ",");
             formats_put(&p->writer, ",");
+            if ((c + 1) % each) continue;
+            if (kind == FROE_BALL) {
+                formats_put_number(&p->writer, o.radius);
+                formats_put(&p->writer, ",");
+            }
+            formats_put_whole(&p->writer, o.tag);
+            formats_put(&p->writer, "\n");
         }
-        if (kind == FROE_BALL) {
-            formats_put_number(&p->writer, o.radius);
-            formats_put(&p->writer, ",");
-        }
-        formats_put_whole(&p->writer, o.tag);
-        formats_put(&p->writer, "\n");
     }
 }
 
@@ -209,7 +215,7 @@ enum { POINTS = 1 << FROE_POINT, SEGMENTS = 1 << FROE_SEGMENT, POLYGONS = 1 << F
 static const kind_of_file files[] = {
     {"geojson", "GeoJSON", POINTS | SEGMENTS | BOXES, 2, 2, write_geojson},
     {"json", "GeoJSON", POINTS | SEGMENTS | BOXES, 2, 2, write_geojson},
-    {"csv", "CSV", POINTS | BOXES | 1 << FROE_BALL, 2, FROE_MAX_DIM, write_csv},
+    {"csv", "CSV", POINTS | SEGMENTS | BOXES | 1 << FROE_BALL | 1 << FROE_HULL, 2, FROE_MAX_DIM, write_csv},
     {"off", "OFF", POINTS | SEGMENTS | POLYGONS, 3, 3, write_off},
     {"obj", "OBJ", POINTS | SEGMENTS | POLYGONS, 3, 3, write_obj},
 };

@@ -56,7 +56,8 @@ typedef struct froe_read_report {
 /** Reads a scene from one of the formats that need no other library. The content of the file decides which reader is
  * used, then its extension:
  *
- *   CSV by header   points `x,y[,z...]`, boxes `lo_x,lo_y[,...],hi_x,hi_y[,...]`, balls `x,y[,...],r`;
+ *   CSV by header   points `x,y[,z...]`, boxes `lo_x,lo_y[,...],hi_x,hi_y[,...]`, balls `x,y[,...],r`,
+ *                   segments `from_x,from_y[,...],to_x,to_y[,...]`, hulls `hull,x,y[,...]`, a row a corner;
  *                   the axes are called x y z w x5 x6 x7 x8 (or x1 ... x8), columns come in any order,
  *                   a column `tag` (a whole number below 2^64) becomes the tag, others are ignored.
  *                   Decimal numbers become the nearest doubles, whatever the locale.
@@ -80,7 +81,7 @@ FROE_API bool froe_reads_own(const char *path);
 /* ------------------------------------------------------------------- write -- */
 
 /** Writes a scene so that froe_read() of froe/io.h gives it back, exactly: .geojson or .json (points, segments and
- * boxes in the plane), .csv (points, boxes or balls, one kind), .off or .obj (polygons,
+ * boxes in the plane), .csv (all but polygons, one kind), .off or .obj (polygons,
  * segments and points in space). Numbers have the digits that give the same doubles again. GeoJSON and
  * OBJ keep the names of groups, CSV keeps tags. Atomic: `path` holds the old file or the new one, whole.
  * FROE_E_UNSUPPORTED: this kind, dimension or extension does not go together. FROE_E_IO. */

@@ -1,5 +1,5 @@
 /* froe.h: binary space partitions of segments in the plane, polygons in space
- * and boxes, balls and points in R^d. Small on real scenes, exact, never recursive.
+ * and boxes, balls, hulls, segments and points in R^d. Small on real scenes, exact, never recursive.
  *
  *     froe_scene *scene;  froe_tree *tree;
  *     froe_scene_new(2, NULL, &scene);
@@ -46,7 +46,7 @@ extern "C" {
 
 /* ------------------------------------------------------------------ limits -- */
 
-#define FROE_MAX_DIM 8           /**< points, boxes and balls exist in R^2 .. R^8 */
+#define FROE_MAX_DIM 8           /**< all objects but polygons exist in R^2 .. R^8 */
 #define FROE_NONE UINT32_MAX     /**< "no object", "no group", "no face" */
 #define FROE_LEAF_OWN UINT32_MAX /**< the leaf capacity that a method has by itself */
 
@@ -123,11 +123,11 @@ FROE_API void froe_floats_end(unsigned began);
 /** Kinds of objects. All are closed, convex point sets. */
 typedef enum froe_kind {
     FROE_POINT = 0,   /**< 1 corner, any dimension */
-    FROE_SEGMENT = 1, /**< 2 corners, dimension 2 or 3 */
+    FROE_SEGMENT = 1, /**< 2 corners, any dimension */
     FROE_POLYGON = 2, /**< >= 3 corners in order, planar, convex; dimension 3 */
     FROE_BOX = 3,     /**< 2 corners lo <= hi, axis-parallel, any dimension */
     FROE_BALL = 4,    /**< centre, and a radius >= 0, any dimension */
-    FROE_HULL = 5,    /**< convex hull of >= 1 corners, dimension 2 or 3 */
+    FROE_HULL = 5,    /**< convex hull of >= 1 corners, any dimension: a simplex, a polytope */
     FROE_KIND_COUNT = 6
 } froe_kind;
 
@@ -195,7 +195,8 @@ FROE_API bool froe_scene_bounds(const froe_scene *scene, double *lo, double *hi)
 
 /** One object, by value. `form` is what it really is: a zero-length segment has
  * the form of a point, a zero-area polygon that of a segment or a point; then
- * `corners` counts the corners of the form. */
+ * `corners` counts the corners of the form. Above dimension 3 segments have the form
+ * of hulls: no cut runs along one, and none divides it. */
 typedef struct froe_object {
     froe_kind kind, form;
     uint32_t corners;
@@ -401,7 +402,7 @@ FROE_API froe_node_info froe_tree_node(const froe_tree *tree, froe_node node);
 /** A piece: object ∩ closure of the cell (leaf), of the cut within its region, or, a cover, of the region. */
 typedef struct froe_piece {
     uint32_t object;
-    bool whole;       /**< nothing of the object was cut off, or its kind is not cut (boxes, balls, hulls) */
+    bool whole;       /**< nothing of the object was cut off, or its form is not cut (boxes, balls, hulls) */
     uint32_t corners; /**< corners of the piece: 1, 2 or those of the polygon */
 } froe_piece;
 FROE_API size_t froe_tree_piece_count(const froe_tree *tree);

@@ -50,7 +50,8 @@ typedef struct froe_fatness {
     froe_spread sliver; /**< of polygons in space: width across their longest edge, over its length */
     uint64_t thin;      /**< objects without volume: fatness 0 (points, segments; in space polygons, flat solids) */
 } froe_fatness;
-/** FROE_E_MEMORY, FROE_E_CANCELLED. O(n), but O(corners^2) for polygons and hulls of many corners. */
+/** FROE_E_MEMORY, FROE_E_CANCELLED. FROE_E_UNSUPPORTED: above dimension 3 a hull is no simplex. O(n), but O(corners^2)
+ * for polygons and hulls of many corners. */
 FROE_API froe_status froe_measure_fatness(const froe_scene *scene, const froe_measure_options *options,
                                           froe_fatness *out, froe_diagnostic *diag);
 

@@ -6,18 +6,18 @@
 #define BUILD_OPTIONS 20 /* most options of a method, tuning and what stands between included */
 #define BUILD_DIMS_ALL 0x1fcu
 #define BUILD_KINDS_ALL 0x3fu
-/* What there is in R^d: polygons in space only, no segments and hulls beyond. */
-#define BUILD_KINDS_FLAT (BUILD_KINDS_ALL & ~(1u << FROE_POLYGON))
-#define BUILD_KINDS_HIGH (BUILD_KINDS_FLAT & ~(1u << FROE_SEGMENT | 1u << FROE_HULL))
-#define BUILD_KINDS_OF(d) ((d) == 2 ? BUILD_KINDS_FLAT : (d) == 3 ? BUILD_KINDS_ALL : BUILD_KINDS_HIGH)
+/* What there is in R^d: polygons in space only. */
+#define BUILD_KINDS_OF(d) ((d) == 3 ? BUILD_KINDS_ALL : BUILD_KINDS_ALL & ~(1u << FROE_POLYGON))
 #define BUILD_IN(d, dims, kinds) (((dims) >> (d)) & 1 ? (kinds)&BUILD_KINDS_OF(d) : 0)
-/** info.kinds of a method that serves the same kinds in all of its dimensions. */
-#define BUILD_SERVES(dims, kinds)                                                                                      \
+/** info.kinds of a method that serves these kinds in its dimensions, and above 3 those. */
+#define BUILD_SERVES_ABOVE(dims, kinds, high)                                                                          \
     {                                                                                                                  \
-        [2] = BUILD_IN(2, dims, kinds), [3] = BUILD_IN(3, dims, kinds), [4] = BUILD_IN(4, dims, kinds),                \
-        [5] = BUILD_IN(5, dims, kinds), [6] = BUILD_IN(6, dims, kinds), [7] = BUILD_IN(7, dims, kinds),                \
-        [8] = BUILD_IN(8, dims, kinds)                                                                                 \
+        [2] = BUILD_IN(2, dims, kinds), [3] = BUILD_IN(3, dims, kinds), [4] = BUILD_IN(4, dims, high),                 \
+        [5] = BUILD_IN(5, dims, high), [6] = BUILD_IN(6, dims, high), [7] = BUILD_IN(7, dims, high),                   \
+        [8] = BUILD_IN(8, dims, high)                                                                                  \
     }
+/** The same kinds in all of its dimensions. */
+#define BUILD_SERVES(dims, kinds) BUILD_SERVES_ABOVE(dims, kinds, kinds)
 
 /** One build in progress. */
 typedef struct build_job {

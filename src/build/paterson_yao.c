@@ -108,8 +108,9 @@ const build_method build_method_paterson_yao = {
                  "deterministic: slabs for segments of the plane, free cuts and medians for axis-parallel objects",
              .source = "Paterson and Yao 1990, 1992; Murali, Agarwal and Vitter 1998",
              .guarantee = "slabs: O(n log n) fragments of disjoint segments; orthogonal: none",
-             .kinds = BUILD_SERVES(BUILD_DIMS_ALL,
-                                   1u << FROE_POINT | 1u << FROE_SEGMENT | 1u << FROE_POLYGON | 1u << FROE_BOX),
+             .kinds = BUILD_SERVES_ABOVE(BUILD_DIMS_ALL,
+                                         1u << FROE_POINT | 1u << FROE_SEGMENT | 1u << FROE_POLYGON | 1u << FROE_BOX,
+                                         1u << FROE_POINT | 1u << FROE_BOX),
              .options = options},
     .build = build_paterson_yao,
 };

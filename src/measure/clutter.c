@@ -118,7 +118,7 @@ static bool object_meets(clutter_survey *s, uint32_t object, const double *point
         for (int k = 0; k < s->dim && inside; k++) inside = points[k] <= p[k] && p[k] <= points[s->dim + k];
         if (inside) return true;
     }
-    if (s->dim <= 3) {
+    if (s->dim <= 3 || form != FROE_BALL) {
         geom_convex a = {.core = GEOM_CORE_BOX, .dim = s->dim, .count = 1u << s->dim, .coords = points};
         geom_convex b = scene_convex(scene, object);
         return geom_meet(&s->context, &a, &b);

@@ -1,6 +1,6 @@
 /* enclosing.c: smallest enclosing balls, by exchange of support points.
  *
- *        o-----.         the ball of at most four points of support; the point furthest outside is added, and the
+ *        o-----.         the ball of at most dim + 1 points of support; the point furthest outside is added, and the
  *      .   .    o        next ball is the smallest that is held by it and some of the others, and holds them all. It
  *     o  ball    .  o    grows each time, so this ends (an LP-type problem: Matousek, Sharir and Welzl 1996).
  *
@@ -11,7 +11,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { SUPPORT = 4, ROUNDS = 1000 };
+enum { SUPPORT = FROE_MAX_DIM + 1, ROUNDS = 1000 };
 #define SLACK (1 + 0x1p-40)
 
 typedef struct support_points {
@@ -42,7 +42,7 @@ static double square_distance(int dim, const double *a, const double *b, double 
 /* The ball with all these points on its surface and its centre among them: centre = p0 + sum t_i v_i, v_i = p_i - p0,
  * where 2 v_j . sum t_i v_i = |v_j|^2. */
 static bool circumscribe(int dim, const support_points *s, double scale, measure_ball *out) {
-    double v[3][3] = {{0}}, a[3][4] = {{0}};
+    double v[SUPPORT][FROE_MAX_DIM], a[SUPPORT][SUPPORT + 1] = {{0}};
     int m = s->count - 1;
     for (int i = 0; i < m; i++)
         for (int k = 0; k < dim; k++) v[i][k] = s->point[i + 1][k] * scale - s->point[0][k] * scale;

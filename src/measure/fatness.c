@@ -111,6 +111,9 @@ froe_status froe_measure_fatness(const froe_scene *scene, const froe_measure_opt
     for (uint32_t i = 0; i < s.count && !status; i++) {
         uint32_t object = measure_sample_object(&s, i);
         status = measure_sample_go_on(&s, i) ? note_object(&s, &context, object, &found) : FROE_E_CANCELLED;
+        if (status == FROE_E_UNSUPPORTED)
+            support_fail_at(diag, status, object, FROE_NONE, FROE_NONE,
+                            "object %u: Above dimension 3 volumes of hulls are measured that are simplices.", object);
     }
     if (made) num_context_free(&context);
     if (!status) status = measure_sample_spread(&s, FULL, &found.full);

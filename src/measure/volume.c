@@ -108,9 +108,36 @@ static bool add_hull_corner(hull *h, const double *x) {
     return true;
 }
 
+/* ---------------------------------------------------------------- above space -- */
+
+/* Of a simplex: the product of its heights, each above the span of the edges before, over dim!. */
+static double simplex_volume(const hull *h, double scale) {
+    const int dim = h->scene->dim;
+    double edge[FROE_MAX_DIM][FROE_MAX_DIM], volume = 1;
+    for (int i = 0; i < dim; i++) {
+        double square = 0;
+        for (int k = 0; k < dim; k++)
+            edge[i][k] = hull_corner(h, (uint32_t)i + 1)[k] * scale - hull_corner(h, 0)[k] * scale;
+        for (int j = 0; j < i; j++) {
+            double along = 0, length = 0;
+            for (int k = 0; k < dim; k++) along += edge[i][k] * edge[j][k], length += edge[j][k] * edge[j][k];
+            for (int k = 0; k < dim && length > 0; k++) edge[i][k] -= along / length * edge[j][k];
+        }
+        for (int k = 0; k < dim; k++) square += edge[i][k] * edge[i][k];
+        volume *= sqrt(square) / (i + 1);
+    }
+    return volume;
+}
+
 froe_status measure_hull_volume(num_context *context, const froe_allocator *alloc, const froe_scene *scene,
                                 uint32_t object, double scale, double *out) {
     hull h = {.context = context, .alloc = alloc, .scene = scene, .object = object};
+    if (scene->dim > 3) {
+        const geom_body body = scene_body(scene, object);
+        const bool full = geom_body_rank(context, &body) == scene->dim;
+        *out = full ? simplex_volume(&h, scale) : 0;
+        return full && body.count > (uint32_t)scene->dim + 1 ? FROE_E_UNSUPPORTED : FROE_OK;
+    }
     if (scene->dim == 2) {
         *out = area(&h, scale);
         return FROE_OK;

@@ -48,8 +48,7 @@ static froe_status check_batch(const froe_scene *s, const froe_objects *b, froe_
     if (status) return status;
     if ((unsigned)b->kind >= FROE_KIND_COUNT)
         return support_fail(diag, FROE_E_ARG, "There is no kind %d.", (int)b->kind);
-    bool plane_or_space = b->kind == FROE_SEGMENT || b->kind == FROE_HULL;
-    if ((plane_or_space && s->dim > 3) || (b->kind == FROE_POLYGON && s->dim != 3))
+    if (b->kind == FROE_POLYGON && s->dim != 3)
         return support_fail(diag, FROE_E_UNSUPPORTED, "There are no %ss in dimension %d.", froe_kind_name(b->kind),
                             s->dim);
     if (b->count && !b->coords) return support_fail(diag, FROE_E_ARG, "The batch has no coordinates.");

@@ -1,4 +1,5 @@
-/* forms.c: what an object really is: a zero-length segment is a point, a hull is a set of vertices. */
+/* forms.c: what an object really is: a zero-length segment is a point, a hull is a set of vertices. Above dimension 3 no
+ * cut runs along a segment, so that it is a hull as well: it is listed, and never cut. */
 #include "scene/forms.h"
 #include "scene/polygon.h"
 #include "support/fail.h"
@@ -80,9 +81,13 @@ froe_status scene_form_object(scene_adding *a, size_t j, uint32_t *ring, uint32_
     const double *lo, *hi;
     switch (a->batch->kind) {
     case FROE_SEGMENT:
-        if (ring[0] != ring[1]) return FROE_OK;
-        *count = 1;
-        *form = FROE_POINT;
+        if (ring[0] == ring[1]) {
+            *count = 1;
+            *form = FROE_POINT;
+        } else if (a->scene->dim > 3) {
+            hull_form(ring, count);
+            *form = FROE_HULL;
+        }
         return FROE_OK;
     case FROE_POLYGON:
         return polygon_form(a, j, ring, count, form);

@@ -75,13 +75,13 @@ static bool shape_fits(const froe_scene *s, uint32_t object, num_context *contex
 static froe_status check_object(const froe_scene *s, uint32_t object, num_context *context, froe_diagnostic *diag) {
     unsigned kind = s->kinds[object], form = s->forms[object];
     uint32_t begin = s->starts[object], end = s->starts[object + 1];
-    const bool flat = kind == FROE_SEGMENT || kind == FROE_HULL;
-    const bool exists = flat ? s->dim <= 3 : kind == FROE_POLYGON ? s->dim == 3 : kind < FROE_KIND_COUNT;
+    const bool exists = kind == FROE_POLYGON ? s->dim == 3 : kind < FROE_KIND_COUNT;
+    const bool high = kind == FROE_SEGMENT && s->dim > 3, whole = form == (high ? (unsigned)FROE_HULL : kind);
     const bool lesser = (kind == FROE_SEGMENT && form == FROE_POINT) ||
                         (kind == FROE_POLYGON && (form == FROE_POINT || form == FROE_SEGMENT));
-    if (!exists || (form != kind && !lesser)) return bad_object(diag, object, "it has a wrong kind or form");
-    const uint32_t least = form == FROE_POINT || form == FROE_HULL ? 1 : form == FROE_POLYGON ? 3 : 2;
-    const bool more = form == FROE_POLYGON || form == FROE_HULL;
+    if (!exists || (!whole && !lesser)) return bad_object(diag, object, "it has a wrong kind or form");
+    const uint32_t least = form == FROE_POINT || kind == FROE_HULL ? 1 : form == FROE_POLYGON ? 3 : 2;
+    const bool more = form == FROE_POLYGON || kind == FROE_HULL;
     if (end < begin || end > s->corner_count || (more ? end - begin < least : end - begin != least))
         return bad_object(diag, object, "it has a wrong number of corners");
     for (uint32_t i = begin; i < end; i++) {

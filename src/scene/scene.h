@@ -6,8 +6,9 @@
  *
  * A ball's corners are {centre vertex, index into radii}. A polygon's ring is stored
  * so that its first three corners are not collinear: they span its plane. Ring
- * orientation is the caller's. Demoted objects (form != kind) store the corners of their
- * form: the two extreme vertices of a zero-area polygon, one for a zero-length segment.
+ * orientation is the caller's. Objects with form != kind store the corners of their
+ * form: the two extreme vertices of a zero-area polygon, one for a zero-length segment. Above dimension 3 segments are
+ * hulls of two corners.
  * Polygons keep no two equal corners in a row. A hull's corners ascend, each once.
  * Optional arrays are NULL when every object has the default. All arrays lie either in
  * memory of `alloc` or inside a mapped tree file (then `mapped`). */

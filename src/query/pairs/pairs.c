@@ -32,13 +32,11 @@ typedef struct pair_search {
     uint32_t first;         /* object of the wave */
 } pair_search;
 
-/* An object as a range. False without memory. */
-static bool take_body(pair_worker *d, const geom_body *b, froe_range *range) {
-    const size_t dim = (size_t)b->dim, count = b->form == FROE_POINT ? 2 : b->count;
+/* An object as a range; above dimension 3 a polytope as its bounding box. False without memory. */
+static bool take_object(pair_worker *d, uint32_t object, const geom_body *b, froe_range *range) {
+    const size_t dim = (size_t)b->dim, count = b->form == FROE_POINT || b->count < 2 ? 2 : b->count;
     d->points.count = 0;
     if (!array_reserve(&d->q->alloc, &d->points, count * dim)) return false;
-    for (uint32_t i = 0; i < count; i++)
-        memcpy(d->points.data + i * dim, geom_body_point(b, b->form == FROE_POINT ? 0 : i), dim * sizeof(double));
     *range = froe_range_defaults();
     range->points = d->points.data;
     range->count = b->count;
@@ -47,6 +45,13 @@ static bool take_body(pair_worker *d, const geom_body *b, froe_range *range) {
                    : b->form == FROE_SEGMENT                         ? FROE_SHAPE_SEGMENT
                    : b->form == FROE_HULL || b->form == FROE_POLYGON ? FROE_SHAPE_HULL
                                                                      : FROE_SHAPE_BOX;
+    if (b->form == FROE_HULL && dim > 3) {
+        range->shape = FROE_SHAPE_BOX;
+        scene_object_bounds(d->q->tree->scene, object, d->points.data, d->points.data + dim);
+        return true;
+    }
+    for (uint32_t i = 0; i < (b->form == FROE_POINT ? 2 : b->count); i++)
+        memcpy(d->points.data + i * dim, geom_body_point(b, b->form == FROE_POINT ? 0 : i), dim * sizeof(double));
     return true;
 }
 
@@ -69,7 +74,7 @@ static froe_status find_partners(void *user, unsigned worker, size_t job) {
     for (uint32_t i = first; i < first + (left < OBJECTS_PER_JOB ? left : OBJECTS_PER_JOB); i++) {
         const geom_body body = scene_body(scene, i);
         froe_range range;
-        if (!take_body(d, &body, &range)) return FROE_E_MEMORY;
+        if (!take_object(d, i, &body, &range)) return FROE_E_MEMORY;
         const froe_status status = query_range_ask(q, &range, false, NULL);
         if (status) return status;
         /* Keeps what was found with an id above that of the object, in order. */
@@ -83,6 +88,7 @@ static froe_status find_partners(void *user, unsigned worker, size_t job) {
             d->sides.count = 0;
             if (!array_reserve(&q->alloc, &d->sides, (size_t)body.count + other.count)) return FROE_E_MEMORY;
             const geom_contact c = geom_contact_of(&q->numbers, &body, &other, d->sides.data);
+            if (c.kind == GEOM_APART) continue; /* its box is met, and no more */
             if (!s->shared && c.kind == GEOM_TOUCH && c.touch == GEOM_TOUCH_AT_CORNER) continue;
             if (!array_push(&q->alloc, out, (froe_pair){i, q->found.data[n], kinds[c.kind]})) return FROE_E_MEMORY;
         }

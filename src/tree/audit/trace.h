@@ -89,8 +89,8 @@ froe_status trace_object(tree_trace *t, uint32_t object, trace_fn *fn, trace_cov
 
 /** The plane of a node's cut; good until the next call. */
 const geom_plane *trace_plane(tree_trace *t, uint32_t node);
-/** Does the object, a solid, certainly meet the open cell of a leaf? *meets is not changed above dimension 3, and where
- * images of cuts are too rough. FROE_E_MEMORY. */
+/** Does the object, a solid, certainly meet the open cell of a leaf? *meets is not changed where images of cuts are
+ * too rough, and above dimension 3 below oblique cuts that divide the object. FROE_E_MEMORY. */
 froe_status trace_cell_meets(tree_trace *t, uint32_t leaf, bool *meets);
 /** The same as trace_object for boxes, balls and hulls; called by it. */
 froe_status trace_solid_object(tree_trace *t);

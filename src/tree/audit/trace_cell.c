@@ -12,10 +12,11 @@
 #include "scene/convex.h"
 #include "tree/audit/trace.h"
 #include <math.h>
+#include <string.h>
 
 typedef struct trace_cell {
     tree_trace *t;
-    double lo[3], hi[3]; /* the solid's bounding box, within the cuts and walls across an axis */
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM]; /* the solid's bounding box, within the cuts and walls across an axis */
     ARRAY(double) normals, offsets;
 } trace_cell;
 
@@ -23,7 +24,7 @@ static bool divides(tree_trace *t, const geom_plane *plane, const geom_convex *s
     if (solid->radius > 0) return geom_side_ball(&t->context, plane, geom_convex_point(solid, 0), solid->radius) == 2;
     unsigned reached = 0;
     for (uint32_t i = 0; i < solid->count && reached != 3; i++) {
-        double x[3] = {0};
+        double x[FROE_MAX_DIM] = {0};
         for (int k = 0; k < t->tree->scene->dim; k++) x[k] = geom_convex_coordinate(solid, i, k);
         const int side = geom_side_vertex(&t->context, plane, x);
         if (side) reached |= side > 0 ? 2 : 1;
@@ -60,7 +61,6 @@ froe_status trace_cell_meets(tree_trace *t, uint32_t leaf, bool *meets) {
     const tree_node *nodes = t->tree->nodes;
     trace_cell c = {.t = t};
     bool room = true, certain = true;
-    if (s->dim > 3) return FROE_OK;
     const geom_convex solid = scene_convex(s, t->object);
     scene_object_bounds(s, t->object, c.lo, c.hi);
     for (uint32_t node = 0, next; room && node != leaf; node = next) {
@@ -69,12 +69,20 @@ froe_status trace_cell_meets(tree_trace *t, uint32_t leaf, bool *meets) {
         const uint32_t positive = nodes[node].child + 1;
         const bool below = !tree_is_leaf(nodes + positive) && leaf >= nodes[positive].child;
         next = leaf == positive || below ? positive : positive - 1;
-        if (divides(t, plane, &solid)) room = keep_side(&c, plane, next == positive ? 1 : -1);
+        if (!divides(t, plane, &solid)) continue;
+        if (s->dim > 3 && plane->form != GEOM_AXIS) return FROE_OK; /* only boxes are compared there */
+        room = keep_side(&c, plane, next == positive ? 1 : -1);
     }
     /* nothing is certain of an empty box, nor where a halfspace is too rough */
     for (int k = 0; k < s->dim; k++) certain = certain && c.lo[k] <= c.hi[k];
     for (size_t i = 0; room && i < c.offsets.count; i++) certain = certain && isfinite(c.offsets.data[i]);
-    if (room && certain) {
+    if (certain && s->dim > 3) {
+        double ends[2 * FROE_MAX_DIM];
+        memcpy(ends, c.lo, (size_t)s->dim * sizeof *ends);
+        memcpy(ends + s->dim, c.hi, (size_t)s->dim * sizeof *ends);
+        const geom_convex box = {.core = GEOM_CORE_BOX, .dim = s->dim, .count = 1u << s->dim, .coords = ends};
+        *meets = geom_meet(&t->context, &solid, &box);
+    } else if (room && certain) {
         geom_polytope cell = {.error = 0};
         room = geom_polytope_make(&t->context, &t->alloc, s->dim, c.normals.data, c.offsets.data, c.offsets.count, c.lo,
                                   c.hi, &cell) &&
