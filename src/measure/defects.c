@@ -103,7 +103,7 @@ froe_status froe_scene_defects(const froe_scene *scene, unsigned threads, froe_p
     for (uint32_t i = 0; i < scene->object_count && !status; i++) { /* candidates take the place of originals */
         const bool original = v.objects[i] == i;
         defects.duplicates += !original;
-        defects.zero_length += scene->kinds[i] == FROE_SEGMENT && scene->forms[i] != FROE_SEGMENT;
+        defects.zero_length += scene->kinds[i] == FROE_SEGMENT && scene->forms[i] == FROE_POINT;
         defects.zero_area += scene->kinds[i] == FROE_POLYGON && scene->forms[i] != FROE_POLYGON;
         if (!original || scene->forms[i] != form || scene->dim > 3) continue;
         v.objects[v.count++] = i;

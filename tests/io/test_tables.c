@@ -26,6 +26,10 @@ static void the_header_says_what_the_rows_are(void **state) {
     assert_int_equal(froe_scene_kind_count(s, FROE_BALL), 1);
     assert_true(froe_scene_object(s, 0).radius == 0.5);
     froe_scene_free(s);
+    s = table("from_x,from_y,from_z,from_w,to_x,to_y,to_z,to_w\n0,1,2,3,4,5,6,7\n", "CSV segments");
+    assert_int_equal(froe_scene_kind_count(s, FROE_SEGMENT), 1);
+    assert_true(froe_scene_dim(s) == 4 && corner(s, 0, 0)[2] == 2 && corner(s, 0, 1)[3] == 7);
+    froe_scene_free(s);
     s = table("x1,x2,x3,x4,x5,x6,x7,x8\n1,2,3,4,5,6,7,8\n", "CSV points");
     assert_int_equal(froe_scene_dim(s), 8);
     assert_true(corner(s, 0, 0)[7] == 8);
@@ -84,6 +88,20 @@ static void numbers_are_the_nearest_doubles_in_any_locale(void **state) {
     setlocale(LC_ALL, "C");
 }
 
+static void rows_of_one_number_are_the_corners_of_a_hull(void **state) {
+    (void)state;
+    froe_scene *s = table("hull,x,y,z,w,tag\n7,0,0,0,0,5\n7,1,0,0,0,6\n7,0,0,0,1,6\n3,0,0,0,0,9\n", "CSV hulls");
+    assert_int_equal(froe_scene_kind_count(s, FROE_HULL), 2);
+    assert_int_equal(froe_scene_object(s, 0).corners, 3);
+    assert_int_equal(froe_scene_object(s, 1).corners, 1);
+    assert_true(froe_scene_object(s, 0).tag == 5 && froe_scene_object(s, 1).tag == 9);
+    froe_scene_free(s);
+    /* beside plain axes such columns are others */
+    s = table("x,y,to_x\n1,2,3\n", "CSV points");
+    assert_int_equal(froe_scene_dim(s), 2);
+    froe_scene_free(s);
+}
+
 static void refuse_table(const char *text, froe_status status, const char *words) {
     write_text("bad.csv", text);
     refuse("bad.csv", status, words);
@@ -105,8 +123,13 @@ static void bad_rows_are_named(void **state) {
                  "Its low corner 0 is above its high corner -1 on axis x.");
     refuse_table("x,y,r\n0,0,-1\n", FROE_E_INPUT, "radius is -1");
     refuse_table("x,y,r\n0,0,inf\n", FROE_E_INPUT, "radius");
-    refuse_table("lo_x,lo_y,hi_x\n0,0,1\n", FROE_E_FORMAT, "lo_ and hi_ of the same");
-    refuse_table("lo_x,lo_y,lo_z,hi_x,hi_y,x\n0,0,1,1,1,1\n", FROE_E_FORMAT, "lo_ and hi_ of the same");
+    refuse_table("lo_x,lo_y,hi_x\n0,0,1\n", FROE_E_FORMAT,
+                 "boxes are lo_ and hi_, of segments from_ and to_, of the same");
+    refuse_table("lo_x,lo_y,lo_z,hi_x,hi_y,x\n0,0,1,1,1,1\n", FROE_E_FORMAT,
+                 "boxes are lo_ and hi_, of segments from_ and to_, of the same");
+    refuse_table("from_x,from_y,to_x\n0,0,1\n", FROE_E_FORMAT, "of segments from_ and to_, of the same");
+    refuse_table("hull,x,y\n1,0,0\none,1,0\n", FROE_E_FORMAT, "row 2: The hull 'one' is not a whole number");
+    refuse_table("hull,x,y\n1,0,0\n1,nan,0\n", FROE_E_INPUT, "Coordinate x of corner 1 is nan");
     refuse_table("lo_1,hi_1,lo_9,hi_9\n0,1,0,1\n", FROE_E_UNSUPPORTED, "more than 8 axes");
     refuse_table("0,0,1,1\n2,2,3,3\n", FROE_E_INPUT, "begins with a line like x,y");
     refuse_table("x,y\n", FROE_E_INPUT, "holds no objects");
@@ -133,6 +156,7 @@ int main(void) {
         cmocka_unit_test(columns_come_in_any_order_with_others_between),
         cmocka_unit_test(other_headers_are_left_to_ogr),
         cmocka_unit_test(numbers_are_the_nearest_doubles_in_any_locale),
+        cmocka_unit_test(rows_of_one_number_are_the_corners_of_a_hull),
         cmocka_unit_test(bad_rows_are_named),
         cmocka_unit_test(balls_have_boxes_that_contain_them),
     };

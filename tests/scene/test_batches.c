@@ -217,8 +217,6 @@ static void wrong_arguments_are_refused(void **state) {
     refuse(s, b, FROE_E_ARG);
     refuse(s, batch_of(FROE_POLYGON, 1, xy), FROE_E_UNSUPPORTED);
     refuse(deep, batch_of(FROE_POLYGON, 1, xy), FROE_E_UNSUPPORTED);
-    refuse(deep, batch_of(FROE_SEGMENT, 1, xy), FROE_E_UNSUPPORTED);
-    refuse(deep, batch_of(FROE_HULL, 1, xy), FROE_E_UNSUPPORTED);
     add(deep, batch_of(FROE_BOX, 1, (const double[]){0, 0, 0, 0, 1, 1, 1, 1}));
     add(s, batch_of(FROE_SEGMENT, 0, NULL));
     froe_scene_free(s);
