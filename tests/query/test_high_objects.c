@@ -6,13 +6,13 @@
 #include "support/memory.h"
 #include <stdio.h>
 
-enum { OBJECTS = 14, QUESTIONS = 8 };
+enum { OBJECTS = 16, QUESTIONS = 4 };
 
 /* Sanitizers look for other things than wrong answers. */
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 enum { SEEDS = 1 };
 #else
-enum { SEEDS = 3 };
+enum { SEEDS = 2 };
 #endif
 
 typedef struct trial {
@@ -47,12 +47,26 @@ static void add(trial *t, froe_kind kind, size_t corners) {
     if (froe_scene_add(t->scene, &o, &why)) fail_msg("%s", why.message);
 }
 
+/* Two segments that cross in the middle of a cube. */
+static void add_crossing(trial *t) {
+    double points[4 * FROE_MAX_DIM];
+    froe_objects o = froe_objects_defaults();
+    for (int k = 0; k < t->dim; k++) {
+        points[k] = 0, points[t->dim + k] = 2 * t->scale;
+        points[2 * t->dim + k] = (k ? k == 1 ? 0 : 1 : 2) * t->scale;
+        points[3 * t->dim + k] = (k ? k == 1 ? 2 : 1 : 0) * t->scale;
+    }
+    o.kind = FROE_SEGMENT, o.count = 2, o.coords = points;
+    assert_int_equal(froe_scene_add(t->scene, &o, NULL), FROE_OK);
+}
+
 /* The oracle knows boxes by their corners, 2^dim of them. */
 static void fill(trial *t) {
     assert_int_equal(froe_scene_new(t->dim, NULL, &t->scene), FROE_OK);
     for (int i = 0; i < 4; i++) add(t, FROE_SEGMENT, 2);
     for (int i = 0; i < 3; i++) add(t, FROE_HULL, (size_t)t->dim + 1);
     for (int i = 0; i < 3; i++) add(t, FROE_HULL, (size_t)fuzz_int(&t->r, 1, 2 * t->dim));
+    add_crossing(t);
     add(t, FROE_POINT, 1);
     add(t, FROE_BALL, 1);
     add(t, t->dim > 5 ? FROE_POINT : FROE_BOX, t->dim > 5 ? 1 : 2);
@@ -237,7 +251,7 @@ static void ask_scene(trial *t) {
 static void questions_are_answered_as_in_rationals(void **state) {
     (void)state;
     for (int dim = 4; dim <= FROE_MAX_DIM; dim++)
-        for (uint64_t seed = 0; seed < (dim > 6 ? 2 : SEEDS); seed++) {
+        for (uint64_t seed = 0; seed < SEEDS; seed++) {
             trial t = {.r = {seed * 100 + (uint64_t)dim}, .dim = dim, .lattice = seed % 2 == 0, .scale = 1};
             ask_scene(&t);
         }
