@@ -19,7 +19,7 @@ static const cli_option options[] = {
     {"number", 'n', CLI_WHOLE, offsetof(generate_args, n), "N", .help = "how many objects, about (default 1000)",
      .min = 1, .max = UINT32_MAX},
     {"output", 'o', CLI_TEXT, offsetof(generate_args, output), "FILE",
-     .help = ".geojson (plane), .csv (points, boxes, balls; segments, hulls), .off or .obj (polygons), .mfjson (moving)"},
+     .help = ".geojson (plane), .csv (all but polygons), .off or .obj (polygons), .mfjson (moving)"},
     {"list", 0, CLI_FLAG, offsetof(generate_args, list), .help = "list the usual kinds; --list all: every kind"},
     {0},
 };

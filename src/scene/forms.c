@@ -1,5 +1,5 @@
-/* forms.c: what an object really is: a zero-length segment is a point, a hull is a set of vertices. Above dimension 3 no
- * cut runs along a segment, so that it is a hull as well: it is listed, and never cut. */
+/* forms.c: what an object really is: a zero-length segment is a point, a hull is a set of vertices. Above dimension
+ * 3 no cut runs along a segment, so that it is a hull as well: it is listed, and never cut. */
 #include "scene/forms.h"
 #include "scene/polygon.h"
 #include "support/fail.h"
