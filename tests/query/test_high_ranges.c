@@ -15,7 +15,7 @@
 
 #include <cmocka.h>
 
-enum { OBJECTS = 24, TREES = 16, MOST = 12 };
+enum { OBJECTS = 20, TREES = 16, MOST = 12 };
 
 typedef struct question {
     froe_range range;
@@ -29,7 +29,35 @@ static double coordinate(uint64_t seed, uint64_t draw, uint32_t grid) {
     return grid ? trees_random(seed, draw, grid) : 8 * trees_unit(seed, draw);
 }
 
+/** Segments, and hulls of up to `dim` + 3 corners. */
+static froe_scene *make_hulls(int dim, froe_kind kind, uint32_t grid, size_t n, uint64_t seed) {
+    double *coords = malloc(n * 11 * FROE_MAX_DIM * sizeof *coords), middle[FROE_MAX_DIM];
+    size_t *starts = malloc((n + 1) * sizeof *starts), at = 0;
+    froe_objects objects = froe_objects_defaults();
+    froe_scene *scene;
+    assert_true(coords && starts);
+    for (size_t i = 0; i < n; i++) {
+        const size_t corners = kind == FROE_SEGMENT ? 2 : 2 + trees_random(seed, 80000 + i, (uint32_t)dim + 2);
+        starts[i] = at;
+        for (size_t k = 0; k < (size_t)dim; k++) middle[k] = coordinate(seed, 20 * i + k, grid);
+        for (size_t c = 0; c < corners; c++, at++)
+            for (size_t k = 0; k < (size_t)dim; k++) {
+                const uint64_t draw = 100000 + 200 * i + 10 * c + k;
+                coords[at * (size_t)dim + k] =
+                    middle[k] + (grid ? trees_random(seed, draw, 2) : trees_unit(seed, draw));
+            }
+    }
+    starts[n] = at;
+    objects.kind = kind, objects.count = n, objects.coords = coords;
+    if (kind == FROE_HULL) objects.starts = starts;
+    assert_int_equal(froe_scene_new(dim, NULL, &scene), FROE_OK);
+    assert_int_equal(froe_scene_add(scene, &objects, NULL), FROE_OK);
+    free(coords), free(starts);
+    return scene;
+}
+
 static froe_scene *make_scene(int dim, froe_kind kind, uint32_t grid, size_t n, uint64_t seed) {
+    if (kind == FROE_SEGMENT || kind == FROE_HULL) return make_hulls(dim, kind, grid, n, seed);
     double *coords = malloc(n * 2 * FROE_MAX_DIM * sizeof *coords), *radii = malloc(n * sizeof *radii);
     const size_t each = kind == FROE_BOX ? 2 * (size_t)dim : (size_t)dim;
     froe_objects objects = froe_objects_defaults();
@@ -176,13 +204,13 @@ static size_t check_exactly(forest *f, const froe_scene *scene, int dim, questio
 /* ------------------------------------------------------------------- exactly -- */
 
 static void check_shape(froe_range_shape shape) {
-    static const froe_kind kinds[] = {FROE_POINT, FROE_BOX, FROE_BALL};
+    static const froe_kind kinds[] = {FROE_POINT, FROE_BOX, FROE_BALL, FROE_SEGMENT, FROE_HULL};
     size_t met = 0, asked = 0;
     for (int dim = 4; dim <= 8; dim += dim == 5 ? 3 : 1)
-        for (int kind = 0; kind < 3; kind++)
+        for (int kind = 0; kind < 5; kind++)
             for (uint32_t grid = 0; grid <= 4; grid += 4) {
                 /* boxes of eight dimensions have 256 corners, and rationals are slow */
-                const uint64_t questions = dim == 8 && kind ? 2 : 8;
+                const uint64_t questions = dim == 8 && kind ? 2 : kind < 3 ? 8 : 4;
                 froe_scene *scene = make_scene(dim, kinds[kind], grid, OBJECTS, 17 + (uint64_t)dim);
                 forest f = plant(scene);
                 for (uint64_t seed = 0; seed < questions; seed++) {
@@ -418,7 +446,7 @@ static void what_is_not_served_says_so(void **state) {
     /* four sides of a simplex, and the fifth */
     const double points[] = {-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 1, 1, 1, 1};
     const double bounded[] = {1, 1, 1, 1, -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1, 0, 0, 0, 0, -1};
-    const double offsets[] = {8, 0, 0, 0, 0};
+    const double offsets[] = {16, 0, 0, 0, 0};
     froe_scene *scene = make_scene(4, FROE_POINT, 0, OBJECTS, 5);
     forest f = plant(scene);
     (void)state;
