@@ -40,7 +40,6 @@ static froe_status build_autopartition(build_job *job, froe_tree **out) {
                            .scratch_new = split_scratch_new,
                            .scratch_free = split_scratch_free};
     split_job split = build_split_job(job);
-    build_promise(job, "height", build_levels(job) + build_levels_given(job), 0);
     return split_grow(&split, &method, out);
 }
 

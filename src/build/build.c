@@ -53,11 +53,6 @@ static uint32_t kinds_of(const froe_scene *scene) {
     return kinds;
 }
 
-double build_levels(const build_job *job) {
-    const bool boxes = kinds_of(job->scene) >> FROE_BOX & 1;
-    return (boxes ? 2.0 * job->scene->dim : 1) * job->scene->object_count;
-}
-
 static const build_method *find_method(const char *name) {
     for (size_t i = 0; i < METHOD_COUNT; i++)
         if (!strcmp(methods[i]->info.name, name)) return methods[i];

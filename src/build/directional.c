@@ -12,6 +12,7 @@
  * side with less than 1/8, the cell goes on in trees that pay for the smaller side alone
  * (build/directional/boxes_carve.c): O(N log^2 N) for N fragments however unbalanced. Both choose the same cuts. */
 #include "base/curve.h"
+#include "base/log2.h"
 #include "build/directional/boxes.h"
 #include "build/method.h"
 #include "support/fail.h"
@@ -88,6 +89,7 @@ static froe_status do_box_cells(const build_job *job, boxes *b) {
     for (uint32_t turn = 0; b->cells.count && !status; turn++) {
         boxes_cell cell = b->cells.data[--b->cells.count];
         bool small = !cell.count || (!b->options.faces && cell.count <= job->leaf);
+        b->taken += small ? 0 : cell.count;
         boxes_cut cut = small ? (boxes_cut){.found = false} : boxes_sweep(b, &cell);
         if (!cut.found) {
             status = end_box_leaf(job, b, &cell, cut.crowded);
@@ -96,6 +98,7 @@ static froe_status do_box_cells(const build_job *job, boxes *b) {
             const uint32_t less = cut.below < cut.above ? cut.below : cut.above;
             bool trees = cell.count >= CARVE_LEAST && less + cut.divided < cell.count / CARVE_SHARE;
             if (job->option[STRUCTURE] != AUTO) trees = job->option[STRUCTURE] == TREES && cell.count > 1;
+            b->taken += trees ? 2 * (uint64_t)cell.count : 0; /* into trees, and what is left out of them */
             status = trees ? boxes_carve(b, &cell, job->task) : boxes_divide(b, &cell, &cut);
             if (!status) status = check_budget(job, b, 0);
         }
@@ -104,6 +107,19 @@ static froe_status do_box_cells(const build_job *job, boxes *b) {
         if (!base_progress(job->task, from + 0.9 * (1 - left) * (1 - from))) status = FROE_E_CANCELLED;
     }
     return status;
+}
+
+/** Boxes taken up, for N fragments and C cuts in the end: 4 N (log2 N + 4) + 256 C.
+ *
+ * A cut by which neither side gets less than 1/8 of the m boxes of its cell is found in a sweep, of m. Of other cells
+ * those of 256 boxes and more are swept once and cut in trees until half is gone: 3 m, at most 6 for each box that is
+ * gone. So what a cut costs is at most 8 times what its smaller side has of the N in the end, and 8 for each box in the
+ * cut, or 256 in a small cell. The smaller sides add up to N / 2 log2 N over a tree, the boxes in cuts to N. Where no
+ * cut is found, at most 7 for each box that is left. */
+static void promise_work(build_job *job, const boxes *b) {
+    const double n = (double)b->draft.pieces.count, cuts = 0.5 * (double)b->draft.nodes.count;
+    if (job->option[STRUCTURE] != AUTO) return;
+    build_promise(job, "boxes_taken", 4 * n * (base_log2(n + 1) + 4) + CARVE_LEAST * cuts, (double)b->taken);
 }
 
 static froe_status build_directional(build_job *job, froe_tree **out) {
@@ -124,6 +140,7 @@ static froe_status build_directional(build_job *job, froe_tree **out) {
         if (!status) status = prepare_boxes(job, &b);
         if (!status) status = do_box_cells(job, &b);
         build_promise(job, "fragments", bound + (double)b.paid, 0);
+        promise_work(job, &b);
         if (!status) status = draft_seal(&b.draft, NULL, 0, job->scene, &job->meta, out);
         status = split_explain(job->diag, job->max_fragments, status);
     }

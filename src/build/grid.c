@@ -87,7 +87,6 @@ static froe_status build_grid(build_job *job, froe_tree **out) {
         .config = &g, .choose = choose_grid_line, .scratch_new = split_scratch_new, .scratch_free = split_scratch_free};
     split_job split = build_split_job(job);
     if (job->scene->object_count) lay(&g, job->scene, job->scene->object_count / job->option[LOAD]);
-    build_promise(job, "height", build_levels(job), 0);
     return split_grow(&split, &method, out);
 }
 

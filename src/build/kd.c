@@ -147,7 +147,6 @@ static froe_status build_kd(build_job *job, froe_tree **out) {
     split_method method = {
         .config = &d, .choose = choose_kd_cut, .scratch_new = split_scratch_new, .scratch_free = split_scratch_free};
     split_job split = build_split_job(job);
-    build_promise(job, "height", build_levels(job), 0);
     return split_grow(&split, &method, out);
 }
 

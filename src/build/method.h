@@ -49,9 +49,6 @@ typedef struct build_method {
 split_job build_split_job(const build_job *job);
 /** Adds a promise to job->meta. */
 void build_promise(build_job *job, const char *name, double promised, double measured);
-/** Levels of a tree in which each cut leaves fewer objects on both sides, one level an object; or is one of at most 2 d
- * along a box, which then is a cover (split/cell.h). */
-double build_levels(const build_job *job);
 /** What a cut that the caller gives adds to a promise of height, which counts cuts by objects: that cut need not run
  * along one. */
 static inline double build_levels_given(const build_job *job) {

@@ -151,9 +151,10 @@ geom_plane tree_plane_at(const froe_tree *t, uint32_t node);
 froe_status tree_take_arrays(froe_tree *tree);
 /** Computes report and promise views of a tree whose arrays and meta are complete. FROE_E_MEMORY. */
 froe_status tree_finish(froe_tree *tree);
-/** Measures what a promise of that name is about, on a finished tree: height, size, fragments, leaf_load (most
- * pieces in a leaf), guard_leaves (cells of the guard stage), guard_fragments (over those cells and the stage's own
- * cuts), charged_fragments (the same of charged cells), aspect (of the guard stage's cells, above dimension 3:
+/** Measures what a promise of that name is about, on a finished tree: height, nodes, path_length (over all pieces, the
+ * cuts above each), size, fragments, leaf_load (most pieces in a leaf), guard_leaves (cells of the guard stage),
+ * guard_fragments (over those cells and the stage's own cuts), charged_fragments (the same of charged cells), aspect
+ * (of the guard stage's cells, above dimension 3:
  * audit/aspect.h). FROE_E_UNSUPPORTED for other names; FROE_E_MEMORY. */
 froe_status tree_measure(const froe_tree *tree, const char *name, double *out);
 /** Replaces the promise of a name, for a value that a builder finds while it builds. */

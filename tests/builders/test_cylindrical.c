@@ -1,10 +1,12 @@
 /* test_cylindrical.c: cylindrical partitions against their definition, orders, refusals, and what lies above and below.
  */
+#include "build/options.h"
 #include "builders/cylinder_oracle.h"
 #include "geom/predicates.h"
 #include "support/fuzz.h"
 #include "tree/tree.h"
 #include <froe/io.h>
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -329,6 +331,7 @@ static void an_order_that_was_given_is_kept_however_deep(void **state) {
     o.settings = "height=1 draws=1";
     froe_tree *tree = build(scene, &o);
     assert_true(froe_tree_report(tree).height >= COUNT);
+    assert_null(froe_tree_report(tree).promises[0].name); /* the theorem is about random orders */
     assert_int_equal(froe_tree_audit(tree, NULL, NULL), FROE_OK);
     froe_tree_free(tree);
     froe_scene_free(scene);
@@ -357,6 +360,84 @@ static void deep_orders_are_drawn_again(void **state) {
         froe_tree_free(tree);
     }
     assert_true(redrawn > 5 && redrawn < 39 && least < 33 && most <= 33);
+    froe_scene_free(scene);
+}
+
+/* -------------------------------------------------------------------- size -- */
+
+static const froe_promise *promised(const froe_tree *tree, const char *name) {
+    const froe_promise *p = froe_tree_report(tree).promises;
+    while (p->name && strcmp(p->name, name) != 0) p++;
+    return p->name ? p : NULL;
+}
+
+/* Short level segments beside one another below long ones; `crossing` of these are upright, and cross the rest. In the
+ * order of their ids walls of the short ones cross all long ones. */
+static froe_scene *ladder(uint32_t n, uint32_t crossing, uint32_t *order) {
+    double xyxy[4 * 1024];
+    for (uint32_t i = 0; i < n; i++) {
+        const double level[4] = {i, 0, i + 0.5, 0}, high[4] = {-1. - i, i, 2. * n + i, i};
+        const double upright[4] = {i + 0.25, 1, i + 0.25, 2. * n};
+        memcpy(xyxy + 4 * i, i < n / 2 ? level : i < n - crossing ? high : upright, sizeof level);
+        order[i] = i;
+    }
+    return segments(xyxy, n);
+}
+
+/* 2 (3 n + 4 n (H_n - 1) + 5 k) cuts for k crossings; sorted, there are many more. */
+static void size_is_bounded_by_segments_and_crossings(void **state) {
+    enum { COUNT = 400 };
+    uint32_t order[COUNT];
+    double harmonic = 0;
+    (void)state;
+    for (int i = 1; i <= COUNT; i++) harmonic += 1.0 / i;
+    for (uint32_t crossing = 0; crossing <= 20; crossing += 20) {
+        froe_scene *scene = ladder(COUNT, crossing, order);
+        const double k = crossing * (COUNT / 2.0 - crossing);
+        const double most = 4 * (3 * COUNT + 4 * COUNT * (harmonic - 1) + 5 * k) + 1;
+        froe_build_options o = options(0);
+        for (o.seed = 1; o.seed <= 20; o.seed++) {
+            froe_tree *tree = build(scene, &o);
+            const froe_promise *nodes = promised(tree, "nodes"), *path = promised(tree, "path_length");
+            assert_true(fabs(nodes->promised - most) < 1e-6 * most);
+            assert_true(nodes->measured == (double)froe_tree_report(tree).nodes && nodes->measured <= most);
+            assert_true(path->measured <= path->promised);
+            assert_int_equal(froe_tree_audit(tree, NULL, NULL), FROE_OK);
+            froe_tree_free(tree);
+        }
+        o.order = order, o.order_count = COUNT;
+        froe_tree *sorted = build(scene, &o);
+        assert_true((double)froe_tree_report(sorted).nodes > most);
+        froe_tree_free(sorted);
+        froe_scene_free(scene);
+    }
+}
+
+/* A bound among the sizes of the first orders: the first that keeps it is taken; none keeps a tenth. */
+static void large_orders_are_drawn_again(void **state) {
+    enum { COUNT = 300 };
+    uint32_t order[COUNT], redrawn = 0;
+    froe_scene *scene = ladder(COUNT, 0, order);
+    (void)state;
+    for (uint64_t seed = 1; seed <= 40; seed++) {
+        froe_build_options o = options(0);
+        froe_tree *first, *small, *none;
+        o.seed = seed;
+        first = build(scene, &o);
+        o.settings = "size=0.55 draws=100";
+        assert_int_equal(build_tuned(scene, &o, &small, NULL), FROE_OK);
+        const froe_promise *nodes = promised(small, "nodes");
+        assert_true(nodes && nodes->measured <= nodes->promised);
+        const bool fits = (double)froe_tree_report(first).nodes <= nodes->promised;
+        if (fits) assert_int_equal(froe_tree_report(first).nodes, froe_tree_report(small).nodes);
+        redrawn += !fits;
+        o.settings = "size=0.1";
+        assert_int_equal(build_tuned(scene, &o, &none, NULL), FROE_OK);
+        assert_null(froe_tree_report(none).promises[0].name);
+        assert_int_equal(froe_tree_report(none).nodes, froe_tree_report(first).nodes);
+        froe_tree_free(first), froe_tree_free(small), froe_tree_free(none);
+    }
+    if (redrawn < 3 || redrawn > 37) fail_msg("%u of 40 first orders are redrawn", redrawn);
     froe_scene_free(scene);
 }
 
@@ -459,6 +540,8 @@ int main(void) {
         cmocka_unit_test(orders_must_name_every_object_once),
         cmocka_unit_test(an_order_that_was_given_is_kept_however_deep),
         cmocka_unit_test(deep_orders_are_drawn_again),
+        cmocka_unit_test(size_is_bounded_by_segments_and_crossings),
+        cmocka_unit_test(large_orders_are_drawn_again),
         cmocka_unit_test(polygons_that_cross_are_named),
         cmocka_unit_test(polygons_that_touch_are_welcome),
         cmocka_unit_test(polygons_that_cross_everywhere_come_to_an_end),

@@ -339,6 +339,42 @@ static void a_build_survives_every_failing_allocation(void **state) {
     test_memory_each(build_in, (void *)(uintptr_t) "structure=trees boxes=faces");
 }
 
+static const froe_promise *taken(const froe_tree *tree) {
+    const froe_promise *p = froe_tree_report(tree).promises;
+    while (p->name && strcmp(p->name, "boxes_taken") != 0) p++;
+    assert_non_null(p->name);
+    return p;
+}
+
+/* Faces of cubes, one in the other, come off one by one: sweeps alone would take up all that is left each time. */
+static void cells_that_lose_a_box_at_a_time_are_not_swept(void **state) {
+    enum { COUNT = 1800 };
+    double ends[COUNT][6];
+    froe_objects o = froe_objects_defaults();
+    froe_scene *scene = NULL;
+    double swept;
+    (void)state;
+    for (int i = 0; i < COUNT; i++) {
+        for (int k = 0; k < 3; k++) ends[i][k] = -ldexp(1, i / 6), ends[i][3 + k] = ldexp(1, i / 6);
+        ends[i][i % 3] = ends[i][3 + i % 3] = ldexp(i % 6 < 3 ? -1 : 1, i / 6);
+    }
+    o.kind = FROE_BOX, o.count = COUNT, o.coords = ends[0];
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
+    froe_tree *tree = build(scene, NULL, 1);
+    assert_int_equal(tree_measure(tree, "path_length", &swept), FROE_OK); /* nothing is divided: boxes of all cells */
+    assert_true(taken(tree)->measured <= taken(tree)->promised && taken(tree)->promised < swept);
+    froe_tree_free(tree);
+    froe_scene_free(scene);
+    for (int kind = 0; kind < KINDS; kind++) {
+        scene = generate(kinds[kind], 3000);
+        tree = build(scene, NULL, 1);
+        assert_true(taken(tree)->measured <= taken(tree)->promised);
+        froe_tree_free(tree);
+        froe_scene_free(scene);
+    }
+}
+
 static void weights_that_would_not_fit_are_refused(void **state) {
     froe_scene *scene = variant(8, NULL, 1);
     froe_build_options o = froe_build_defaults();
@@ -363,6 +399,7 @@ int main(void) {
         cmocka_unit_test(order_and_scale_change_nothing),
         cmocka_unit_test(rooms_pay_for_what_is_divided),
         cmocka_unit_test(a_build_survives_every_failing_allocation),
+        cmocka_unit_test(cells_that_lose_a_box_at_a_time_are_not_swept),
         cmocka_unit_test(weights_that_would_not_fit_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -582,6 +582,10 @@ static void broken_promises_are_found(void **state) {
     assert_wrong(t, "said to be measured");
     *p = (tree_promise){"fragments", 1e9, (double)t->piece_count};
     assert_right(t);
+    *p = (tree_promise){"nodes", 1e9, t->node_count - 1.0};
+    assert_wrong(t, "said to be measured");
+    *p = (tree_promise){"path_length", 1e9, 1};
+    assert_wrong(t, "said to be measured");
     *p = (tree_promise){"only the builder knows", 1, 1};
     assert_right(t);
     *p = (tree_promise){"only the builder knows", 1, 2};

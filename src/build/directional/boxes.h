@@ -97,8 +97,9 @@ typedef struct boxes {
     int dim;
     boxes_options options;
     tree_draft draft;
-    uint64_t paid; /**< weight of what forced cuts divided: see boxes_bound() */
-    bool flat;     /**< is any box without extent on some axis? */
+    uint64_t paid;  /**< weight of what forced cuts divided: see boxes_bound() */
+    uint64_t taken; /**< boxes that sweeps and trees took up, cell by cell */
+    bool flat;      /**< is any box without extent on some axis? */
     ARRAY(boxes_fragment) fragments;
     ARRAY(boxes_event) events[FROE_MAX_DIM];
     ARRAY(boxes_cell) cells;

@@ -41,11 +41,24 @@ static froe_status stage_fragments(const froe_tree *t, uint8_t flag, double *out
     return tree_walk_end(&walk);
 }
 
+/* Each cut above a piece has dealt it, or what it is a part of, to a side. */
+static froe_status path_length(const froe_tree *t, double *out) {
+    tree_walk walk = {.tree = t};
+    double sum = 0;
+    while (tree_walk_next(&walk)) sum += (double)tree_walk_depth(&walk) * tree_list(t, walk.node).count;
+    *out = sum;
+    return tree_walk_end(&walk);
+}
+
 froe_status tree_measure(const froe_tree *t, const char *name, double *out) {
     const froe_report *r = &t->report;
 
     if (!strcmp(name, "height")) {
         *out = (double)r->height;
+    } else if (!strcmp(name, "nodes")) {
+        *out = (double)t->node_count;
+    } else if (!strcmp(name, "path_length")) {
+        return path_length(t, out);
     } else if (!strcmp(name, "size")) {
         *out = (double)r->size;
     } else if (!strcmp(name, "fragments")) {
