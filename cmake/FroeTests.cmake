@@ -138,6 +138,17 @@ endif()
 
 # The project looked at from outside: sources, compiled code, installation, documents.
 set(scripts ${PROJECT_SOURCE_DIR}/scripts)
+# Claims of the sources that are counted in a moment: each holds, and breaks without what it rests on (docs/claims.md).
+if(TARGET froe_io_white)
+  file(GLOB claims CONFIGURE_DEPENDS bench/claims/*.c)
+  add_executable(test_claims ${claims} bench/bench.c bench/scatter.c)
+  set_target_properties(test_claims PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+  target_include_directories(test_claims PRIVATE src ${PROJECT_SOURCE_DIR})
+  target_compile_definitions(test_claims PRIVATE FROE_COMMIT="")
+  target_link_libraries(test_claims PRIVATE froe_io_white m)
+  froe_test(claims quick test_claims --quick)
+endif()
+
 froe_test(project layers ${scripts}/check-layers)
 froe_test(project flags ${scripts}/check-flags)
 set_tests_properties(project/flags PROPERTIES ENVIRONMENT CC=${CMAKE_C_COMPILER})

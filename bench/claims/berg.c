@@ -1,5 +1,7 @@
 /* berg.c: de Berg, "Linear size binary space partitions for uncluttered scenes". */
 #include "guarding.h"
+#include "scene/scene.h"
+#include "tree/list.h"
 #include <math.h>
 #include <string.h>
 
@@ -36,6 +38,47 @@ static double small_range(const claims_tree *t) {
 }
 static double small_range_in_cubes(const claims_tree *t) {
     return small_range_by(t, FROE_WALK_CLASSES);
+}
+
+/* Windows half as wide as the least of all objects, at places inside objects of all sizes. */
+static double window_in_octaves(const claims_tree *t) {
+    claims_asker a = claims_ask(t);
+    froe_diagnostic diag = {0};
+    const double wide = ldexp(0.1, -(int)t->n);
+    for (int i = 0; i < CLAIMS_QUERIES; i++) {
+        double points[4];
+        froe_range box = froe_range_defaults();
+        froe_list list;
+        const double s = ldexp(1.2, -(int)(bench_unit(&a.state) * t->n));
+        for (int k = 0; k < 2; k++) points[k] = s - wide, points[2 + k] = s + wide;
+        box.points = points, box.walk = t->way.bare ? FROE_WALK_PLAIN : FROE_WALK_CLASSES;
+        bench_must(froe_query_range(a.query, &box, &list, &diag), &diag);
+    }
+    const double cost = claims_asked(&a) / CLAIMS_QUERIES;
+    froe_query_free(a.query);
+    return cost;
+}
+
+/* Pairs that share a leaf, over n. Bare: pairs whose bounding boxes meet, which no axis-parallel plane separates. */
+static double pairs_together(const claims_tree *t) {
+    const uint32_t n = (uint32_t)t->n;
+    const int dim = froe_scene_dim(t->scene);
+    double pairs = 0;
+    for (uint32_t i = 0; i < t->tree->node_count && !t->way.bare; i++)
+        if (tree_is_leaf(t->tree->nodes + i)) {
+            const double m = tree_list(t->tree, i).count;
+            pairs += 0.5 * m * (m - 1);
+        }
+    for (uint32_t i = 0; i < n && t->way.bare; i++)
+        for (uint32_t j = 0; j < i; j++) {
+            double lo[2][FROE_MAX_DIM], hi[2][FROE_MAX_DIM];
+            bool meet = true;
+            scene_object_bounds(t->scene, i, lo[0], hi[0]);
+            scene_object_bounds(t->scene, j, lo[1], hi[1]);
+            for (int k = 0; k < dim; k++) meet = meet && lo[0][k] <= hi[1][k] && lo[1][k] <= hi[0][k];
+            pairs += meet;
+        }
+    return pairs / t->n;
 }
 
 /* Windows that meet k of m cells: the worst cost over k log2 m. */
@@ -128,7 +171,8 @@ const claim claims_berg[] = {
      .of = CLAIMS_PLAN(("scatter", "rooms", "blocks", "combs"), 1000, 3, claims_size, .lambda = 16),
      .with = by_density,
      .needs = "guards: cuts along the objects in any order",
-     .without = {.method = "sorted"}},
+     .without = {.method = "sorted"},
+     .kind = CLAIM_QUICK},
     {.source = "de Berg, theorem 2.5",
      .says = "few pieces of objects of all scales",
      .measured = "pieces / n, 8000 triangles of nested-3d",
@@ -159,7 +203,8 @@ const claim claims_berg[] = {
      .of = &saddles,
      .with = by_density,
      .needs = "saddles so close that no plane has room between",
-     .without = {.method = "density", .bare = true}},
+     .without = {.method = "density", .bare = true},
+     .kind = CLAIM_QUICK},
     {.source = "de Berg, introduction (Chazelle)",
      .says = "the same",
      .measured = "exponent of pieces in n, lines of two saddles",
@@ -210,8 +255,7 @@ const claim claims_berg[] = {
      .of = CLAIMS_PLAN(("nested", "nested-3d"), 250, 3, claims_location),
      .with = {DEEP},
      .needs = "the structure for locating: from cut to cut",
-     .without = {DEEP, .bare = true},
-     .kind = CLAIM_QUICK},
+     .without = {DEEP, .bare = true}},
     {.source = "de Berg, corollary 3.2",
      .says = "O(log n) for ranges smaller than objects",
      .measured = "exponent of cost in n; worst of nested, scatter, cuboids",
@@ -234,6 +278,38 @@ const claim claims_berg[] = {
      .needs = "the cubes: the tree, from cut to cut",
      .without = {DEEP, .bare = true},
      .kind = CLAIM_QUICK},
+    {.source = "de Berg, corollary 3.2",
+     .says = "whatever the number of sizes",
+     .measured = "exponent of cost in n, n boxes of n sizes, windows smaller than each, n = 100 to 800",
+     .least = -INFINITY,
+     .most = 0.3,
+     .measure = claims_growth,
+     .of = CLAIMS_PLAN(("octaves"), 100, 3, window_in_octaves),
+     .with = {.method = "quad"},
+     .needs = "the structure of cubes: from cut to cut",
+     .without = {.method = "quad", .bare = true},
+     .kind = CLAIM_QUICK},
+    {.source = "de Berg, section 2.1",
+     .says = "planes separate all disjoint convex objects that are curved",
+     .measured = "pairs in one leaf / n, balls of chess boards in R^2 to R^5, 300 and 600 balls",
+     .least = 0,
+     .most = 0,
+     .measure = claims_most,
+     .of = CLAIMS_PLAN(("chess balls", "chess balls 3d", "chess balls 4d", "chess balls 5d"), 300, 1, pairs_together),
+     .with = by_density,
+     .needs = "planes between objects: the axes alone",
+     .without = {.method = "density", .bare = true}},
+    {.source = "de Berg, theorem 2.5",
+     .says = "few pieces of curved objects",
+     .measured = "pieces / n, the most of balls, balls-3d, chess balls, 1000 to 4000 balls",
+     .least = 1,
+     .most = 2.5,
+     .measure = claims_most,
+     .of = CLAIMS_PLAN(("balls", "balls-3d", "chess balls"), 1000, 2, claims_per_object),
+     .with = by_density,
+     .needs = "guards and planes between objects: medians",
+     .without = {.method = "kd", .settings = "growth=1000"},
+     .kind = CLAIM_QUICK},
     {.source = "de Berg, lemma 3.4",
      .says = "k of m cells met are found in O(k log m)",
      .measured = "worst cost / (k log2 m), windows in guard stages of nested, nested-3d",
@@ -243,6 +319,5 @@ const claim claims_berg[] = {
      .of = CLAIMS_PLAN(("nested", "nested-3d"), 2000, 0, cells_met),
      .with = {DEEP},
      .needs = "lowest common ancestors: from cut to cut",
-     .without = {DEEP, .bare = true},
-     .kind = CLAIM_QUICK},
+     .without = {DEEP, .bare = true}},
     {0}};

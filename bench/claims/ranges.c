@@ -82,7 +82,7 @@ static froe_scene *endpoints_of(const froe_scene *scene) {
 typedef double conversion_fn(const conversion *c);
 static double worst_conversion(const claims_way *way, conversion_fn *fn) {
     static const char *const kinds[] = {"disjoint", "parallel", "spiral", "star", "nested", "combs", NULL};
-    enum { SEGMENTS = 2000 };
+    enum { SEGMENTS = 1000 };
     double worst = 0;
     for (const char *const *kind = kinds; *kind; kind++)
         for (const char *const *plan = plans; *plan; plan++) {

@@ -379,6 +379,60 @@ static froe_scene *bars_apart(size_t n, size_t lambda) {
     return taken(3, FROE_BOX, coords, count);
 }
 
+/* Boxes of n sizes, one in each octave along the diagonal. */
+static froe_scene *octaves(size_t n, size_t lambda) {
+    double *coords = bench_take(4 * n, sizeof *coords);
+    (void)lambda;
+    for (size_t i = 0; i < n; i++) {
+        const double s = ldexp(1, -(int)i);
+        PUT(coords + 4 * i, s, s, 1.4 * s, 1.4 * s);
+    }
+    return taken(2, FROE_BOX, coords, n);
+}
+
+/* ------------------------------------------------- curved, and above dimension 3 -- */
+
+/* Balls of a lattice, every second place of a chess board: neighbours across a diagonal do not touch, their boxes do. */
+static froe_scene *chess_balls(int dim, size_t n) {
+    const size_t side = (size_t)ceil(pow(2 * (double)n, 1.0 / dim));
+    double *x = bench_take((size_t)dim * n, sizeof *x), *radii = bench_take(n, sizeof *radii);
+    froe_diagnostic diag = {0};
+    froe_scene *scene = NULL;
+    froe_objects o = froe_objects_defaults();
+    size_t place[FROE_MAX_DIM] = {0}, count = 0;
+    while (count < n && place[dim - 1] < side) {
+        size_t sum = 0;
+        for (int k = 0; k < dim; k++) sum += place[k];
+        if (sum % 2 == 0) {
+            for (int k = 0; k < dim; k++) x[count * (size_t)dim + (size_t)k] = (double)place[k];
+            radii[count++] = 0.69;
+        }
+        place[0]++;
+        for (int k = 0; k + 1 < dim && place[k] == side; k++) place[k] = 0, place[k + 1]++;
+    }
+    o.kind = FROE_BALL, o.count = count, o.coords = x, o.radii = radii;
+    bench_must(froe_scene_new(dim, NULL, &scene), &diag);
+    bench_must(froe_scene_add(scene, &o, &diag), &diag);
+    free(x), free(radii);
+    return scene;
+}
+static froe_scene *chess_balls_2d(size_t n, size_t lambda) {
+    (void)lambda;
+    return chess_balls(2, n);
+}
+static froe_scene *chess_balls_3d(size_t n, size_t lambda) {
+    (void)lambda;
+    return chess_balls(3, n);
+}
+static froe_scene *chess_balls_4d(size_t n, size_t lambda) {
+    (void)lambda;
+    return chess_balls(4, n);
+}
+static froe_scene *chess_balls_5d(size_t n, size_t lambda) {
+    (void)lambda;
+    return chess_balls(5, n);
+}
+
 /* ----------------------------------------------------------------------- all -- */
 
 static const struct {
@@ -405,7 +459,12 @@ static const struct {
               {"rods", rods},
               {"cut rods", cut_rods},
               {"faces", faces},
-              {"bars apart", bars_apart}};
+              {"bars apart", bars_apart},
+              {"octaves", octaves},
+              {"chess balls", chess_balls_2d},
+              {"chess balls 3d", chess_balls_3d},
+              {"chess balls 4d", chess_balls_4d},
+              {"chess balls 5d", chess_balls_5d}};
 
 froe_scene *claims_scene(const char *kind, size_t n, size_t lambda) {
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++)
