@@ -8,8 +8,8 @@
 static const claims_way by_density = {.method = "density"},
                         unguarded = {.method = "density", .settings = "k=1000000000"};
 
-/* A guard stage alone, which is as deep as scenes are nested. */
-#define DEEP .method = "density", .settings = "k=1 stop=0 growth=0 height=0"
+/* Axis-parallel cuts, in a tree as deep as scenes are nested. */
+#define DEEP .method = "quad"
 
 static const claims_plan saddles[] = {
     {.kinds = CLAIMS_KINDS("saddles"), .from = 64, .doublings = 3, .value = claims_pieces},
@@ -312,7 +312,7 @@ const claim claims_berg[] = {
      .kind = CLAIM_QUICK},
     {.source = "de Berg, lemma 3.4",
      .says = "k of m cells met are found in O(k log m)",
-     .measured = "worst cost / (k log2 m), windows in guard stages of nested, nested-3d",
+     .measured = "worst cost / (k log2 m), windows in quadtrees of nested, nested-3d",
      .least = 0,
      .most = 16,
      .measure = claims_most,
