@@ -392,7 +392,7 @@ static froe_scene *octaves(size_t n, size_t lambda) {
 
 /* ------------------------------------------------- curved, and above dimension 3 -- */
 
-/* Balls of a lattice, every second place of a chess board: neighbours across a diagonal do not touch, their boxes do. */
+/* Balls on every second place of a chess board: neighbours across a diagonal do not touch, but their boxes do. */
 static froe_scene *chess_balls(int dim, size_t n) {
     const size_t side = (size_t)ceil(pow(2 * (double)n, 1.0 / dim));
     double *x = bench_take((size_t)dim * n, sizeof *x), *radii = bench_take(n, sizeof *radii);
