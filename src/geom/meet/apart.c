@@ -72,7 +72,6 @@ static bool guess_direction(apart_search *s, double direction[FROE_MAX_DIM]) {
         for (int i = 0; i < gap.count; i++) s->simplex.a[i] = gap.a[i], s->simplex.b[i] = gap.b[i];
         return !gap.zero && geom_gap_guess(&core_a, &core_b, &gap, direction);
     }
-    if (s->context->first == NUM_EXACT) return false;
     const geom_guess guess = geom_guess_between(&s->set_a, &s->set_b);
     double most = 0;
     s->simplex = guess.simplex;
