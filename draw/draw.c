@@ -21,7 +21,7 @@ froe_draw_options froe_draw_defaults(void) {
                                .legend = true,
                                .detail = -1,
                                .axis = -1,
-                               .up = 2,
+                               .up = -1,
                                .explode = 0.5,
                                .explode_depth = 4};
 }
@@ -94,7 +94,7 @@ static froe_status check_options(const froe_draw_options *o, int dim, froe_diagn
                                  {"scale", o->scale, 0.1, 16},
                                  {"detail", o->detail, -HUGE_VAL, 1e6},
                                  {"axis", o->axis, -1, 2},
-                                 {"up", o->up, 0, 2},
+                                 {"up", o->up, -1, 2},
                                  {"at", o->at, -1.7976931348623157e308, 1.7976931348623157e308},
                                  {"explode", o->explode, 0, 10},
                                  {"explode_depth", o->explode_depth, 0, 32}};
@@ -160,7 +160,8 @@ static froe_status make(const froe_tree *tree, froe_draw_format format, const fr
     for (int k = 0; k < dim; k++)
         if (!(o.lo[k] < o.hi[k])) picture.whole = true; /* there is no window */
     if (picture.whole) froe_scene_bounds(froe_tree_scene(tree), lo, hi);
-    picture.space = draw_space_over(dim, o.up, picture.whole ? lo : o.lo, picture.whole ? hi : o.hi);
+    const int up = dim == 3 && o.up < 0 ? froe_scene_up(froe_tree_scene(tree)) : o.up;
+    picture.space = draw_space_over(dim, up, picture.whole ? lo : o.lo, picture.whole ? hi : o.hi);
     for (int k = 0; k < 3; k++)
         picture.wide[k] = picture.whole ? fmax(picture.space.reach[k] + 0.025, 0.125) : picture.space.reach[k];
     status = paint_page(&picture, format, output, diag);

@@ -193,6 +193,23 @@ static froe_status refuse_import(const formats_source *source, formats_sink *sin
                         support_short(source->path));
 }
 
+/* The axis that points up in what assimp hands over. glTF has y up by its specification. From IFC, 3DS, Blender and
+ * Collada assimp turns the model so that y is up. FBX says it. Other formats are mostly of things that stand on the
+ * plane z = 0. */
+static int up_of(const struct aiScene *scene, const char *format) {
+    static const char *const y_up[] = {"glTF", "Industry Foundation Classes", "Discreet 3DS", "Blender", "Collada"};
+    for (size_t i = 0; i < sizeof y_up / sizeof *y_up; ++i)
+        if (!strncmp(format, y_up[i], strlen(y_up[i]))) return 1;
+    for (unsigned i = 0; scene->mMetaData && i < scene->mMetaData->mNumProperties; ++i) {
+        const struct aiMetadataEntry *entry = &scene->mMetaData->mValues[i];
+        int32_t axis;
+        if (strcmp(scene->mMetaData->mKeys[i].data, "UpAxis") != 0 || entry->mType != AI_INT32) continue;
+        memcpy(&axis, entry->mData, sizeof axis);
+        if (axis >= 0 && axis <= 2) return axis;
+    }
+    return 2;
+}
+
 froe_status io_read_assimp(const formats_source *source, formats_sink *sink) {
     froe_status status = formats_sink_open(sink, 3);
     if (!status) status = formats_sink_progress(sink, 0);
@@ -215,6 +232,7 @@ froe_status io_read_assimp(const formats_source *source, formats_sink *sink) {
     char *suffix = strstr(format, " Importer"); /* "glTF2 Importer" becomes "glTF2 (assimp)" */
     if (suffix) *suffix = '\0';
     formats_report_format(sink, "float32", "%s (assimp)", format);
+    formats_sink_up(sink, up_of(scene, format));
     w.linear = !strncmp(sink->report.format, "glTF", 4);
     sink->unit = "face";
     sink->report.layers = 1;

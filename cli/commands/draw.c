@@ -44,7 +44,7 @@ static const cli_option space[] = {
     {"section", 0, CLI_TEXT, offsetof(draw_args, section), "x=VALUE",
      .help = "sections: this one, across x, y or z (default: a sheet of three through the middle)"},
     {"up", 0, CLI_CHOICE, offsetof(draw_args, up), "AXIS",
-     .help = "the axis that points up on the page: x, y (as in glTF) or z (default)", .choices = axes},
+     .help = "the axis that points up on the page: x, y or z (default: as the file says; y in glTF)", .choices = axes},
     {"view", 0, CLI_REALS, offsetof(draw_args, view), "X,Y,Z", .help = "exploded: direction from the scene to the eye"},
     {"explode", 0, CLI_REAL, offsetof(draw_args, explode), "E",
      .help = "exploded: parts move away from the centre by E times their distance from it (default 0.5)"},
@@ -174,12 +174,12 @@ const cli_command cli_command_draw = {
     .examples =
         "froe draw floor.geojson -o floor.svg\n"
         "froe draw floor.geojson -o corner.png --method density --window 0,0,512,512 --show cells,fragments --scale 2\n"
-        "froe draw house.glb -o house.pdf --style exploded --explode 1 --up y\n"
+        "froe draw house.glb -o house.pdf --style exploded --explode 1\n"
         "froe draw house.glb -o cut.svg --section z=1.2\n",
     .parts = parts,
     .defaults = &(const draw_args){.common = CLI_COMMON_DEFAULTS,
                                    .tree = CLI_TREE_DEFAULTS,
-                                   .up = 2,
+                                   .up = -1,
                                    .width = NAN,
                                    .height = NAN,
                                    .margin = NAN,

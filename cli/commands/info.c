@@ -45,9 +45,11 @@ static json_t *info_json(const char *path, const froe_scene *scene, const froe_r
                   (json_int_t)r->linearised, "flattened", (json_int_t)r->flattened, "triangulated",
                   (json_int_t)r->triangulated, "closed", (json_int_t)r->closed, "skipped", (json_int_t)r->skipped,
                   "no_geometry", (json_int_t)r->no_geometry, "seconds", r->seconds);
-    return json_pack("{s:o, s:i, s:I, s:o, s:I, s:I, s:o, s:o, s:o}", "file", cli_name_json(path), "dim",
-                     froe_scene_dim(scene), "objects", (json_int_t)froe_scene_object_count(scene), "kinds", kinds,
-                     "vertices", (json_int_t)froe_scene_vertex_count(scene), "groups",
+    static const char *const axes[] = {"x", "y", "z"};
+    json_t *up = dim == 3 ? json_string(axes[froe_scene_up(scene)]) : NULL;
+    return json_pack("{s:o, s:i, s:o*, s:I, s:o, s:I, s:I, s:o, s:o, s:o}", "file", cli_name_json(path), "dim",
+                     froe_scene_dim(scene), "up", up, "objects", (json_int_t)froe_scene_object_count(scene), "kinds",
+                     kinds, "vertices", (json_int_t)froe_scene_vertex_count(scene), "groups",
                      (json_int_t)froe_scene_group_count(scene), "bounds", bounds, "defects", defects, "reader", reader);
 }
 

@@ -46,7 +46,7 @@ static const cli_option camera[] = {
     {"view", 0, CLI_CHOICE, offsetof(render_args, direction), "FROM",
      .help = "corner (default), iso, dimetric, front, back, left, right, top or bottom", .choices = directions},
     {"up", 0, CLI_CHOICE, offsetof(render_args, up_axis), "AXIS",
-     .help = "the axis that points up: x, y (as in glTF) or z (default)", .choices = axes},
+     .help = "the axis that points up: x, y or z (default: as the file says; y in glTF)", .choices = axes},
     {"eye", 0, CLI_REALS, offsetof(render_args, eye), "X,Y,Z",
      .help = "look from here, at the middle of the scene or the target; nothing is fitted"},
     {"target", 0, CLI_REALS, offsetof(render_args, target), "X,Y,Z", .help = "look at this point"},
@@ -304,15 +304,15 @@ const cli_command cli_command_render = {
     .about = "Finds, exactly, which parts of all faces and edges are visible, and paints whole faces in an order that "
              "shows just these: few shapes, no cracks, nothing sorted by distance. Faces that intersect are cut. The "
              "same tree and options give the same bytes.",
-    .examples = "froe render house.glb -o house.svg --up y\n"
-                "froe render house.glb -o front.pdf --preset technical --view front --up y --size 160x120mm\n"
-                "froe render house.glb -o turn.svg --up y --turntable 36 --animate\n"
-                "froe render house.glb -o glass.svg --up y --opacity 'Glass=0.3'\n"
-                "froe render house.glb -o room.svg --up y --eye 4,1.6,-3 --target 8,1.2,-6 --fov 70\n",
+    .examples = "froe render house.glb -o house.svg\n"
+                "froe render house.glb -o front.pdf --preset technical --view front --size 160x120mm\n"
+                "froe render house.glb -o turn.svg --turntable 36 --animate\n"
+                "froe render house.glb -o glass.svg --opacity 'Glass=0.3'\n"
+                "froe render house.glb -o room.svg --eye 4,1.6,-3 --target 8,1.2,-6 --fov 70\n",
     .parts = parts,
     .defaults = &(const render_args){.common = CLI_COMMON_DEFAULTS,
                                      .tree = CLI_TREE_DEFAULTS,
-                                     .up_axis = 2,
+                                     .up_axis = -1,
                                      .hidden = -1,
                                      .halo = NAN,
                                      .fov = NAN,

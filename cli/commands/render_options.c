@@ -34,7 +34,7 @@ static int set_camera(const render_args *args, const froe_scene *scene, froe_cam
     static const double from[][3] = {{3, -5, 2}, {1, -1, 1}, {0, -1, 0}, {0, 1, 0}, {-1, 0, 0},
                                      {1, 0, 0},  {0, 0, 1},  {0, 0, -1}, {1, -4, 2}};
     const double *d = from[args->direction];
-    const int up = args->up_axis;
+    const int up = args->up_axis < 0 ? froe_scene_up(scene) : args->up_axis;
     double lo[FROE_MAX_DIM] = {0}, hi[FROE_MAX_DIM] = {0};
     froe_scene_bounds(scene, lo, hi);
     for (int k = 0; k < 3; k++) c->up[k] = k == up, c->target[k] = 0;

@@ -236,6 +236,10 @@ froe_status formats_sink_triangle(formats_sink *sink, const double *a, const dou
     return add_to_sink(sink, FROE_POLYGON, corners, 3);
 }
 
+void formats_sink_up(formats_sink *sink, int axis) {
+    (void)froe_scene_set_up(sink->scene, axis); /* it is not frozen yet */
+}
+
 /* The core decides whether it takes the polygon as it is. */
 static froe_status polygon_fits(formats_sink *sink, const double *corners, size_t count, bool *fits) {
     froe_scene *trial;

@@ -48,6 +48,8 @@ void formats_sink_free(formats_sink *sink);
 /** Hands over the last batch, then the scene, which the caller owns from now on. */
 froe_status formats_sink_take(formats_sink *sink, froe_scene **scene);
 
+/** Which axis of space points up, after formats_sink_open(); z if it is not said. */
+void formats_sink_up(formats_sink *sink, int axis);
 /** Begins a feature: ends the one before. */
 froe_status formats_sink_feature(formats_sink *sink, uint64_t number);
 /** Ends the feature (with `boxes`: adds its box). */

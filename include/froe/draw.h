@@ -94,8 +94,8 @@ typedef struct froe_draw_options {
     int axis;                    /**< SECTIONS: 0, 1, 2: the section x, y or z = at; -1 (default): a sheet
                                       of the three sections through the middle */
     double at;                   /**< see axis */
-    int up;                      /**< 3D: the axis that points up on the page, 0, 1 or 2; default 2. With 1, z
-                                      points at the viewer, as in glTF */
+    int up;                      /**< 3D: the axis that points up on the page, 0, 1 or 2; -1 (default): the one
+                                      that points up in the scene. With 1, z points at the viewer, as in glTF */
     double view[3];              /**< EXPLODED: from the scene to the eye, any length; default all 0: from the
                                       front right and above */
     double explode;              /**< EXPLODED: parts move away from the centre by this multiple of their

@@ -41,6 +41,7 @@ froe_status froe_scene_new(int dim, const froe_allocator *caller, froe_scene **o
     if (!s) return FROE_E_MEMORY;
     s->alloc = alloc;
     s->dim = dim;
+    s->up = dim == 3 ? 2 : -1;
     atomic_init(&s->holds, 1);
     for (int k = 0; k < FROE_MAX_DIM; k++) s->lo[k] = INFINITY, s->hi[k] = -INFINITY;
     s->store = support_calloc(&alloc, 1, sizeof *s->store);
@@ -92,6 +93,17 @@ void scene_publish(froe_scene *s) {
 }
 
 /* ----------------------------------------------------------------- reading -- */
+
+froe_status froe_scene_set_up(froe_scene *scene, int axis) {
+    if (!scene || scene->dim != 3 || axis < 0 || axis > 2) return FROE_E_ARG;
+    const froe_status status = scene_growable(scene, NULL);
+    if (!status) scene->up = axis;
+    return status;
+}
+
+int froe_scene_up(const froe_scene *scene) {
+    return scene->up;
+}
 
 int froe_scene_dim(const froe_scene *scene) {
     return scene->dim;

@@ -31,6 +31,7 @@ struct froe_scene {
     void *map; /**< the file they lie in, which goes with the scene; trees that hold it may lie there, too */
     size_t map_size;
     int dim;
+    int up; /**< the axis that points up; -1: not in space */
     uint32_t vertex_count, object_count, group_count, radius_count, corner_count;
     size_t text_size;
     double *coords;

@@ -47,7 +47,7 @@ typedef struct file_header {
     uint32_t version, sections;
     uint64_t size;     /**< of the whole file */
     uint32_t dim;      /**< of the scene */
-    uint32_t unused;   /**< 0 */
+    uint32_t up;       /**< the axis of a scene in space that points up: 0 z, 1 x, 2 y; otherwise 0 */
     uint64_t spare[3]; /**< 0 */
     uint64_t checksum; /**< of the bytes before it, then of the table */
 } file_header;

@@ -83,7 +83,8 @@ static froe_status check_layout(opening *o) {
     o->table = (const file_section *)(const void *)(o->bytes + sizeof *h);
     if (h->checksum != file_checksum(o->table, table, file_checksum(h, offsetof(file_header, checksum), 0)))
         return bad_file(o, "the checksum of its header is wrong");
-    if (h->unused || h->spare[0] || h->spare[1] || h->spare[2]) return bad_file(o, "an unused field is not 0");
+    if (h->up > (h->dim == 3 ? 2 : 0)) return bad_file(o, "the axis that points up is wrong");
+    if (h->spare[0] || h->spare[1] || h->spare[2]) return bad_file(o, "an unused field is not 0");
     if (h->dim < 2 || h->dim > FROE_MAX_DIM) return bad_file(o, "its dimension is wrong");
     const froe_scene none = {.dim = 0};
     const froe_tree empty = {.scene = (froe_scene *)&none};
@@ -124,6 +125,7 @@ static froe_status claim_arrays(opening *o, froe_tree *t) {
     froe_scene *s = &o->scene;
     uint32_t coords, forms, starts, tags, faces, groups, text, count;
     s->dim = (int)o->header->dim;
+    s->up = s->dim == 3 ? (int)(o->header->up + 2) % 3 : -1;
     s->coords = section(o, FILE_COORDS, &coords);
     s->kinds = section(o, FILE_KINDS, &s->object_count);
     s->forms = section(o, FILE_FORMS, &forms);

@@ -51,7 +51,7 @@ static void options_out_of_range_are_refused_by_name(void **state) {
     REFUSED(flat, scale, 0, "scale");
     REFUSED(flat, detail, 0.0 / 0.0, "detail");
     REFUSED(solid, axis, 3, "axis");
-    REFUSED(solid, up, -1, "up");
+    REFUSED(solid, up, -2, "up");
     REFUSED(solid, at, 1.0 / 0.0, "at");
     REFUSED(solid, explode, -0.5, "explode");
     REFUSED(solid, explode_depth, 33, "explode_depth");
