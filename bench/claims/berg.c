@@ -152,7 +152,7 @@ const claim claims_berg[] = {
      .with = by_density,
      .needs = "trials: refinement that is never taken back",
      .without = {.method = "density", .settings = "trials=0"}},
-    {.source = "the same, of points",
+    {.source = "de Berg, theorem 2.5, of points",
      .says = "height O(log n) however they lie",
      .measured = "height / log2 n, 8000 nested points",
      .least = 1,
