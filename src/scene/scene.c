@@ -95,6 +95,7 @@ void scene_publish(froe_scene *s) {
 /* ----------------------------------------------------------------- reading -- */
 
 froe_status froe_scene_set_up(froe_scene *scene, int axis) {
+    BASE_FLOATS_OWN;
     if (!scene || scene->dim != 3 || axis < 0 || axis > 2) return FROE_E_ARG;
     const froe_status status = scene_growable(scene, NULL);
     if (!status) scene->up = axis;

@@ -88,7 +88,8 @@ bool split_separator_ready(const split_set *set, const split_cell *cell, split_s
         if (n > most) most = n;
     }
     separator->corners.count = 0;
-    return array_reserve(&set->alloc, &separator->corners, 2 * (size_t)most);
+    return array_reserve(&set->alloc, &separator->corners, 2 * (size_t)most) &&
+           array_reserve(&set->alloc, &separator->bounds, 2 * (size_t)set->scene->dim * cell->count);
 }
 
 split_verdict split_separate(split_work *work, const split_cell *cell, split_separator *separator, froe_cut *cut) {
@@ -109,26 +110,30 @@ split_verdict split_separate(split_work *work, const split_cell *cell, split_sep
 }
 
 /** On some axis one of them ends where, or before, one begins: as in by_axis(). */
-static bool apart_on_an_axis(const froe_scene *scene, uint32_t a, uint32_t b) {
-    double lo[2][FROE_MAX_DIM], hi[2][FROE_MAX_DIM];
-    scene_object_bounds(scene, a, lo[0], hi[0]);
-    scene_object_bounds(scene, b, lo[1], hi[1]);
-    for (int k = 0; k < scene->dim; k++)
-        if (fmin(hi[0][k], hi[1][k]) <= fmax(lo[0][k], lo[1][k])) return true;
+static bool apart_on_an_axis(int dim, const double *a, const double *b) {
+    for (int k = 0; k < dim; k++)
+        if (fmin(a[dim + k], b[dim + k]) <= fmax(a[k], b[k])) return true;
     return false;
 }
 
 bool split_crowded(split_work *work, const split_cell *cell, split_separator *separator) {
     tree_crowd crowd = tree_crowd_of(cell->count);
+    const int dim = work->set.scene->dim;
+    double *bounds = separator->bounds.data; /* each object is in many pairs */
+    for (uint32_t i = 0; i < cell->count; i++) {
+        double *of = bounds + 2 * (size_t)dim * i;
+        scene_object_bounds(work->set.scene, object_at(work, cell, i), of, of + dim);
+    }
     while (!tree_crowd_known(&crowd) && split_go_on(work)) {
-        uint32_t a = object_at(work, cell, crowd.a), b = object_at(work, cell, crowd.b);
+        const uint32_t a = object_at(work, cell, crowd.a), b = object_at(work, cell, crowd.b);
+        const double *of_a = bounds + 2 * (size_t)dim * crowd.a, *of_b = bounds + 2 * (size_t)dim * crowd.b;
         froe_cut cut;
-        tree_crowd_tell(&crowd,
-                        apart_on_an_axis(work->set.scene, a, b) || split_separate_pair(work, a, b, separator, &cut));
+        tree_crowd_tell(&crowd, apart_on_an_axis(dim, of_a, of_b) || split_separate_pair(work, a, b, separator, &cut));
     }
     return tree_crowd_is(&crowd);
 }
 
 void split_separator_free(const froe_allocator *alloc, split_separator *separator) {
     array_free(alloc, &separator->corners);
+    array_free(alloc, &separator->bounds);
 }

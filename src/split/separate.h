@@ -10,6 +10,7 @@
 typedef struct split_separator {
     double rows[GEOM_APART_NUMBERS], best[GEOM_APART_NUMBERS];
     ARRAY(geom_member) corners;
+    ARRAY(double) bounds; /**< of the objects of a crowd: dim lower, then dim upper ends each */
 } split_separator;
 
 /** A cut with some object of the cell wholly on each side, touching it at most, or one in it; or SPLIT_INSEPARABLE
@@ -24,7 +25,7 @@ typedef struct split_separator {
  * SPLIT_MEMORY, SPLIT_CANCELLED. */
 split_verdict split_separate(split_work *work, const split_cell *cell, split_separator *separator, froe_cut *cut);
 
-/** Room for any pair of the cell. False without memory. */
+/** Room for any pair of the cell, and for its bounds. False without memory. */
 bool split_separator_ready(const split_set *set, const split_cell *cell, split_separator *separator);
 /** A plane between two solids, of the second and third kinds above; none for two boxes. REQUIRES: ready. */
 bool split_separate_pair(split_work *work, uint32_t a, uint32_t b, split_separator *separator, froe_cut *cut);

@@ -204,7 +204,7 @@ static void what_does_not_fit_is_refused(void **state) {
 
 static void scenes_that_do_not_fit_their_file_are_refused(void **state) {
     (void)state;
-    static const char *const pairs[][2] = {{"segments", "a.csv"},  {"segments", "a.obj"}, {"triangles", "a.geojson"},
+    static const char *const pairs[][2] = {{"triangles", "t.csv"}, {"segments", "a.obj"}, {"triangles", "a.geojson"},
                                            {"balls", "a.geojson"}, {"boxes-3d", "a.off"}, {"points", "a.txt"}};
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
         froe_scene *scene = generated(pairs[i][0], 5);
