@@ -318,7 +318,7 @@ static void promise(const void *config) {
     if (growth > 0) build_promise(job, "guard_fragments", 2 * growth * n + books->beyond, (double)books->fragments);
     if (job->root) return; /* then there is no guard stage */
     if (counts_pieces(job->scene)) build_promise(job, "fragments", books->pieces, 0);
-    if (books->height < n) build_promise(job, "height", books->height, 0);
+    if (books->height + books->peels < n) build_promise(job, "height", books->height + books->peels, 0);
     build_promise(job, "tests", d->sums->tests_allowed + d->guard->height * d->sums->carried, d->sums->tests);
 }
 
@@ -363,6 +363,7 @@ static froe_status build_density(build_job *job, froe_tree **out) {
         d.levels = levels_of_guard_stage(job, d.refine.height);
         split_method method = {.config = &d,
                                .choose = choose_density_cut,
+                               .peels_first = true,
                                .finish = finish_density_cell,
                                .in_guard_stage = in_guard_stage,
                                .scratch_new = split_scratch_new,

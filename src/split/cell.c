@@ -145,6 +145,7 @@ static froe_status cut_in_two(split_work *work, const split_cell *parent, const 
                                .count = s ? positive : negative,
                                .corner_top = (uint32_t)work->set.corners.count,
                                .thinned = cell->thinned,
+                               .peels = cell->peels,
                                .guard = FROE_NONE};
     const size_t bytes = set->boxes ? (size_t)set->scene->dim * sizeof *cell->lo : 0;
     for (int s = 0; s < 2; s++) {

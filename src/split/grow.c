@@ -82,10 +82,12 @@ froe_status split_step(const split_method *method, split_work *work, split_cell 
     froe_cut cut = {.kind = FROE_CUT_NONE};
     froe_status status = FROE_OK;
     while (!status) {
-        split_verdict verdict = method->choose(method->config, work, cell, &cut);
+        bool peeled = method->peels_first && cover_peel(&work->set, cell, &cut);
+        split_verdict verdict = peeled ? SPLIT_CUT_ANYWAY : method->choose(method->config, work, cell, &cut);
         if (verdict > SPLIT_CUT_GUARD) return failure_of(verdict);
-        if (verdict < SPLIT_CUT && verdict != SPLIT_LEAF && !method->shaped && cover_peel(&work->set, cell, &cut))
-            verdict = SPLIT_CUT_ANYWAY;
+        if (verdict < SPLIT_CUT && verdict != SPLIT_LEAF && !method->shaped)
+            peeled = cover_peel(&work->set, cell, &cut);
+        if (peeled) verdict = SPLIT_CUT_ANYWAY, cell->peels++;
         if (verdict < SPLIT_CUT) return cell_leaf(work, cell, leaf_flags(verdict));
         const uint8_t guard = verdict == SPLIT_CUT_GUARD ? TREE_GUARD : 0;
         if (verdict > SPLIT_CUT) return divide_cell(method, work, cell, &cut, guard, NULL);
@@ -170,7 +172,9 @@ static froe_status grow_cells(grow *g, split_work *work, bool main_part) {
         const size_t room = g->method->room;
         if (room) memcpy(work->rooms.data, work->rooms.data + room * (work->cells.count + 1), room);
         work->set.corners.count = cell.corner_top;
-        work->deepest = cell.depth > work->deepest && !cell.thinned ? cell.depth : work->deepest;
+        const uint32_t levels = cell.depth - cell.peels;
+        work->books.peels = cell.peels > work->books.peels ? cell.peels : work->books.peels;
+        work->deepest = levels > work->deepest && !cell.thinned ? levels : work->deepest;
         uint32_t load = split_load(&cell);
         bool whole = trial_is_due(g->job, &cell) && !trial_cuts_by_guard(g->job, g->method, &cell);
         if (main_part && !work->first.open && !cell.thin && (load <= g->task_size || whole) && load > TASK_TINY)

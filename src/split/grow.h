@@ -16,6 +16,7 @@
 typedef struct split_cell {
     uint32_t node; /**< ring numbering */
     uint32_t depth;
+    uint32_t peels;         /**< of the cuts above it, those that peel boxes (cover_peel) */
     uint64_t path;          /**< for base_hash() */
     uint32_t first, count;  /**< its fragments: set->items */
     uint32_t covers;        /**< so many before them are covers: boxes that contain the cell (split/cell.h) */
@@ -57,7 +58,8 @@ typedef struct split_books {
     uint64_t fragments; /**< that these cells have, and those cuts */
     double beyond;      /**< the most of them that came after the stage would have ended by itself */
     double pieces;      /**< the most that refinement makes of them */
-    double height;      /**< the most, too */
+    double height;      /**< the most, too, besides cuts that peel boxes */
+    double peels;       /**< the most of these on one path */
 } split_books;
 
 /** What refinement of a cell may take. */
@@ -143,6 +145,8 @@ typedef struct split_method {
     bool (*in_guard_stage)(const void *config, const split_cell *cell);
     /** Do cells have a shape that cuts along boxes that contain all others would spoil (split/cell.h)? */
     bool shaped;
+    /** Are boxes that contain all others peeled before `choose` is asked, or else where it finds nothing? */
+    bool peels_first;
     /** Called once all cells are done, before job->meta is read; may be NULL. */
     void (*note)(const void *config);
     /** Makes and frees a worker's scratch; may be NULL. */

@@ -91,12 +91,15 @@ static void additions(floats_run *r, void *user) {
     const double plane[] = {1, 0x1p-1074, 0x1p-1074, 0.1};
     froe_objects o = froe_objects_defaults();
     froe_defects defects = {.size = sizeof defects};
-    froe_scene *scene;
+    froe_scene *scene, *space;
     froe_tree *section;
     uint32_t group;
     (void)user;
     MUST(r, froe_scene_new(2, &memory, &scene));
     MUST(r, froe_scene_add_group(scene, &(froe_group){.name = "a"}, &group));
+    MUST(r, froe_scene_new(3, &memory, &space));
+    MUST(r, froe_scene_set_up(space, 1));
+    froe_scene_free(space);
     o.kind = FROE_SEGMENT;
     o.count = 3;
     o.coords = x;

@@ -119,7 +119,7 @@ static double most_by_guard(const split_trial *t) {
 
 static bool refinement_exceeds(const split_work *work, const split_trial *t) {
     return pieces_of(work, t) > t->allowed.pieces || (double)(work->tests - t->tested) > t->allowed.tests ||
-           (double)work->deepest - t->cell.depth > t->allowed.levels;
+           (double)work->deepest - (t->cell.depth - t->cell.peels) > t->allowed.levels;
 }
 
 /** Refinement is complete, and stays. */
@@ -148,7 +148,7 @@ froe_status trial_begin(const split_job *job, split_work *work, const split_cell
     t->before.items = cell->first;
     allow(work, t, cell->plain ? final_allowance(job, cell) : allowance_of(job, cell));
     t->tested = work->tests;
-    work->deepest = cell->depth;
+    work->deepest = cell->depth - cell->peels;
     work->carried += split_load(cell);
     return FROE_OK;
 }
@@ -255,6 +255,7 @@ void trial_add_up(split_sums *sums, const split_work *work) {
     sum->pieces += b->pieces;
     sum->beyond += b->beyond;
     sum->height = fmax(sum->height, b->height);
+    sum->peels = fmax(sum->peels, b->peels);
     sums->tests += (double)work->tests;
     sums->tests_allowed += work->tests_allowed;
     sums->carried += (double)work->carried;
