@@ -65,6 +65,14 @@ static bool fit_rooms(const split_method *method, split_work *work) {
     return true;
 }
 
+/** Empties the rooms of the cells that were pushed from number `first` on without being divided here. */
+static froe_status empty_rooms(const split_method *method, split_work *work, size_t first) {
+    if (!method->room || work->cells.count == first) return FROE_OK;
+    if (!fit_rooms(method, work)) return FROE_E_MEMORY;
+    memset(work->rooms.data + method->room * (first + 1), 0, method->room * (work->cells.count - first));
+    return FROE_OK;
+}
+
 /** Cuts the cell and fills the rooms of its children. */
 static froe_status divide_cell(const split_method *method, split_work *work, const split_cell *cell,
                                const froe_cut *cut, uint8_t flags, cell_limits *limits) {
@@ -112,7 +120,9 @@ static froe_status refine_cell(grow *g, split_work *work, split_cell *cell) {
     froe_status status = cell_take(work, g->job->lowest, cell, cell->wholes);
     bool done = false;
     if (!status) status = cover_find(&work->set, cell);
+    const size_t pending = work->cells.count;
     if (g->method->finish && !status && !cell->covers) status = g->method->finish(g->method->config, work, cell, &done);
+    if (done && !status) status = empty_rooms(g->method, work, pending);
     return status || done ? status : split_step(g->method, work, cell);
 }
 
