@@ -5,7 +5,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const claims_way by_rooms = {.method = "directional"}, by_medians = {.method = "kd", .settings = "growth=1000"};
+#define BY_ROOMS                                                                                                       \
+    { .method = "directional" }
+#define BY_MEDIANS                                                                                                     \
+    { .method = "kd", .settings = "growth=1000" }
 
 static const claims_plan bars[] = {
     {.kinds = CLAIMS_KINDS("bars"), .from = 192, .doublings = 4, .value = claims_pieces},
@@ -50,9 +53,9 @@ const claim claims_boxes[] = {
      .most = 2.4,
      .measure = claims_most,
      .of = CLAIMS_PLAN(("bricks", "sticks", "towers", "slabs", "plates", "moons"), 1000, 4, claims_per_object),
-     .with = by_rooms,
+     .with = BY_ROOMS,
      .needs = "rooms: medians",
-     .without = by_medians},
+     .without = BY_MEDIANS},
     {.source = "Tobola and Nechvile, section 5",
      .says = "linear size of boxes one in the other, too",
      .measured = "(nodes + pieces) / n, the most of shells, n = 100 to 6400",
@@ -60,7 +63,7 @@ const claim claims_boxes[] = {
      .most = 14,
      .measure = claims_most,
      .of = CLAIMS_PLAN(("shells"), 100, 6, size_per_box),
-     .with = by_rooms,
+     .with = BY_ROOMS,
      .needs = "covers: they are listed in all leaves below",
      .without = {.method = "directional", .bare = true}},
     {.source = "Tobola and Nechvile, lemma 3.4",
@@ -70,9 +73,9 @@ const claim claims_boxes[] = {
      .most = 1.1,
      .measure = claims_growth,
      .of = CLAIMS_PLAN(("faces"), 96, 3, claims_pieces),
-     .with = by_rooms,
+     .with = BY_ROOMS,
      .needs = "rooms: medians",
-     .without = by_medians},
+     .without = BY_MEDIANS},
     {.source = "Tobola and Nechvile, lemma 3.1",
      .says = "simple directional density is too little: no linear partition",
      .measured = "exponent of pieces in n, rods",
@@ -80,7 +83,7 @@ const claim claims_boxes[] = {
      .most = 1.65,
      .measure = claims_of_two,
      .of = &rods,
-     .with = by_rooms,
+     .with = BY_ROOMS,
      .needs = "rods: they are cut to pieces one step long",
      .without = {.method = "directional", .bare = true},
      .kind = CLAIM_QUICK},
@@ -91,7 +94,7 @@ const claim claims_boxes[] = {
      .most = 4,
      .measure = claims_most,
      .of = CLAIMS_PLAN(("rods"), 768, 2, simple_density),
-     .with = by_rooms,
+     .with = BY_ROOMS,
      .needs = "simple: extended",
      .without = {.method = "directional", .bare = true}},
     {.source = "Tobola and Nechvile, introduction (Paterson and Yao)",
@@ -101,7 +104,7 @@ const claim claims_boxes[] = {
      .most = 1.65,
      .measure = claims_of_two,
      .of = &bars,
-     .with = by_rooms,
+     .with = BY_ROOMS,
      .needs = "bars that reach through one another: the three directions are moved apart",
      .without = {.method = "directional", .bare = true},
      .kind = CLAIM_QUICK},
@@ -112,7 +115,7 @@ const claim claims_boxes[] = {
      .most = 0.15,
      .measure = claims_time,
      .of = CLAIMS_PLAN(("sticks", "rows", "faces"), 768, 3, n_log2_n),
-     .with = by_rooms,
+     .with = BY_ROOMS,
      .needs = "trees that pay for the smaller side",
      .without = {.method = "directional", .settings = "structure=sweep"},
      .kind = CLAIM_TIMED},
@@ -147,7 +150,7 @@ const claim claims_boxes[] = {
      .of = CLAIMS_PLAN(("cells", "walls", "rows"), 1000, 4, claims_pieces),
      .with = {.method = "paterson_yao"},
      .needs = "cuts that divide nothing: medians",
-     .without = by_medians,
+     .without = BY_MEDIANS,
      .kind = CLAIM_QUICK},
     {.source = "Paterson and Yao 1992",
      .says = "n^1.5 in space, where it must be",

@@ -3,7 +3,10 @@
 #include "claims.h"
 #include <math.h>
 
-static const claims_way in_random_order = {.method = "cylindrical"}, in_order = {.method = "sorted cylinders"};
+#define IN_RANDOM_ORDER                                                                                                \
+    { .method = "cylindrical" }
+#define IN_ORDER                                                                                                       \
+    { .method = "sorted cylinders" }
 
 /* ----------------------------------------------------------------- crossings -- */
 
@@ -66,9 +69,9 @@ const claim claims_cylinders[] = {
      .most = 0.05,
      .measure = claims_growth,
      .of = CLAIMS_PLAN(("disjoint", "rungs"), 64, 4, nodes_per_n_log_n, .cuts = true),
-     .with = in_random_order,
+     .with = IN_RANDOM_ORDER,
      .needs = "random order",
-     .without = in_order},
+     .without = IN_ORDER},
     {.source = "Agarwal et al., theorem 2.3",
      .says = "O(n log n + k) nodes with k crossings",
      .measured = "exponent of nodes / (n log n + k) in n; worst of slats, segments, crossed rungs",
@@ -76,9 +79,9 @@ const claim claims_cylinders[] = {
      .most = 0.1,
      .measure = claims_growth,
      .of = CLAIMS_PLAN(("slats", "segments", "crossed rungs"), 64, 3, nodes_per_n_log_n_and_k, .cuts = true),
-     .with = in_random_order,
+     .with = IN_RANDOM_ORDER,
      .needs = "random order",
-     .without = in_order},
+     .without = IN_ORDER},
     {.source = "Agarwal et al., theorem 2.3",
      .says = "height O(log n)",
      .measured = "height / log2 n, the most of disjoint, rungs, crossed rungs, n = 128 to 1024",
@@ -86,9 +89,9 @@ const claim claims_cylinders[] = {
      .most = 6,
      .measure = claims_most,
      .of = CLAIMS_PLAN(("disjoint", "rungs", "crossed rungs"), 128, 3, claims_high, .cuts = true),
-     .with = in_random_order,
+     .with = IN_RANDOM_ORDER,
      .needs = "random order",
-     .without = in_order},
+     .without = IN_ORDER},
     {.source = "Agarwal et al., theorem 2.3",
      .says = "O(n log^2 n + k log n) expected time",
      .measured = "exponent of time / (n log^2 n + k log n) in n; worse of disjoint, crossed rungs",
@@ -96,9 +99,9 @@ const claim claims_cylinders[] = {
      .most = 0.3,
      .measure = claims_time,
      .of = CLAIMS_PLAN(("disjoint", "crossed rungs"), 128, 3, n_log2_n_and_k_log_n, .cuts = true),
-     .with = in_random_order,
+     .with = IN_RANDOM_ORDER,
      .needs = "random order",
-     .without = in_order,
+     .without = IN_ORDER,
      .kind = CLAIM_TIMED},
     {.source = "Agarwal et al., theorem 2.5",
      .says = "O(n log^2 n + k) nodes of triangles in space",
@@ -107,9 +110,9 @@ const claim claims_cylinders[] = {
      .most = 0.05,
      .measure = claims_growth,
      .of = CLAIMS_PLAN(("terrain", "roofs"), 16, 3, nodes_per_n_log2_n_and_k, .cuts = true),
-     .with = in_random_order,
+     .with = IN_RANDOM_ORDER,
      .needs = "random order",
-     .without = in_order},
+     .without = IN_ORDER},
     {.source = "Agarwal et al., theorem 2.5",
      .says = "the same with k crossings of projected edges",
      .measured = "exponent of nodes / (n log^2 n + k) in n; worst of turned roofs (k ~ n), disjoint-3d, slats above "
@@ -118,9 +121,9 @@ const claim claims_cylinders[] = {
      .most = 0.15,
      .measure = claims_growth,
      .of = CLAIMS_PLAN(("turned roofs", "disjoint-3d", "saddles apart"), 16, 3, nodes_per_n_log2_n_and_k, .cuts = true),
-     .with = in_random_order,
+     .with = IN_RANDOM_ORDER,
      .needs = "random order",
-     .without = in_order},
+     .without = IN_ORDER},
     {.source = "Agarwal et al., theorem 2.5",
      .says = "height O(log n) in space",
      .measured = "height / log2 n, the most of terrain, roofs, turned roofs, n = 16 to 128",
@@ -128,9 +131,9 @@ const claim claims_cylinders[] = {
      .most = 12,
      .measure = claims_most,
      .of = CLAIMS_PLAN(("terrain", "roofs", "turned roofs"), 16, 3, claims_high, .cuts = true),
-     .with = in_random_order,
+     .with = IN_RANDOM_ORDER,
      .needs = "random order",
-     .without = in_order},
+     .without = IN_ORDER},
     {.source = "Paterson and Yao 1990",
      .says = "O(n log n) pieces of disjoint segments",
      .measured = "exponent of pieces / (n log n) in n; worst of parallel, disjoint, combs",

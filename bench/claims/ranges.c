@@ -4,7 +4,8 @@
 #include <stdio.h>
 #include <string.h>
 
-static const claims_way by_bar = {.method = "bar"};
+#define BY_BAR                                                                                                         \
+    { .method = "bar" }
 
 /* ------------------------------------------------------- approximate windows -- */
 
@@ -180,7 +181,7 @@ const claim claims_ranges[] = {
      .most = 8,
      .measure = claims_most,
      .of = CLAIMS_PLAN(("points", "columns"), 4000, 3, points_cost),
-     .with = by_bar,
+     .with = BY_BAR,
      .needs = "fat cells: medians of the axes in turn",
      .without = {.method = "kd", .settings = "axes=cycle"}},
     {.source = "de Berg and Streppel, corollary 2",
@@ -200,7 +201,7 @@ const claim claims_ranges[] = {
      .most = 6,
      .measure = claims_most,
      .of = CLAIMS_PLAN(("nested points"), 8000, 0, claims_high),
-     .with = by_bar,
+     .with = BY_BAR,
      .needs = "cuts across corners: cubes are halved",
      .without = {.method = "quad"},
      .kind = CLAIM_QUICK},
@@ -211,7 +212,7 @@ const claim claims_ranges[] = {
      .most = 6,
      .measure = claims_most,
      .of = CLAIMS_PLAN(("nested points in R^4", "nested points in R^8"), 8000, 0, claims_high),
-     .with = by_bar,
+     .with = BY_BAR,
      .needs = "oblique cuts: cubes are halved",
      .without = {.method = "bar", .settings = "directions=0"},
      .kind = CLAIM_QUICK},
@@ -222,7 +223,7 @@ const claim claims_ranges[] = {
      .most = 29,
      .measure = claims_most,
      .of = CLAIMS_PLAN(("nested points in R^4", "nested points in R^8"), 1000, 0, largest_aspect),
-     .with = by_bar,
+     .with = BY_BAR,
      .needs = "cuts that leave both parts fat: the bound is 4000",
      .without = {.method = "bar", .settings = "aspect=4000"},
      .kind = CLAIM_QUICK},
@@ -233,7 +234,7 @@ const claim claims_ranges[] = {
      .most = 4,
      .measure = claims_most,
      .of = CLAIMS_PLAN(("scatter", "cuboids", "nested", "nested-3d"), 1000, 2, claims_high),
-     .with = by_bar,
+     .with = BY_BAR,
      .needs = "cuts across corners: cubes are halved",
      .without = {.method = "quad"}},
     {.source = "de Berg and Streppel, theorem 3 (ii)",
@@ -243,7 +244,7 @@ const claim claims_ranges[] = {
      .most = 1.1,
      .measure = claims_growth,
      .of = CLAIMS_PLAN(("scatter", "rooms", "cuboids", "combs"), 1000, 3, claims_size, .lambda = 16),
-     .with = by_bar,
+     .with = BY_BAR,
      .needs = "guards: cuts along the objects in any order",
      .without = {.method = "sorted"}},
     {.source = "de Berg and Streppel, theorem 3 (ii)",
@@ -254,7 +255,7 @@ const claim claims_ranges[] = {
      .most = 1.1,
      .measure = claims_by_lambda,
      .of = CLAIMS_PLAN(("cards", "saddles"), 1024, 3, claims_size, .lambda = 16),
-     .with = by_bar,
+     .with = BY_BAR,
      .needs = "guards: cuts along the objects in any order",
      .without = {.method = "sorted"}},
     {.source = "de Berg and Streppel, theorem 3 (iii)",
@@ -264,7 +265,7 @@ const claim claims_ranges[] = {
      .most = 5,
      .measure = claims_most,
      .of = CLAIMS_PLAN(("scatter", "twigs", "combs"), 4000, 2, objects_cost, .lambda = 4),
-     .with = by_bar,
+     .with = BY_BAR,
      .needs = "fat cells: medians of the axes in turn",
      .without = {.method = "kd", .settings = "axes=cycle"}},
     {.source = "de Berg and Streppel, theorem 3 (iii)",
@@ -274,7 +275,7 @@ const claim claims_ranges[] = {
      .most = 5,
      .measure = claims_most,
      .of = CLAIMS_PLAN(("triangles", "petals", "cards"), 4000, 2, objects_cost, .lambda = 4),
-     .with = by_bar,
+     .with = BY_BAR,
      .needs = "fat cells: medians of the axes in turn",
      .without = {.method = "kd", .settings = "axes=cycle"}},
     {0}};
