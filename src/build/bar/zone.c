@@ -5,11 +5,9 @@
 #include <math.h>
 
 /* e_i - e_j for i < j, by rows (i, j) in order. */
+#define AT(i, j, k) (((i) == (k)) - ((j) == (k)))
 #define ROW(i, j)                                                                                                      \
-    {                                                                                                                  \
-        (i == 0) - (j == 0), (i == 1) - (j == 1), (i == 2) - (j == 2), (i == 3) - (j == 3), (i == 4) - (j == 4),       \
-            (i == 5) - (j == 5), (i == 6) - (j == 6), (i == 7) - (j == 7)                                              \
-    }
+    { AT(i, j, 0), AT(i, j, 1), AT(i, j, 2), AT(i, j, 3), AT(i, j, 4), AT(i, j, 5), AT(i, j, 6), AT(i, j, 7) }
 static const double differences[FROE_MAX_DIM][FROE_MAX_DIM][FROE_MAX_DIM] = {
     {[1] = ROW(0, 1), ROW(0, 2), ROW(0, 3), ROW(0, 4), ROW(0, 5), ROW(0, 6), ROW(0, 7)},
     {[2] = ROW(1, 2), ROW(1, 3), ROW(1, 4), ROW(1, 5), ROW(1, 6), ROW(1, 7)},
@@ -72,8 +70,9 @@ double zone_shape_widest_below(const zone_shape *s, int i, int j, double value) 
 
 /* -------------------------------------------------------------------- cuts -- */
 
-froe_cut zone_shape_cut(const zone_shape *s, int i, int j, double value) {
-    if (i > j) return zone_shape_cut(s, j, i, -value);
+froe_cut zone_shape_cut(const zone_shape *s, int from, int to, double given) {
+    const int i = from < to ? from : to, j = from < to ? to : from;
+    const double value = from < to ? given : -given;
     const num_pair at = num_pair_sum(s->origin[i], j < s->dim ? -s->origin[j] : 0);
     const double global = num_pair_add(at, (num_pair){value, 0}).hi + 0.0;
     if (j == s->dim) return (froe_cut){.kind = FROE_CUT_AXIS, .axis = i, .value = global};
