@@ -183,7 +183,7 @@ typedef struct froe_group {
 } froe_group;
 FROE_API froe_status froe_scene_add_group(froe_scene *scene, const froe_group *group, uint32_t *id);
 
-/** The axis of a scene in space that points up, in pictures and for whoever asks: 0, 1 or 2. Readers set it by the
+/** The axis of a scene in space that points up in pictures: 0, 1 or 2. Readers set it by the
  * format; a new scene has 2, z. FROE_E_ARG: not such an axis, or not in space; FROE_E_FROZEN: a tree holds the
  * scene. */
 FROE_API froe_status froe_scene_set_up(froe_scene *scene, int axis);

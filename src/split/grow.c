@@ -93,7 +93,7 @@ froe_status split_step(const split_method *method, split_work *work, split_cell 
         bool peeled = method->peels_first && cover_peel(&work->set, cell, &cut);
         split_verdict verdict = peeled ? SPLIT_CUT_ANYWAY : method->choose(method->config, work, cell, &cut);
         if (verdict > SPLIT_CUT_GUARD) return failure_of(verdict);
-        if (verdict < SPLIT_CUT && verdict != SPLIT_LEAF && !method->shaped)
+        if (verdict < SPLIT_CUT && verdict != SPLIT_LEAF && !method->shaped && !method->peels_first)
             peeled = cover_peel(&work->set, cell, &cut);
         if (peeled) verdict = SPLIT_CUT_ANYWAY, cell->peels++;
         if (verdict < SPLIT_CUT) return cell_leaf(work, cell, leaf_flags(verdict));
