@@ -50,32 +50,40 @@ static int open_saved(const cli_tree_args *args, froe_tree **tree) {
     return status ? cli_fail_status(CLI_READING, args->scene.path, status, &diag) : 0;
 }
 
+int cli_build_tree(const cli_common *common, const char *path, uint64_t max_fragments, froe_scene *scene,
+                   froe_build_options *o, froe_tree **tree) {
+    froe_diagnostic diag;
+    cli_progress bar = cli_progress_begin(common, "building");
+    o->seed = common->seed;
+    o->max_fragments = cli_budget(max_fragments, scene);
+    o->threads = (unsigned)common->threads;
+    o->progress = cli_progress_step;
+    o->user = &bar;
+    const froe_status status = froe_build(scene, o, tree, &diag);
+    cli_progress_end(&bar);
+    return status ? cli_fail_build(path, max_fragments, scene, status, &diag) : 0;
+}
+
+int cli_save_tree(const froe_tree *tree, const char *path) {
+    froe_diagnostic diag;
+    const froe_status status = froe_tree_save(tree, path, &diag);
+    return status ? cli_fail_status(CLI_WRITING, path, status, &diag) : 0;
+}
+
 int cli_open_tree(const cli_common *common, const cli_tree_args *args, const char *purpose, froe_tree **tree) {
     froe_scene *scene;
     froe_read_report reader;
-    froe_diagnostic diag;
     if (is_tree(args->scene.path)) return open_saved(args, tree);
     int code = args->method ? cli_check_method(args->method, true) : 0;
     if (!code) code = cli_read_scene(common, &args->scene, &scene, &reader);
     if (code) return code;
-    cli_progress bar = cli_progress_begin(common, "building");
     froe_build_options o = froe_build_defaults();
     if (args->method) o.method = args->method;
     o.purpose = purpose;
-    o.seed = common->seed;
-    o.max_fragments = cli_budget(args->max_fragments, scene);
-    o.threads = (unsigned)common->threads;
-    o.progress = cli_progress_step;
-    o.user = &bar;
-    froe_status status = froe_build(scene, &o, tree, &diag);
-    cli_progress_end(&bar);
-    if (status) code = cli_fail_build(args->scene.path, args->max_fragments, scene, status, &diag);
+    code = cli_build_tree(common, args->scene.path, args->max_fragments, scene, &o, tree);
     froe_scene_free(scene); /* the tree holds it */
     if (code || !args->save) return code;
-    status = froe_tree_save(*tree, args->save, &diag);
-    if (status) {
-        code = cli_fail_status(CLI_WRITING, args->save, status, &diag);
-        froe_tree_free(*tree);
-    }
+    code = cli_save_tree(*tree, args->save);
+    if (code) froe_tree_free(*tree);
     return code;
 }

@@ -23,6 +23,12 @@ extern const cli_option cli_tree_build_options[];
         "Building its tree", cli_tree_build_options, offsetof(T, tree)                                                 \
     }
 
+/** Builds the tree of a scene that was read from `path`, with a progress bar, and the seed, the threads and the budget
+ * of the command line. What else is wanted stands in `o`. Returns 0, or an exit code after saying why. */
+int cli_build_tree(const cli_common *common, const char *path, uint64_t max_fragments, froe_scene *scene,
+                   froe_build_options *o, froe_tree **tree);
+/** Saves it. Returns 0, or an exit code after saying why. */
+int cli_save_tree(const froe_tree *tree, const char *path);
 /** Opens a saved tree, or reads a scene and builds a tree for `purpose` (one of froe_build_options), with progress
  * bars, and saves it where --save-tree says. Returns 0, or an exit code after saying why. */
 int cli_open_tree(const cli_common *common, const cli_tree_args *args, const char *purpose, froe_tree **tree);

@@ -2,11 +2,10 @@
 #include "args/budget.h"
 #include "args/method.h"
 #include "args/order.h"
-#include "args/scene.h"
+#include "args/tree.h"
 #include "command.h"
 #include "exit.h"
 #include "files.h"
-#include "progress.h"
 #include "report/tree_report.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -64,7 +63,6 @@ static int build(const build_args *args, froe_scene *scene, froe_tree **tree) {
     char *settings = malloc(size);
     if (settings) {
         snprintf(settings, size, "%s %s", given, more);
-        cli_progress bar = cli_progress_begin(&args->common, "building");
         froe_build_options o = froe_build_defaults();
         o.method = args->method;
         o.purpose = purposes[args->purpose];
@@ -72,15 +70,7 @@ static int build(const build_args *args, froe_scene *scene, froe_tree **tree) {
         o.order = order.ids;
         o.order_count = order.count;
         o.leaf = (uint32_t)args->leaf;
-        o.seed = args->common.seed;
-        o.max_fragments = cli_budget(args->max_fragments, scene);
-        o.threads = (unsigned)args->common.threads;
-        o.progress = cli_progress_step;
-        o.user = &bar;
-        froe_diagnostic diag;
-        const froe_status status = froe_build(scene, &o, tree, &diag);
-        cli_progress_end(&bar);
-        if (status) code = cli_fail_build(args->scene.path, args->max_fragments, scene, status, &diag);
+        code = cli_build_tree(&args->common, args->scene.path, args->max_fragments, scene, &o, tree);
     } else {
         code = cli_fail_memory();
     }
@@ -101,11 +91,7 @@ static int run_build(const void *given) {
     const double start = cli_seconds();
     code = build(args, scene, &tree);
     const cli_build_seconds seconds = {.read = reader.seconds, .build = cli_seconds() - start};
-    if (!code && args->output) {
-        froe_diagnostic diag;
-        const froe_status status = froe_tree_save(tree, args->output, &diag);
-        if (status) code = cli_fail_status(CLI_WRITING, args->output, status, &diag);
-    }
+    if (!code && args->output) code = cli_save_tree(tree, args->output);
     if (!code) code = cli_report_build(&args->common, args->scene.path, args->output, tree, seconds);
     froe_tree_free(tree);
     froe_scene_free(scene);
