@@ -81,7 +81,7 @@ bare: deps-bare ## README.md word for word on a bare Debian 12, made for it and 
 docs: build ## tables, outputs and the picture in the documents, as they come out now
 	@scripts/file-table --write
 	@cmake --install $(BUILD) --prefix $(BUILD)/stage >/dev/null
-	@scripts/check-docs --accept $(BUILD)/stage *.md docs/*.md docs/*/*.md
+	@scripts/check-docs --accept $(BUILD)/stage *.md docs/*.md docs/*/*.md docs/*/*/*.md
 	@$(BUILD)/bin/froe build data/freedoom-e1m1.geojson -o $(BUILD)/floor.froe --quiet
 	@$(BUILD)/bin/froe draw $(BUILD)/floor.froe -o docs/pictures/floor-plan.png --no-legend --quiet
 	@$(BUILD)/bin/froe generate mixed -n 14 --seed 4 -o $(BUILD)/trapezoids.geojson --quiet

@@ -8,7 +8,7 @@ pkg_check_modules(GMP REQUIRED IMPORTED_TARGET GLOBAL gmp)
 
 # A limit is ten times what a test takes on two cores, so that a busy machine fails none: seconds, up to ten where
 # nothing is said. Sanitizers, counters of lines and unoptimised code take longer by a factor.
-set(takes cli/build 20 cli/deep 15 cli/demo 20 cli/faults 15 cli/generate 15 cli/memory 20 cli/render 20 docs/docs-render 30
+set(takes cli/build 20 cli/deep 15 cli/demo 20 cli/faults 15 cli/generate 15 cli/memory 20 cli/render 20 docs/docs-reference-render 30
           kinetic/live-ordinary 15 kinetic/live-augmented 15 query/range_eps-at_the_limits_they_keep_it_too 20)
 set(slower 1)
 if(FROE_SANITIZE OR FROE_COVERAGE OR CMAKE_BUILD_TYPE STREQUAL "Debug")
@@ -191,7 +191,7 @@ if(FROE_LOCALIZE)
   froe_test(project install ${scripts}/check-install ${stage})
   set_tests_properties(project/install PROPERTIES FIXTURES_REQUIRED stage ENVIRONMENT CC=${CMAKE_C_COMPILER})
   if(FROE_HAS_CLI)
-    file(GLOB documents CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} *.md docs/*.md docs/*/*.md)
+    file(GLOB documents CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} *.md docs/*.md docs/*/*.md docs/*/*/*.md)
     foreach(document ${documents})
       string(REGEX REPLACE "\\.md$" "" name ${document})
       string(REPLACE / - name ${name})

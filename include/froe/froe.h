@@ -52,7 +52,7 @@ extern "C" {
 
 /* ------------------------------------------------------------------ status -- */
 
-/** The outcome of a call. Numbers never change meaning; docs/errors.md says for
+/** The outcome of a call. Numbers never change meaning; docs/reference/errors.md says for
  * each what to do about it. */
 typedef enum froe_status {
     FROE_OK = 0,

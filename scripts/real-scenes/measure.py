@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""measure.py [FOLDER]: measures the scenes of data/ and those that `get` fetched into FOLDER (build/real-scenes), and writes
-the tables of docs/real-scenes.md between its marks, and docs/real-scenes.csv, which bench_plot draws. FROE names the
-program (build/bin/froe).
+"""measure.py [FOLDER]: measures the scenes of data/ and those that `get` fetched into FOLDER (build/real-scenes), and
+writes the tables of docs/evidence/real-scenes.md between its marks, and docs/evidence/real-scenes.csv, which bench_plot
+draws. FROE names the program (build/bin/froe).
 """
 import json
 import math
@@ -142,8 +142,8 @@ def main():
                  not (without and without in key) and (not within or within in key)]
         if len(found) > 2:
             growth.append(series_row(name, found))
-    (ROOT / "docs/real-scenes.csv").write_text("\n".join(lines) + "\n")
-    document = ROOT / "docs/real-scenes.md"
+    (ROOT / "docs/evidence/real-scenes.csv").write_text("\n".join(lines) + "\n")
+    document = ROOT / "docs/evidence/real-scenes.md"
     page = put(document.read_text(), "scenes", "\n".join(table))
     document.write_text(put(page, "growth", "\n".join(growth)))
 

@@ -72,7 +72,7 @@ static bool suits_grain(const froe_scene *scene, uint32_t kinds) {
 
 /** What "auto" stands for: it serves every dimension and kind. Index answers queries several times faster, where it
  * serves. Directional has the fewest pieces of boxes, and is no slower. In space, density and one picture together take
- * a third to two thirds of the time that grain and the same picture take. (docs/compare.md measures this choice.) */
+ * a third to two thirds of the time that grain and the same picture take. (See docs/reference/compare.md.) */
 const char *froe_method_auto(const froe_scene *scene, const char *purpose) {
     const bool query = purpose && !strcmp(purpose, "query");
     const bool known = !purpose || query || !strcmp(purpose, "pieces") || !strcmp(purpose, "draw");

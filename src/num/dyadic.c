@@ -1,6 +1,6 @@
 /* dyadic.c: schoolbook arithmetic on 64-bit limbs whose exponent is a multiple of
  * 64, so that nothing is ever shifted. At predicate sizes (2 to 300 limbs) this
- * runs as fast as GMP; see docs/numerics.md. */
+ * runs as fast as GMP; see docs/explanation/numerics.md. */
 #include "num/dyadic.h"
 #include <assert.h>
 #include <string.h>

@@ -99,7 +99,7 @@ typedef struct lines {
     size_t count, room;
 } lines;
 
-/* As docs/render.md has it: a visible line before a hidden one (0), then the wider, then the first of its width. */
+/* By docs/reference/render.md: a visible line before a hidden one (0), then the wider, then the first of its width. */
 static int strength_of(uint32_t kind) {
     return kind == FROE_LINE_SECTION      ? 8
            : kind == FROE_LINE_BORDER     ? 7
