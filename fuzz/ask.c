@@ -114,6 +114,14 @@ static void ask_point(const asking *a, const double *x) {
     if (froe_query_near(a->q, x, what % 7 ? what % 7 : SIZE_MAX, bound, &near, NULL) == FROE_OK)
         for (size_t i = 1; i < near.count; i++)
             expect(a, near.items[i].distance >= near.items[i - 1].distance, "order of neighbours");
+    if (froe_query_near(a->q, x, 1, INFINITY, &near, NULL) == FROE_OK && near.count) {
+        const froe_neighbour first = near.items[0];
+        double at[FROE_MAX_DIM];
+        bool same = true;
+        expect(a, froe_query_nearest_point(a->q, first.object, x, at, NULL) == FROE_OK, "nearest point");
+        for (int k = 0; k < a->dim && a->right; k++) same = same && at[k] == x[k];
+        expect(a, first.distance != 0 || same, "nearest point of an object around it");
+    }
 }
 
 static void ask_ray(const asking *a, const double *origin, const double *direction) {
@@ -130,6 +138,10 @@ static void ask_ray(const asking *a, const double *origin, const double *directi
     }
     if (froe_query_ray_any(a->q, origin, direction, end, &any, NULL) == FROE_OK)
         expect(a, (any == FROE_NONE) == (first.object == FROE_NONE), "any hit");
+    froe_hit_place place;
+    if (first.object != FROE_NONE)
+        expect(a, froe_query_hit_place(a->q, first.object, origin, direction, &place, NULL) == FROE_OK,
+               "place of a hit");
 }
 
 static bool see_pair(void *user, const froe_pair *pair) {

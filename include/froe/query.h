@@ -185,6 +185,32 @@ typedef struct froe_neighbours {
 FROE_API froe_status froe_query_near(froe_query *query, const double *point, size_t k, double bound,
                                      froe_neighbours *out, froe_diagnostic *diag);
 
+/* ------------------------------------------------------------------- where -- */
+
+/** The point of an object that is nearest to a point: dim doubles, each the one nearest to the exact coordinate, ties
+ * to even. If the point lies in the object, it is the point itself. Objects are convex, so that there is one such point
+ * alone. FROE_E_ARG: there is no such object. FROE_E_INPUT: a coordinate is not finite. A few microseconds up to
+ * dimension 3. */
+FROE_API froe_status froe_query_nearest_point(froe_query *query, uint32_t object, const double *point, double *nearest,
+                                              froe_diagnostic *diag);
+
+/** What lies where a ray meets an object first. Every number is the double nearest to the exact one, ties to even.
+ * Coordinates from dim on are 0. */
+typedef struct froe_hit_place {
+    double point[FROE_MAX_DIM];  /**< origin + t * direction, of the exact t */
+    double normal[FROE_MAX_DIM]; /**< of length 1, or all 0 where there is none */
+    double distance;             /**< of the point from the origin */
+} froe_hit_place;
+/** Where a ray meets an object first, as froe_query_ray() finds it. Normals are the object's own, whichever way the ray
+ * goes: of a polygon the one that sees its corners turn left; of a segment of the plane the one to its left; of a
+ * box, a ball or a hull the outward one of the face that is entered, of several faces one of them. There is none where
+ * the ray begins in a box, a ball or a hull; of points, of segments in space, of hulls that the ray meets in an edge or
+ * a corner of their shadow, and of segments and hulls above dimension 3. FROE_E_ARG: there is no such object.
+ * FROE_E_INPUT: a coordinate is not finite, the direction is 0, or the ray does not meet the object. A few
+ * microseconds up to dimension 3. */
+FROE_API froe_status froe_query_hit_place(froe_query *query, uint32_t object, const double *origin,
+                                          const double *direction, froe_hit_place *out, froe_diagnostic *diag);
+
 /* ------------------------------------------------------------------- pairs -- */
 
 /** How two objects meet. */

@@ -96,3 +96,22 @@ double num_nearest(num_arena *arena, num_compare_fn *compare, void *user, double
     int beyond = beyond_half(&s, low);
     return double_of(beyond > 0 || (beyond == 0 && (low & 1)) ? low + 1 : low);
 }
+
+/* Sign of a surd >= 0 minus x. */
+static int surd_against(void *user, num_arena *arena, num_dyadic x) {
+    const num_surd *a = user;
+    return num_root_sign(arena, num_dyadic_sub(arena, a->p, num_dyadic_mul(arena, a->s, x)), a->q, a->r);
+}
+
+double num_surd_round(num_arena *arena, num_surd a) {
+    if (!a.q.sign || !a.r.sign) return num_dyadic_quotient(arena, a.p, a.s);
+    const num_dyadic one = num_dyadic_scaled(arena, 1, 1, 0);
+    const int sign = num_root_sign(arena, a.p, a.q, a.r);
+    if (!sign) return 0;
+    a.p.sign *= sign;
+    a.q.sign *= sign;
+    const double guess = num_dyadic_quotient(arena, a.p, a.s) +
+                         num_dyadic_quotient(arena, a.q, a.s) * sqrt(num_dyadic_quotient(arena, a.r, one));
+    const double x = num_nearest(arena, surd_against, &a, guess);
+    return x > 0 ? sign * x : 0;
+}

@@ -21,6 +21,13 @@ typedef int num_compare_fn(void *user, num_arena *arena, num_dyadic x);
  * range). A guess that is near saves comparisons: a right one needs three. What the arena holds stays. */
 double num_nearest(num_arena *arena, num_compare_fn *compare, void *user, double guess);
 
+/** (p + q sqrt(r)) / s, r >= 0, s > 0. */
+typedef struct num_surd {
+    num_dyadic p, q, r, s;
+} num_surd;
+/** The double nearest to it, ties to even; infinity when out of range; never -0. What the arena holds stays. */
+double num_surd_round(num_arena *arena, num_surd a);
+
 /** The square root of a ball that holds no negative number (what is below 0 in it does not count). */
 static inline num_ball num_ball_sqrt(num_ball a) {
     double low = a.x > a.e ? a.x - a.e : 0, root = sqrt(a.x > 0 ? a.x : 0), least = sqrt(low);

@@ -185,12 +185,17 @@ static void ask_points(floats_run *r, froe_query *q, const places *p, int dim) {
         froe_hits hits;
         froe_neighbours near;
         uint32_t object = 0;
+        froe_hit_place place;
+        double nearest[FROE_MAX_DIM];
         MUST(r, froe_query_locate(q, at, &list, NULL));
         floats_note(r, list.ids, 4 * list.count);
         if (!ASK(r, froe_query_groups(q, at, &list, NULL))) floats_note(r, list.ids, 4 * list.count);
         if (!ASK(r, froe_query_vertical(q, at, 1, &object, NULL))) floats_note(r, &object, 4);
         if (!ASK(r, froe_query_ray(q, at, along, 3, &hit, NULL)))
             floats_note(r, &hit.object, 4), floats_note(r, &hit.t, 8);
+        if (hit.object != FROE_NONE && !ASK(r, froe_query_hit_place(q, hit.object, at, along, &place, NULL)))
+            floats_note(r, &place, sizeof place);
+        if (!ASK(r, froe_query_nearest_point(q, 0, at, nearest, NULL))) floats_note(r, nearest, 8 * (size_t)dim);
         if (!ASK(r, froe_query_ray_any(q, at, along, 3, &object, NULL))) floats_note(r, &object, 4);
         if (!ASK(r, froe_query_ray_all(q, at, along, 3, &hits, NULL)))
             for (size_t h = 0; h < hits.count; h++)

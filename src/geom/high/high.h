@@ -1,6 +1,6 @@
 /* high.h: bodies of R^4 .. R^8: what geom/meet/ and geom/ray/ say of them. Those call this above dimension 3.
  *
- *     meet.c       do two convex sets meet, and how far is a point from one?       nearest.h
+ *     meet.c       do two convex sets meet, how far is a point from one, and where?   nearest.h
  *     contact.c    how do two polytopes meet?                                     nearest.h, program.h
  *     ray.c        where does a ray meet a polytope first?                        program.h
  *
@@ -21,6 +21,8 @@ bool geom_high_meet_surely(num_context *context, const geom_convex *a, const geo
  * of num_arena_bound. */
 num_ball geom_high_square_image(num_context *context, const double *point, const geom_body *body);
 num_ratio geom_high_square(num_context *context, const double *point, const geom_body *body);
+/** As geom_foot(), for polytopes. */
+void geom_high_foot(num_context *context, const double *point, const geom_body *body, double *out);
 
 /** As geom_contact_of(), for two polytopes. */
 geom_contact geom_high_contact(num_context *context, const geom_body *a, const geom_body *b);

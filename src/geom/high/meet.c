@@ -56,7 +56,8 @@ num_ball geom_high_square_image(num_context *context, const double *point, const
     return error < INFINITY ? (num_ball){middle, error} : (num_ball){0, INFINITY};
 }
 
-num_ratio geom_high_square(num_context *context, const double *point, const geom_body *body) {
+/* Behind what the arena holds. */
+static geom_nearest nearest_to(num_context *context, const double *point, const geom_body *body) {
     const geom_body at = geom_body_at(body->dim, point);
     const geom_convex a = geom_convex_of(body), b = geom_convex_of(&at);
     const geom_gaps gaps = {.a = &a, .b = &b};
@@ -64,5 +65,23 @@ num_ratio geom_high_square(num_context *context, const double *point, const geom
     geom_nearest found;
     if (context->first != NUM_EXACT) guess = geom_guess_between(&a, &b);
     geom_nearest_find(context, &gaps, &guess.simplex, &found);
-    return found.square;
+    return found;
+}
+
+num_ratio geom_high_square(num_context *context, const double *point, const geom_body *body) {
+    return nearest_to(context, point, body).square;
+}
+
+void geom_high_foot(num_context *context, const double *point, const geom_body *body, double *out) {
+    num_arena *arena = num_fresh(context);
+    const geom_nearest found = nearest_to(context, point, body);
+    const size_t mark = arena->top;
+    for (int k = 0; k < body->dim; k++, arena->top = mark) {
+        const num_dyadic x = num_dyadic_from(arena, point[k]);
+        out[k] =
+            found.zero
+                ? point[k]
+                : num_dyadic_quotient(arena, num_dyadic_add(arena, num_dyadic_mul(arena, x, found.scale), found.x[k]),
+                                      found.scale);
+    }
 }

@@ -62,6 +62,17 @@ static sphere exact_sphere(num_arena *arena, const geom_ray *ray, const geom_hit
     return s;
 }
 
+num_surd geom_hit_surd(num_arena *arena, const geom_ray *ray, const geom_hit *h) {
+    if (h->source == GEOM_SPHERE) {
+        sphere s = exact_sphere(arena, ray, h);
+        s.b.sign = -s.b.sign;
+        return (num_surd){s.b, num_dyadic_scaled(arena, -1, 1, 0), s.root, s.a};
+    }
+    const num_ratio t =
+        h->source == GEOM_START ? (num_ratio){{0}, num_dyadic_scaled(arena, 1, 1, 0)} : exact_quotient(arena, ray, h);
+    return (num_surd){.p = t.top, .s = t.bottom};
+}
+
 /* A quotient p / q against (-b - sqrt(root)) / a: the sign of  a p + b q + q sqrt(root). */
 static int against_sphere(num_arena *arena, num_ratio t, const sphere *s) {
     num_dyadic sum = num_dyadic_add(arena, num_dyadic_mul(arena, s->a, t.top), num_dyadic_mul(arena, s->b, t.bottom));

@@ -9,11 +9,12 @@
  *     SPHERE       (-b - sqrt(b^2 - a c)) / a,  a = d^2, b = d (o - m), c = (o - m)^2 - r^2
  *     BASIS        above dimension 3: up to dim corners span what is met      degree dim / dim
  *
- * In ray.c; hulls, and what lies in one plane with the ray, in ray_hull.c; above dimension 3 in geom/high/ray.c. */
+ * In ray.c; hulls, and what lies in one plane with the ray, in ray_hull.c; above dimension 3 in geom/high/ray.c; points
+ * and normals in ray_place.c. */
 #ifndef FROE_GEOM_RAY_RAY_H
 #define FROE_GEOM_RAY_RAY_H
 #include "geom/body.h"
-#include "num/ball.h"
+#include "num/root.h"
 
 typedef struct geom_ray {
     int dim;
@@ -46,6 +47,16 @@ int geom_hit_compare(num_context *context, const geom_ray *ray, const geom_hit *
 int geom_hit_compare_to(num_context *context, const geom_ray *ray, const geom_hit *a, double t);
 /** The nearest double. */
 double geom_hit_round(num_context *context, const geom_ray *ray, const geom_hit *a);
+/** The parameter as a number, behind what the arena holds. */
+num_surd geom_hit_surd(num_arena *arena, const geom_ray *ray, const geom_hit *a);
+
+/** The point that is hit: dim coordinates, each the nearest double. */
+void geom_hit_point(num_context *context, const geom_ray *ray, const geom_hit *a, double *out);
+/** How far it is from the origin: the nearest double. */
+double geom_hit_distance(num_context *context, const geom_ray *ray, const geom_hit *a);
+/** The normal of the face that is hit, of length 1, each coordinate the nearest double, as froe_hit_place says in
+ * froe/query.h. False, and all 0: there is none. */
+bool geom_hit_normal(num_context *context, const geom_ray *ray, const geom_body *body, const geom_hit *a, double *out);
 
 /** The same as geom_ray_meets() for hulls, and for flat bodies in the plane of the ray: corners in any order,
  * dimension 2 or 3. Called by it. */
