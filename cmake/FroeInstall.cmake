@@ -35,7 +35,7 @@ install(FILES include/froe/query.h include/froe/view.h include/froe/kinetic.h in
 froe_pkgconfig(froe "${PROJECT_DESCRIPTION}" "" "" "-lm -pthread")
 if(FROE_HAS_IO)
   froe_install(froe_io io)
-  froe_pkgconfig(froe-io "Readers of maps and models for froe" "froe" "gdal assimp" "-lm")
+  froe_pkgconfig(froe-io "Readers of maps and models for froe" "froe" "gdal assimp expat" "-lm")
 endif()
 if(FROE_HAS_DRAW)
   froe_install(froe_draw draw)

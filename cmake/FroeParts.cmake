@@ -39,6 +39,6 @@ function(froe_part name folder)
   endif()
 endfunction()
 
-froe_part(IO io MODULES gdal assimp)
+froe_part(IO io MODULES gdal assimp expat)
 froe_part(DRAW draw MODULES cairo)
 froe_part(CLI cli PARTS IO DRAW MODULES jansson)

@@ -1,8 +1,9 @@
-/* read.c: froe_read: froe's own readers, those of the core, or else assimp or OGR. */
+/* read.c: froe_read: froe's own readers, those of the core, or else 3MF, assimp or OGR. */
 #include "readers.h"
 #include "support/floats.h"
 
 static formats_reader *choose_library(const formats_source *source) {
+    if (io_3mf_recognise(source)) return io_read_3mf;
     return io_assimp_recognise(source) ? io_read_assimp : io_read_ogr;
 }
 

@@ -1,5 +1,6 @@
 /* scene.c: options and errors of reading a scene. */
 #include "args/scene.h"
+#include "args/crash.h"
 #include "args/spool.h"
 #include "exit.h"
 #include "library.h"
@@ -41,7 +42,9 @@ int cli_read_scene(const cli_common *common, const cli_scene_args *args, froe_sc
         options.progress = cli_progress_step;
         options.user = &bar;
         froe_diagnostic diag;
+        if (!own) cli_crash_begin(&spool);
         const froe_status status = (own ? froe_read_own : io.read)(spool.path, &options, scene, report, &diag);
+        if (!own) cli_crash_end();
         cli_progress_end(&bar);
         if (status) code = cli_fail_status(CLI_READING, spool.name, status, &diag);
     }

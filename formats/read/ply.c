@@ -192,6 +192,7 @@ static froe_status read_item(ply *p, const element *e, double *by_role) {
             if (to->role == INDICES && !array_push(&p->sink->alloc, &p->indices, value)) return out_of_memory(p);
         }
     }
+    if (p->text) next_line(p); /* some programs write more numbers than the header declares */
     return FROE_OK;
 }
 

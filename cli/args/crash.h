@@ -1,0 +1,11 @@
+/* crash.h: what a user is told when a library crashes on a file. */
+#ifndef FROE_CLI_CRASH_H
+#define FROE_CLI_CRASH_H
+#include "args/spool.h"
+
+/** Until cli_crash_end() a crash (a fault of memory, an abort, a stack that overflows) ends the program with a message
+ * that names the file, and with exit code CLI_INPUT; a spooled copy is removed. GDAL and assimp read a hundred formats,
+ * and some broken files crash them. */
+void cli_crash_begin(const cli_spool *spool);
+void cli_crash_end(void);
+#endif
