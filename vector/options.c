@@ -54,7 +54,8 @@ froe_status vector_check(const froe_scene *scene, const froe_render_options *o, 
                                    {"halo", o->halo, 0, 1e6},
                                    {"decimals", o->decimals, 0, 6},
                                    {"pixels", o->pixels, 0.1, 64}};
-    const froe_status status = check_in_range(ranges, sizeof ranges / sizeof *ranges, diag);
+    froe_status status = check_in_range(ranges, sizeof ranges / sizeof *ranges, diag);
+    if (!status) status = vector_check_lines(o, diag);
     if (status) return status;
     if (o->seams == FROE_SEAMS_TWICE && o->interleaved)
         return support_fail(diag, FROE_E_OPTIONS,

@@ -84,20 +84,13 @@ static size_t place_of_stroke(const vector_render *r, size_t stroke) {
     return stroke < froe_picture_stroke_count(r->picture) ? froe_picture_stroke(r->picture, stroke).place : SIZE_MAX;
 }
 
-double vector_line_width(const froe_render_options *options, froe_line kind) {
-    const bool outline = kind == FROE_LINE_BORDER || kind == FROE_LINE_SILHOUETTE;
-    if (kind == FROE_LINE_SECTION) return 2 * options->line_width;
-    return (outline ? 1 : kind == FROE_LINE_CROSSING ? 0.8 : 0.6) * options->line_width;
-}
-
 /* Strokes of one kind that are due before the next shape. False: none of them shows. */
 static bool take_strokes(const vector_render *r, vector_cursor *at, froe_render_path *path) {
     const froe_stroke first = froe_picture_stroke(r->picture, at->stroke);
-    const double width = vector_line_width(r->options, first.kind) * (first.hidden ? VECTOR_HIDDEN : 1);
-    *path = (froe_render_path){.lines = true, .colour = 0xFF1B2630, .kind = first.kind, .hidden = first.hidden};
-    path->width = width;
-    path->dash = first.hidden ? 4 * width : 0;
-    path->gap = first.hidden ? 3 * width : 0;
+    const froe_line_style style = vector_line_style(r->options, first.kind, first.hidden, 1);
+    *path = (froe_render_path){.lines = true, .kind = first.kind, .hidden = first.hidden};
+    path->colour = 0xFF000000 | style.colour;
+    path->width = style.width, path->dash = style.dash, path->gap = style.gap;
     path->object = path->group = path->layer = FROE_NONE;
     path->outlines = r->outlines;
     for (; place_of_stroke(r, at->stroke) <= at->shape; at->stroke++) {

@@ -55,7 +55,7 @@ static froe_status find_picture(vector_render *r, froe_diagnostic *diag) {
     p.lines = o->line_width > 0 ? o->lines : 0;
     p.crease = o->crease;
     p.section = o->section;
-    p.interleave = o->interleaved ? 0.5 * o->line_width : 0;
+    p.interleave = o->interleaved && p.lines ? vector_line_reach(o) : 0;
     p.hidden = o->hidden;
     p.halo = o->halo;
     p.alloc = &r->alloc;

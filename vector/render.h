@@ -43,9 +43,17 @@ double vector_grid(const froe_render_options *options, froe_render_format format
 double vector_opacity(const froe_scene *scene, const froe_render_options *options, uint32_t group);
 /** Fills style_of, styles, keys and layer_of. FROE_E_MEMORY. */
 froe_status vector_shade(vector_render *render);
-/** Width of a kind of line in units of the page, and what it is multiplied by where the line is hidden. */
-double vector_line_width(const froe_render_options *options, froe_line kind);
-#define VECTOR_HIDDEN 0.6
+
+/* ------------------------------------------------------------------------- strokes.c -- */
+
+/** The colour of lines without a style. */
+#define VECTOR_INK 0x1B2630
+/** How lines of one kind are drawn, all members filled in; lengths in units of 1/scale of a unit of the page. */
+froe_line_style vector_line_style(const froe_render_options *options, froe_line kind, bool hidden, double scale);
+/** Half the width of the widest visible line, in units of the page. */
+double vector_line_reach(const froe_render_options *options);
+/** FROE_E_OPTIONS, unless every style of lines is one. */
+froe_status vector_check_lines(const froe_render_options *options, froe_diagnostic *diag);
 
 /* --------------------------------------------------------------------------- paths.c -- */
 

@@ -156,13 +156,17 @@ static void put_shapes(svg_writer *w, const froe_render_path *path) {
 
 static void put_strokes(svg_writer *w, const froe_render_path *path) {
     /* Not from path->width: three digits depend on the order of rounding. */
-    const double line = w->render->grid * vector_line_width(w->render->options, path->kind),
-                 width = line * (path->hidden ? VECTOR_HIDDEN : 1);
-    vector_print(w->output, "<path class=\"%s%s\" stroke-width=\"%s\"", froe_line_name(path->kind),
-                 path->hidden ? " hidden" : "", vector_real(3, width).text);
-    if (path->hidden)
-        vector_print(w->output, " stroke-dasharray=\"%s %s\"", vector_real(3, 4 * width).text,
-                     vector_real(3, 3 * width).text);
+    const froe_line_style style = vector_line_style(w->render->options, path->kind, path->hidden, w->render->grid);
+    vector_print(w->output, "<path class=\"%s%s\"", froe_line_name(path->kind), path->hidden ? " hidden" : "");
+    if (style.colour != VECTOR_INK) {
+        put_text(w, " stroke=\"");
+        put_colour(w->output, style.colour);
+        put_text(w, "\"");
+    }
+    vector_print(w->output, " stroke-width=\"%s\"", vector_real(3, style.width).text);
+    if (style.dash > 0)
+        vector_print(w->output, " stroke-dasharray=\"%s %s\"", vector_real(3, style.dash).text,
+                     vector_real(3, style.gap).text);
     put_text(w, " d=\"");
     begin_path(w);
     for (size_t i = 0; i < path->count; i++) put_outline(w, path->outlines + i, 0);

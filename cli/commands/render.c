@@ -99,7 +99,10 @@ static const cli_option line_options[] = {
          "border, silhouette, object, material, crease, crossing, section, mesh, parted by commas; or none (default: "
          "all but mesh)"},
     {"line-width", 0, CLI_REAL, offsetof(render_args, line_width), "W",
-     .help = "of borders and silhouettes (default 1)"},
+     .help = "of borders and silhouettes, by which other kinds go (default 1)"},
+    {"line-style", 0, CLI_WORDS, offsetof(render_args, line_style), "LINES=STYLE,...",
+     .help = "width, colour and dash by kind: crease=0.6, hidden=0.4:888888:4:2 (width, RRGGBB, dash, gap); LINES are "
+             "a kind, hidden-KIND, visible or hidden, and later ones count"},
     {"crease", 0, CLI_REAL, offsetof(render_args, crease), "DEGREES",
      .help = "angle that makes an edge a line (default 30)"},
     {"halo", 0, CLI_REAL, offsetof(render_args, halo), "G", .help = "gap in lines before nearer lines (default 0)"},
@@ -279,9 +282,10 @@ static int run_render(const void *given) {
     }
     const size_t groups = froe_scene_group_count(scene);
     froe_render_options o = froe_render_defaults();
+    render_styles styles = {.count = 0};
     double *values = calloc(2 * groups + 1, sizeof *values);
     int32_t *priorities = calloc(groups + 1, sizeof *priorities);
-    code = values && priorities ? render_set_options(args, scene, &o) : cli_fail_memory();
+    code = values && priorities ? render_set_options(args, scene, &o, &styles) : cli_fail_memory();
     for (size_t g = 0; !code && g < groups; g++) values[g] = NAN;
     if (!code) code = render_set_groups("opacity", args->opacity, scene, values);
     if (!code) code = render_set_groups("priority", args->priority, scene, values + groups);

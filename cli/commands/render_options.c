@@ -96,26 +96,19 @@ static int set_style(const char *text, froe_render_options *o) {
     return cli_fail(CLI_USE, NULL, "--style: '%s' is not one of flat, cel, cel:N, plain, white, none.", text);
 }
 
-/* Kinds of lines of a list parted by commas. */
-static int set_lines(const char *list, uint32_t *lines) {
-    if (!list) return 0;
-    *lines = 0;
-    while (*list && strcmp(list, "none") != 0) {
-        const size_t length = strcspn(list, ",");
-        uint32_t found = 0;
-        for (uint32_t bit = 1; !found && bit < FROE_LINE_END; bit <<= 1) {
-            const char *known = froe_line_name((froe_line)bit);
-            if (known && strlen(known) == length && memcmp(known, list, length) == 0) found = bit;
-        }
-        if (!found)
-            return cli_fail(CLI_USE, NULL,
-                            "--line-kinds: '%.*s' is not one of border, silhouette, object, material, crease, "
-                            "crossing, section, mesh.",
-                            (int)length, list);
-        *lines |= found;
-        list += length + (list[length] == ',');
+/* Lines as a preset draws them, which depends on how wide a line is. */
+static void set_preset_styles(int preset, double width, render_styles *styles) {
+    froe_line_style style = froe_line_style_defaults();
+    if (preset == TECHNICAL) { /* ISO 128-2: hidden lines are narrow, half as wide as visible outlines, and dashed */
+        style.hidden = UINT32_MAX;
+        style.colour = 0x7A848C; /* so that visible lines stand out among many */
+        style.width = 0.5 * width, style.dash = 4 * width, style.gap = 2 * width;
+        styles->at[styles->count++] = style;
+    } else if (preset == PLOTTER) { /* one pen */
+        style.visible = style.hidden = UINT32_MAX;
+        style.width = width, style.colour = 0x000000;
+        styles->at[styles->count++] = style;
     }
-    return 0;
 }
 
 int render_set_groups(const char *option, const char *list, const froe_scene *scene, double *values) {
@@ -142,7 +135,8 @@ int render_set_groups(const char *option, const char *list, const froe_scene *sc
     return 0;
 }
 
-int render_set_options(const render_args *args, const froe_scene *scene, froe_render_options *o) {
+int render_set_options(const render_args *args, const froe_scene *scene, froe_render_options *o,
+                       render_styles *styles) {
     if (args->preset == TECHNICAL) {
         o->shading = FROE_SHADE_NONE;
         o->camera.parallel = true;
@@ -162,7 +156,7 @@ int render_set_options(const render_args *args, const froe_scene *scene, froe_re
     if (!code) code = set_camera(args, scene, &o->camera);
     if (!code) code = set_scale(args, o);
     if (!code) code = set_style(args->shading, o);
-    if (!code) code = set_lines(args->lines, &o->lines);
+    if (!code) code = render_set_lines(args->lines, &o->lines);
     if (!code) code = cli_set_background(args->background, &o->background);
     if (args->paint) o->paint = (froe_paint)args->paint;
     cli_set_number(args->seam_width, &o->seam_width);
@@ -181,5 +175,8 @@ int render_set_options(const render_args *args, const froe_scene *scene, froe_re
     o->seams = (froe_seams)args->seams;
     cli_set_number(args->min_area, &o->min_area);
     o->title = args->title, o->description = args->description;
+    if (o->line_width > 0) set_preset_styles(args->preset, o->line_width, styles);
+    if (!code) code = render_add_styles(args->line_style, styles);
+    o->line_styles = styles->at, o->line_style_count = styles->count;
     return code;
 }

@@ -3,6 +3,7 @@
 #define FROE_CLI_RENDER_OPTIONS_H
 #include "args/tree.h"
 #include "command.h"
+#include "commands/render_lines.h"
 #include <froe/draw.h>
 
 /** Indices into the lists of names in render.c, where no other type says so. */
@@ -10,6 +11,7 @@ typedef struct render_args {
     cli_common common;
     cli_tree_args tree;
     const char *output, *lines, *background, *title, *description, *opacity, *priority, *size, *shading, *scale;
+    char *line_style;
     int direction, up_axis, paint, preset, seams, ids, layers, hidden, colours, over;
     double halo, fov, unit, min_area, seconds, margin, seam_width, line_width, crease, pixels; /**< NaN: not given */
     uint64_t decimals;  /**< UINT64_MAX: not given */
@@ -21,8 +23,9 @@ typedef struct render_args {
 /** --preset */
 enum { ILLUSTRATION, TECHNICAL, PLOTTER, WEB, PRINT };
 
-/** Sets all options that are not about groups, preset first. Returns 0 or an exit code, with a message. */
-int render_set_options(const render_args *args, const froe_scene *scene, froe_render_options *o);
+/** Sets all options that are not about groups, preset first. `styles`, empty, has to live as long as the options.
+ * Returns 0 or an exit code, with a message. */
+int render_set_options(const render_args *args, const froe_scene *scene, froe_render_options *o, render_styles *styles);
 /** NAME=VALUE,... as given to --OPTION: the value goes to every group of that name or material; `values` has one for
  * each group. list NULL: nothing is done. Returns 0 or an exit code, with a message. */
 int render_set_groups(const char *option, const char *list, const froe_scene *scene, double *values);

@@ -52,6 +52,16 @@ typedef enum froe_ids {
     FROE_IDS_FACE = 2    /**< one path per face, with data-object and data-group */
 } froe_ids;
 
+/** How lines of some kinds are drawn. What is NaN or FROE_NONE stays as it is without this style. */
+typedef struct froe_line_style {
+    uint32_t visible, hidden; /**< bits of froe_line: the kinds of visible and of hidden lines that it is about */
+    double width;             /**< in units of the page, above 0 */
+    uint32_t colour;          /**< 0xRRGGBB */
+    double dash, gap;         /**< lengths in units of the page; both 0: the line is solid */
+} froe_line_style;
+/** Of no lines, and everything as it is. */
+FROE_API froe_line_style froe_line_style_defaults(void);
+
 typedef struct froe_render_options {
     size_t size;          /**< set by froe_render_defaults() */
     froe_camera camera;   /**< its page is the picture's */
@@ -64,12 +74,16 @@ typedef struct froe_render_options {
     int section;          /**< see froe_visibility_options */
     uint32_t lines;       /**< bits of froe_line; default all but mesh */
     double crease;        /**< degrees; default 30 */
-    double line_width; /**< default 1; silhouettes and borders; sections twice, crossings 0.8, other kinds 0.6 of it */
-    bool interleaved;  /**< lines go below what is nearer, and so never cover half their width of it; default: on top */
-    bool hidden;       /**< hidden lines, dashed */
-    double halo;       /**< gap in lines before nearer ones; default 0 */
-    bool own_colours;  /**< not those of groups, nor their opacity, but froe's; default false. So it is, whatever is
-                                 said here, in white and in lines alone */
+    double line_width;    /**< default 1; silhouettes and borders; sections twice, crossings 0.8, other kinds 0.6 of it;
+                            hidden lines 0.6 of visible ones, with dashes of 4 and gaps of 3 times their width. 0: there
+                            are no lines, whatever their styles */
+    const froe_line_style *line_styles; /**< of lines of one kind the last that is about them counts; NULL: none */
+    size_t line_style_count;
+    bool interleaved; /**< lines go below what is nearer, and so never cover half their width of it; default: on top */
+    bool hidden;      /**< hidden lines, dashed */
+    double halo;      /**< gap in lines before nearer ones; default 0 */
+    bool own_colours; /**< not those of groups, nor their opacity, but froe's; default false. So it is, whatever is said
+                           here, in white and in lines alone */
     const double *opacity;     /**< per group, 0 .. 1; NaN, or all NULL: that of its colour, or 1 */
     const int32_t *priorities; /**< per group, see froe_visibility_options; NULL: equal */
     bool cull_back;
