@@ -7,7 +7,7 @@ PREFIX ?= /usr/local
 export CMAKE_GENERATOR = $(if $(shell command -v ninja 2>/dev/null),Ninja,Unix Makefiles)
 
 .DEFAULT_GOAL := build
-.PHONY: help build demo test install uninstall bench bench-bar bench-boxes bench-peers claims oracle mutations coverage bare docs format lint clean
+.PHONY: help build demo test install uninstall bench bench-bar bench-boxes bench-peers claims oracle mutations coverage bare docs site format lint clean
 
 deps-%:
 	@scripts/deps $*
@@ -93,6 +93,9 @@ docs: build ## tables, outputs and the picture in the documents, as they come ou
 	@$(BUILD)/bin/froe generate moving-polygons -n 36 --seed 6 -o $(BUILD)/polygons.mfjson --quiet
 	@$(BUILD)/bin/froe simulate $(BUILD)/polygons.mfjson --at 20 -o $(BUILD)/polygons.froe --quiet
 	@$(BUILD)/bin/froe draw $(BUILD)/polygons.froe -o docs/pictures/partition.png --width 500 --no-legend --quiet
+
+site: build deps-site ## the documents with search, and the functions: build/site/index.html
+	@scripts/site/build $(BUILD)
 
 format: deps-lint ## all sources as .clang-format says
 	@git ls-files '*.c' '*.h' | xargs clang-format -i

@@ -14,10 +14,10 @@ typedef struct cli_scene_args {
 extern const cli_option cli_scene_options[]; /**< the first is SCENE itself */
 /** What SCENE may be, for the `about` of a command. */
 #define CLI_SCENE_ABOUT                                                                                                \
-    "SCENE is a plane map in any format that OGR reads (GeoJSON, TopoJSON, Shapefile, GeoPackage, FlatGeobuf, DXF, "   \
-    "...), also in a folder or an archive (.zip, .gz, .tar), a model in any format that assimp reads (glTF, OBJ, "     \
-    "STL, PLY, OFF, IFC, FBX, ...), or a CSV of points "                                                               \
-    "(x,y[,z...]), boxes (lo_x,lo_y[,...],hi_x,...) or balls (x,y[,...],r)."
+    "SCENE is a file of one of three kinds. Maps: all formats that OGR reads (GeoJSON, TopoJSON, Shapefile, "          \
+    "GeoPackage, FlatGeobuf, DXF, ...), also in a folder or an archive (.zip, .gz, .tar). Models: all formats that "   \
+    "assimp reads (glTF, OBJ, STL, PLY, OFF, IFC, FBX, ...). CSV: points (x,y[,z...]), boxes "                         \
+    "(lo_x,lo_y[,...],hi_x,...) or balls (x,y[,...],r)."
 
 /** Reads the scene with a progress bar. Returns 0, or an exit code after saying why. */
 int cli_read_scene(const cli_common *common, const cli_scene_args *args, froe_scene **scene, froe_read_report *report);

@@ -69,10 +69,11 @@ static int run_check(const void *given) {
 
 const cli_command cli_command_check = {
     .name = "check",
-    .summary = "audit every invariant of a tree, exactly",
-    .about = "Checks the structure and all indices; that every object is exactly the union of its pieces; that each "
-             "list holds exactly the pieces that brute force puts there; that in-cut pieces lie in their cuts; leaf "
-             "capacity; and the promises of the method that built the tree.\n\n"
+    .summary = "prove, exactly, that a tree is right",
+    .about = "Proves, without the code that built the tree, that the tree is right. Every object is exactly the union "
+             "of its pieces. Each list of the tree holds exactly the pieces that a comparison of all objects with all "
+             "cells puts there. Pieces that lie in a cut are listed at that cut. No leaf holds more than its capacity, "
+             "every index is valid, and the promises of the method that built the tree hold.\n\n"
              "The exit code is 0 when all of it holds and 1, with the first violation, when it does not.",
     .examples = "froe check floor.froe\nfroe check house.glb --method density --exact --json\n",
     .parts = parts,

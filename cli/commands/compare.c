@@ -187,12 +187,12 @@ static int run_compare(const void *given) {
 
 const cli_command cli_command_compare = {
     .name = "compare",
-    .summary = "every method on every scene, side by side",
+    .summary = "compare all methods on one or more scenes",
     .about = CLI_SCENE_ABOUT
-    "\n\nBuilds a tree by every method that serves the scene, asks all of them the same points, windows, rays and "
-    "approximate windows (within eps of the window's diameter), and puts sizes, heights, visited nodes, times, and "
-    "what "
-    "the method promises beside each other: as a table, as JSON (--json), as CSV, and as a page with figures. To see "
+    "\n\nBuilds a tree by every method that serves the scene, and sends all trees the same queries: points, windows, "
+    "rays, and approximate windows (within eps of the window's diameter). Sizes, heights, visited nodes, times, and "
+    "what each method promises are printed beside each other: as a table, as JSON (--json), as CSV, or as a page with "
+    "figures. To show "
     "how trees grow, parts of the scene are built, too: the objects nearest its middle. A method that fails, or "
     "takes too long, is a row that says so.\n\nThe last tables tell what --method auto takes for each purpose, "
     "what was best, and how many times its cost that of auto is.",

@@ -55,7 +55,7 @@ static const cli_option space[] = {
 
 static const cli_option page[] = {
     {"width", 0, CLI_REAL, offsetof(draw_args, width), "W", .help = "of the page, in points or pixels (default 960)"},
-    {"height", 0, CLI_REAL, offsetof(draw_args, height), "H", .help = "of the page (default: as the scene asks for)"},
+    {"height", 0, CLI_REAL, offsetof(draw_args, height), "H", .help = "of the page (default: as suits the scene)"},
     {"margin", 0, CLI_REAL, offsetof(draw_args, margin), "M", .help = "around everything (default: 1/32 of the width)"},
     {"scale", 0, CLI_REAL, offsetof(draw_args, scale), "S",
      .help = "PNG: pixels per unit, for dense screens (default 1)"},

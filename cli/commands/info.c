@@ -73,7 +73,7 @@ static int run_info(const void *given) {
 
 const cli_command cli_command_info = {
     .name = "info",
-    .summary = "counts, bounds and defects of a scene",
+    .summary = "tell what a scene contains: counts, bounds and defects",
     .about = CLI_SCENE_ABOUT
     "\n\nDefects stop nothing: every builder takes scenes that have them. They are counted exactly, pairs once: "
     "objects "

@@ -172,7 +172,7 @@ static int run_measure(const void *given) {
 
 const cli_command cli_command_measure = {
     .name = "measure",
-    .summary = "clutter, density, fatness and directional density of a scene",
+    .summary = "tell how crowded a scene is: clutter, density, fatness and directional density",
     .about = CLI_SCENE_ABOUT
     "\n\nWhat methods promise depends on such properties. The clutter factor is the most objects that meet a cube "
     "without "

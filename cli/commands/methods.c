@@ -111,7 +111,7 @@ static int run_methods(const void *given) {
 
 const cli_command cli_command_methods = {
     .name = "methods",
-    .summary = "builders with source, dimensions, guarantee and options",
+    .summary = "list the methods of building: source, dimensions, guarantee and options",
     .about = "Lists what --method of froe build takes. Options of a method are set by --option NAME=VALUE.",
     .examples = "froe methods\nfroe methods density\nfroe methods --json\n",
     .parts = parts,

@@ -304,7 +304,7 @@ static int run_render(const void *given) {
 
 const cli_command cli_command_render = {
     .name = "render",
-    .summary = "exact hidden-surface removal to SVG, PDF, EPS or PNG",
+    .summary = "draw a model without what is hidden, as SVG, PDF, EPS or PNG",
     .about = "Finds, exactly, which parts of all faces and edges are visible, and paints whole faces in an order that "
              "shows just these: few shapes, no cracks, nothing sorted by distance. Faces that intersect are cut. The "
              "same tree and options give the same bytes.",
