@@ -11,7 +11,8 @@
 
 const cli_option cli_common_options[] = {
     {"json", 0, CLI_FLAG, offsetof(cli_common, json), .help = "print one JSON object instead of text"},
-    {"quiet", 'q', CLI_FLAG, offsetof(cli_common, quiet), .help = "no progress bar and no text; errors are still printed"},
+    {"quiet", 'q', CLI_FLAG, offsetof(cli_common, quiet),
+     .help = "no progress bar and no text; errors are still printed"},
     {"seed", 0, CLI_WHOLE, offsetof(cli_common, seed), "S", .help = "seed of all random choices (default 1)"},
     {"threads", 0, CLI_WHOLE, offsetof(cli_common, threads), "T",
      .help = "threads to use; no answer depends on it (default 0: one per processor)", .max = 1024},
