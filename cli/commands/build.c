@@ -100,7 +100,7 @@ static int run_build(const void *given) {
 
 const cli_command cli_command_build = {
     .name = "build",
-    .summary = "build a tree, which is a binary space partition, and report on it",
+    .summary = "build a tree (a binary space partition) and report on it",
     .about = CLI_SCENE_ABOUT
     "\n\nThe report counts nodes, leaves and fragments (pieces in all leaf and in-cut lists), says what the method "
     "promises beside what came out, and how the exact predicates got their answers. The same scene, options and seed "
