@@ -286,6 +286,8 @@ typedef struct froe_picture_options {
     bool cull_back;            /**< the same */
     uint32_t lines;            /**< bits of froe_line; default 0: none */
     double crease;             /**< degrees from which on an edge is a crease, 0 .. 180; default 30 */
+    const uint32_t *chains;    /**< per object: lines of objects of different numbers are strokes of their own; NULL:
+                                    lines run on from any object to any other */
     bool hidden;               /**< hidden lines as well */
     double halo;               /**< gap in lines before a nearer line, on the page; default 0: none */
     double interleave;         /**< WHOLE: half the width of a line. Each visible line is then painted before what is
@@ -346,7 +348,13 @@ typedef struct froe_stroke {
     bool butt[2];         /**< the end is where something begins to hide the line: no round cap may stick out there */
     size_t place;         /**< shapes that are painted before it: all, unless lines are interleaved */
     const double *points; /**< 2 doubles each */
-    size_t count;         /**< 0: there is no such stroke */
+    const double *space;  /**< the same points in the scene, 3 doubles each; rounded as all points here are */
+    /** Per point: the object that the line from it to the next point belongs to. (The last point of an open line
+     * repeats the one before.) An edge belongs to the first of its polygons that faces the eye, or else to the first.
+     * A line where polygons pass through each other, or where a section cuts them, belongs to the first object of the
+     * patch that is divided. Of lines that lie on each other, it is the object of the one that is drawn. */
+    const uint32_t *objects;
+    size_t count; /**< 0: there is no such stroke */
 } froe_stroke;
 /** Polylines, by place, then hidden ones first, then by kind. */
 FROE_API size_t froe_picture_stroke_count(const froe_picture *picture);

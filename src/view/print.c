@@ -91,6 +91,14 @@ bool print_clip_segment(const froe_projection *view, const double *from, const d
     return share[0] < share[1];
 }
 
+double print_share(const froe_projection *view, const double *from, const double *to, double t) {
+    double a[3], b[3];
+    if (view->eye.parallel || t == 0 || t == 1) return t;
+    view_camera_point(view, from, a);
+    view_camera_point(view, to, b);
+    return t * a[2] / (t * a[2] + (1 - t) * b[2]); /* 1 / depth is linear on the page */
+}
+
 double print_area(const print_point *p, size_t count) {
     double area = 0;
     for (size_t i = 0; i < count; i++) {

@@ -37,6 +37,8 @@ bool print_end(print_press *press, print_ring *out, bool *cut);
  * the page itself, `beyond` further. False when nothing is left. */
 bool print_clip_segment(const froe_projection *view, const double *from, const double *to, double beyond,
                         double share[2]);
+/** The share of a segment of space before the eye at which it is seen at share `t` of its image on the page. */
+double print_share(const froe_projection *view, const double *from, const double *to, double t);
 /** Twice the signed area; positive when it turns left on a page with y upwards, as the eye sees it. */
 double print_area(const print_point *ring, size_t count);
 /** Do two convex rings, turning left, overlap by more than `margin` in every direction? (Separating axes.) */

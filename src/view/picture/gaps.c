@@ -113,6 +113,8 @@ static bool put_part(gapper *g, const view_segment *s, double from, double to) {
         part.at[e].x = s->at[0].x + t * (s->at[1].x - s->at[0].x);
         part.at[e].y = s->at[0].y + t * (s->at[1].y - s->at[0].y);
         part.near[e] = s->near[0] + t * (s->near[1] - s->near[0]);
+        const double u = print_share(g->view, s->space[0], s->space[1], t);
+        for (int k = 0; k < 3; k++) part.space[e][k] = s->space[0][k] + u * (s->space[1][k] - s->space[0][k]);
     }
     return array_push(g->alloc, &g->out, part);
 }

@@ -18,6 +18,8 @@ typedef struct overlay_member {
     uint32_t place[2];
     print_point at[2];
     double near[2];
+    const view_item *item;
+    bool turned;
     uint8_t kind, hidden;
 } overlay_member;
 
@@ -29,6 +31,8 @@ typedef struct overlay_place {
 
 typedef struct overlayer {
     view_sightlines *sights;
+    const froe_projection *view;
+    const uint32_t *chains;
     bool depths;
     ARRAY(overlay_line) lines;
     uint32_t line; /* the current one, and what is on it: */
@@ -63,7 +67,7 @@ static int by_line(void *user, uint32_t a, uint32_t b) {
 static bool add_members(overlayer *o, const view_items *items, const overlay_line *l, bool turned) {
     for (uint32_t i = l->first; i < l->end; i++) {
         const view_item *item = items->data + i;
-        overlay_member m = {.kind = item->kind, .hidden = item->hidden};
+        overlay_member m = {.item = item, .turned = turned, .kind = item->kind, .hidden = item->hidden};
         for (int e = 0; e < 2; e++) {
             const int from = turned ? !e : e;
             view_mark mark = item->run.end[from];
@@ -147,6 +151,19 @@ static bool paint_line_of_sight(overlayer *o, base_compare_fn *compare, overlay_
 
 /* -------------------------------------------------------------------- segments -- */
 
+/* Where a point of the page lies along a stretch. */
+static double share_along(const print_point at[2], print_point p) {
+    const double dx = at[1].x - at[0].x, dy = at[1].y - at[0].y, square = dx * dx + dy * dy;
+    return square > 0 ? ((p.x - at[0].x) * dx + (p.y - at[0].y) * dy) / square : 0;
+}
+
+/* The point of space that a member has at a place of the page on its line. */
+static void point_of_space(const overlayer *o, const overlay_member *m, print_point at, double out[3]) {
+    const double *from = m->item->space[m->turned], *to = m->item->space[!m->turned];
+    const double t = print_share(o->view, from, to, share_along(m->at, at));
+    for (int k = 0; k < 3; k++) out[k] = t == 1 ? to[k] : from[k] + t * (to[k] - from[k]);
+}
+
 static bool put_segments(overlayer *o, view_segments *out) {
     for (uint32_t i = 0, first; i + 1 < o->places.count; i++) {
         if (o->drawn.data[i] == FROE_NONE) continue;
@@ -155,20 +172,20 @@ static bool put_segments(overlayer *o, view_segments *out) {
             if (beyond == FROE_NONE || (o->depths && o->front.data[i] != o->front.data[i + 1])) break;
             const overlay_member *x = o->members.data + here, *y = o->members.data + beyond;
             if (x->kind != y->kind || x->hidden != y->hidden) break;
+            if (!view_runs_on(o->chains, x->item->object, y->item->object)) break;
         }
         const overlay_member *m = o->members.data + o->drawn.data[first],
                              *nearest = o->members.data + o->front.data[first];
-        view_segment s = {.kind = m->kind, .hidden = m->hidden, .place = FROE_NONE};
+        view_segment s = {.object = m->item->object, .kind = m->kind, .hidden = m->hidden, .place = FROE_NONE};
         for (int e = 0; e < 2; e++) {
             const uint32_t part = e ? i : first, place = part + (uint32_t)e;
             const overlay_member *x = o->members.data + o->drawn.data[part];
             const bool own = x->place[e] == place && x->end[e].vertex != FROE_NONE; /* it ends there itself */
             s.vertex[e] = own ? x->end[e].vertex : o->places.data[place].vertex;
             s.at[e] = o->places.data[place].at;
+            point_of_space(o, x, s.at[e], s.space[e]);
             /* As near as the nearest member is there, linearly along it. */
-            const print_point *at = nearest->at;
-            const double dx = at[1].x - at[0].x, dy = at[1].y - at[0].y, square = dx * dx + dy * dy;
-            const double t = square > 0 ? ((s.at[e].x - at[0].x) * dx + (s.at[e].y - at[0].y) * dy) / square : 0;
+            const double t = share_along(nearest->at, s.at[e]);
             s.near[e] = nearest->near[0] + t * (nearest->near[1] - nearest->near[0]);
         }
         if (!array_push(&o->sights->alloc, out, s)) return false;
@@ -178,8 +195,9 @@ static bool put_segments(overlayer *o, view_segments *out) {
 
 /* ---------------------------------------------------------------------- calling -- */
 
-froe_status view_overlay(view_sightlines *sights, const view_items *items, bool depths, view_segments *out) {
-    overlayer o = {.sights = sights, .depths = depths};
+froe_status view_overlay(view_sightlines *sights, const froe_projection *view, const view_items *items,
+                         const uint32_t *chains, bool depths, view_segments *out) {
+    overlayer o = {.sights = sights, .view = view, .chains = chains, .depths = depths};
     overlay_ids lines = {0};
     if (items->count > INT32_MAX) return FROE_E_LIMIT;
     bool ok = true;

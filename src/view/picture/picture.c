@@ -197,6 +197,8 @@ void froe_picture_free(froe_picture *p) {
     array_free(&alloc, &p->ring_ends);
     array_free(&alloc, &p->strokes);
     array_free(&alloc, &p->stroke_points);
+    array_free(&alloc, &p->stroke_space);
+    array_free(&alloc, &p->stroke_objects);
     support_free(&alloc, p, sizeof *p);
 }
 
@@ -233,6 +235,8 @@ froe_stroke froe_picture_stroke(const froe_picture *p, size_t i) {
                          .butt = {s->butt[0], s->butt[1]},
                          .place = s->place,
                          .points = &p->stroke_points.data[s->first].x,
+                         .space = p->stroke_space.data + 3 * (size_t)s->first,
+                         .objects = p->stroke_objects.data + s->first,
                          .count = s->count};
 }
 

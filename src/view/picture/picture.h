@@ -32,6 +32,9 @@ struct froe_picture {
     print_ends ring_ends; /**< per ring: where its points end */
     ARRAY(picture_stroke) strokes;
     print_ring stroke_points;
+    ARRAY(double) stroke_space; /**< of these points in the scene, 3 each */
+    ARRAY(uint32_t)
+    stroke_objects; /**< per point: whose line leaves it; the last one of an open line repeats that before */
     froe_picture_report report;
 };
 

@@ -3,6 +3,7 @@
 #include "geom/predicates.h"
 #include "view/picture/picture.h"
 #include <math.h>
+#include <string.h>
 
 /* Far enough beyond the page that no rounding matters: what is visible, or hidden, has been cut to it exactly. */
 #define BEYOND 1e-6
@@ -20,14 +21,24 @@ static bool add_view_item(view_painter *p, view_item *item, const double *a, con
         view_camera_page(view, at, page);
         item->at[e] = (print_point){page[0], page[1]};
         item->near[e] = view->eye.parallel ? -at[2] : 1 / at[2];
+        memcpy(item->space[e], x, sizeof x);
     }
     return array_push(&p->picture->alloc, &p->items, *item);
+}
+
+/* The object that an edge is a line of: of those that use it the first that faces the eye, or the first. */
+static uint32_t owner_of_edge(view_sightlines *s, uint32_t edge) {
+    const uint32_t first = s->surface->edge_starts[edge], end = s->surface->edge_starts[edge + 1];
+    for (uint32_t i = first; i < end; i++)
+        if (view_facing(s, s->surface->uses[i]) > 0) return s->surface->uses[i];
+    return s->surface->uses[first];
 }
 
 static bool add_stretch(view_painter *p, uint32_t edge, uint8_t kind, bool hidden, const view_mark mark[2]) {
     view_sightlines *s = p->sights;
     const uint32_t *v = s->surface->vertices + 2 * (size_t)edge;
     view_item item = {.run = {view_line_of_edge(s, edge), {mark[0], mark[1]}}, .kind = kind, .hidden = hidden};
+    item.object = owner_of_edge(s, edge);
     return add_view_item(p, &item, view_vertex(s, v[0]), view_vertex(s, v[1]), view_share_of(s, edge, mark[0]),
                          view_share_of(s, edge, mark[1]));
 }
@@ -93,9 +104,11 @@ froe_status view_make_segments(view_painter *p, const uint8_t *kinds) {
     for (size_t i = 0; !status && i < count; i++) {
         const uint32_t kind = x[i].section ? FROE_LINE_SECTION : FROE_LINE_CROSSING;
         view_item item = {.run = p->v->crossing_runs.data[i], .kind = (uint8_t)kind, .hidden = x[i].hidden};
+        item.object = surface_first(p->sights->surface, x[i].patch);
         if (o->lines & kind && !add_view_item(p, &item, x[i].from, x[i].to, 0, 1)) status = FROE_E_MEMORY;
     }
-    if (!status) status = view_overlay(p->sights, &p->items, o->halo > 0 || o->interleave > 0, &p->segments);
+    if (!status)
+        status = view_overlay(p->sights, o->view, &p->items, o->chains, o->halo > 0 || o->interleave > 0, &p->segments);
     if (!status && !number_crossings(p)) status = FROE_E_MEMORY;
     if (!status) status = view_cut_segments(&p->picture->alloc, o->view, o->halo, &p->segments);
     return status;

@@ -4,13 +4,14 @@
  * round cap would stick out over the hiding face: such ends are marked. */
 #include "view/picture/picture.h"
 #include <math.h>
+#include <string.h>
 
 typedef struct chainer {
     view_painter *p;
     const froe_allocator *alloc;
     ARRAY(base_pair) ends; /* by class and vertex: 2 * segment + end; twice as long for sorting */
     size_t end_count;
-    print_ring forth, back;
+    print_ends forth, back; /* how the line goes on to both sides: 2 * segment + its far end */
 } chainer;
 
 static uint32_t class_of(const view_segment *s) {
@@ -38,7 +39,7 @@ static uint32_t continuation(const chainer *c, uint32_t i, uint32_t e) {
     for (size_t k = lo; k < c->end_count && c->ends.data[k].key == key; k++) {
         const uint32_t other = c->ends.data[k].value >> 1, end = c->ends.data[k].value & 1;
         const view_segment *t = c->p->segments.data + other;
-        if (t->used || t->place != s->place) continue;
+        if (t->used || t->place != s->place || !view_runs_on(c->p->options->chains, s->object, t->object)) continue;
         const double x = t->at[!end].x - t->at[end].x, y = t->at[!end].y - t->at[end].y, length = sqrt(x * x + y * y);
         const double along = length > 0 ? (dx * x + dy * y) / length : 0;
         if (along > best) best = along, found = 2 * other + end;
@@ -46,8 +47,8 @@ static uint32_t continuation(const chainer *c, uint32_t i, uint32_t e) {
     return found;
 }
 
-/* Follows segments from end `e` of segment `i`; their far ends go to `out`. *free: the last end is within an edge. */
-static bool follow_chain(chainer *c, uint32_t i, uint32_t e, print_ring *out, uint32_t *vertex) {
+/* Follows segments from end `e` of segment `i`. *vertex: where they end; FROE_NONE: within an edge. */
+static bool follow_chain(chainer *c, uint32_t i, uint32_t e, print_ends *out, uint32_t *vertex) {
     out->count = 0;
     for (;;) {
         *vertex = c->p->segments.data[i].vertex[e];
@@ -55,8 +56,18 @@ static bool follow_chain(chainer *c, uint32_t i, uint32_t e, print_ring *out, ui
         if (next == FROE_NONE) return true;
         i = next >> 1, e = !(next & 1);
         c->p->segments.data[i].used = 1;
-        if (!array_push(c->alloc, out, c->p->segments.data[i].at[e])) return false;
+        if (!array_push(c->alloc, out, 2 * i + e)) return false;
     }
+}
+
+/* Appends an end of a segment, 2 * segment + end, from which the line goes on along another one. */
+static void put_point(chainer *c, uint32_t at, uint32_t along) {
+    froe_picture *picture = c->p->picture;
+    const view_segment *segments = c->p->segments.data, *s = segments + at / 2;
+    picture->stroke_points.data[picture->stroke_points.count++] = s->at[at % 2];
+    memcpy(picture->stroke_space.data + picture->stroke_space.count, s->space[at % 2], sizeof s->space[at % 2]);
+    picture->stroke_space.count += 3;
+    picture->stroke_objects.data[picture->stroke_objects.count++] = segments[along / 2].object;
 }
 
 static bool put_stroke(chainer *c, uint32_t i) {
@@ -65,18 +76,23 @@ static bool put_stroke(chainer *c, uint32_t i) {
     uint32_t start, end;
     s->used = 1;
     if (!follow_chain(c, i, 1, &c->forth, &end) || !follow_chain(c, i, 0, &c->back, &start)) return false;
+    const size_t forth = c->forth.count, count = c->back.count + 2 + forth;
     picture_stroke stroke = {
         .first = (uint32_t)picture->stroke_points.count, .kind = s->kind, .hidden = s->hidden, .place = s->place};
-    stroke.count = (uint32_t)(c->forth.count + c->back.count + 2);
     stroke.butt[0] = start == FROE_NONE, stroke.butt[1] = end == FROE_NONE;
-    if (!array_reserve(c->alloc, &picture->stroke_points, stroke.count)) return false;
-    print_point *out = picture->stroke_points.data + stroke.first;
-    for (size_t k = c->back.count; k-- > 0;) *out++ = c->back.data[k];
-    *out++ = s->at[0], *out++ = s->at[1];
-    for (size_t k = 0; k < c->forth.count; k++) *out++ = c->forth.data[k];
-    stroke.closed = start != FROE_NONE && start == end && stroke.count > 3;
-    if (stroke.closed) stroke.count--; /* the last point is the first */
-    picture->stroke_points.count += stroke.count;
+    stroke.closed = start != FROE_NONE && start == end && count > 3; /* the last point is the first */
+    stroke.count = (uint32_t)count - stroke.closed;
+    if (!array_reserve(c->alloc, &picture->stroke_points, count) ||
+        !array_reserve(c->alloc, &picture->stroke_space, 3 * count) ||
+        !array_reserve(c->alloc, &picture->stroke_objects, count))
+        return false;
+    for (size_t k = c->back.count; k-- > 0;) put_point(c, c->back.data[k], c->back.data[k]);
+    put_point(c, 2 * i, 2 * i);
+    for (size_t k = 0; k + stroke.closed <= forth; k++) /* the far ends of it and of what follows */
+        put_point(c, k ? c->forth.data[k - 1] : 2 * i + 1,
+                  k < forth ? c->forth.data[k]
+                  : k       ? c->forth.data[k - 1]
+                            : 2 * i);
     return array_push(c->alloc, &picture->strokes, stroke);
 }
 

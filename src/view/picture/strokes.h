@@ -9,11 +9,17 @@ typedef struct view_segment {
     uint32_t vertex[2]; /**< where it may be chained; FROE_NONE: it ends within its line */
     print_point at[2];
     double near[2]; /**< grows towards the eye, linearly along the segment: 1 / depth, or in parallel - depth */
-    uint32_t place; /**< nodes that are painted before it; FROE_NONE: all */
+    double space[2][3];
+    uint32_t object; /**< that it is a line of */
+    uint32_t place;  /**< nodes that are painted before it; FROE_NONE: all */
     uint8_t kind, hidden, used;
 } view_segment;
 typedef ARRAY(view_segment) view_segments;
 
+/** Do lines of two objects run on into each other? See froe_picture_options. */
+static inline bool view_runs_on(const uint32_t *chains, uint32_t a, uint32_t b) {
+    return !chains || chains[a] == chains[b];
+}
 /** Where lines lie on each other, that of the highest strength is drawn: a visible one, then the widest. */
 int view_strength(uint8_t kind, bool hidden);
 /** Removes parts that shall not be drawn: those that nearly lie on a stronger or earlier segment, and, with a halo > 0,
