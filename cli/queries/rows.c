@@ -1,57 +1,81 @@
-/* rows.c: headers, fields and numbers. */
+/* rows.c: headers, records and numbers. */
 #include "queries/rows.h"
 #include "exit.h"
+#include "support/path.h"
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
-enum { NAME = 32 };
+/* ----------------------------------------------------------------- records -- */
 
-/* ------------------------------------------------------------------ fields -- */
+/* Reads a line with its end. False: there is none. */
+static bool next_line(cli_rows *rows, char **text, size_t *capacity, size_t *length) {
+    const ssize_t got = getline(text, capacity, rows->file);
+    if (got < 0) return false;
+    rows->lines++;
+    *length = (size_t)got;
+    for (char *zero; (zero = memchr(*text, '\0', *length));) *zero = '?'; /* no text: it spoils its field */
+    return true;
+}
 
-/* Reads a line without its end into rows->text. False: there is none. */
-static bool next_line(cli_rows *rows) {
-    ssize_t length = getline(&rows->text, &rows->capacity, rows->file);
-    if (length < 0) return false;
-    rows->line++;
+/* Reads a record without its end into rows->text: a line, and those behind it within quotation marks. False: there is
+ * none, or no memory. */
+static bool next_record(cli_rows *rows) {
+    size_t length, more;
+    rows->line = rows->lines + 1;
+    if (!next_line(rows, &rows->text, &rows->capacity, &length)) return false;
+    if (rows->line == 1) {
+        const size_t mark = strncmp(rows->text, "\xef\xbb\xbf", 3) ? 0 : 3;
+        memmove(rows->text, rows->text + mark, length + 1 - mark);
+        length -= mark;
+        rows->separator = support_csv_separator(rows->text);
+    }
+    rows->open = memchr(rows->text, '"', length) && support_csv_goes_on(rows->text, rows->separator, false);
+    while (rows->open && next_line(rows, &rows->more, &rows->room, &more)) {
+        if (length + more >= rows->capacity) {
+            char *text = realloc(rows->text, 2 * (length + more) + 1);
+            if (!text) return errno = ENOMEM, false;
+            rows->text = text;
+            rows->capacity = 2 * (length + more) + 1;
+        }
+        memcpy(rows->text + length, rows->more, more + 1);
+        length += more;
+        rows->open = support_csv_goes_on(rows->more, rows->separator, true);
+    }
     while (length && (rows->text[length - 1] == '\n' || rows->text[length - 1] == '\r')) length--;
-    for (char *zero; (zero = memchr(rows->text, '\0', (size_t)length));) *zero = '?'; /* no text: it spoils its field */
     rows->text[length] = '\0';
     return true;
 }
 
-/* Ends the field at *at, trims it, moves *at to the next one or to NULL. */
-static char *next_field(char **at, char separator) {
-    char *field = *at + strspn(*at, " "), *end = strchr(field, separator);
-    *at = end ? end + 1 : NULL;
-    if (!end) end = field + strlen(field);
-    while (end > field && strchr(" \t", end[-1])) end--;
-    if (end > field + 1 && *field == '"' && end[-1] == '"') field++, end--;
-    *end = '\0';
-    return field;
-}
-
 /* ------------------------------------------------------------------ header -- */
 
-/* As in scenes: x or x1, behind a prefix like lo_ also 1; in small letters or capitals. */
-static bool names_axis(const char *name, const char *prefix, int axis) {
-    char number[NAME];
-    size_t length = strlen(prefix);
-    if (strncasecmp(name, prefix, length) != 0) return false;
-    name += length;
-    if (axis < 4 && (name[0] | 0x20) == "xyzw"[axis] && !name[1]) return true;
-    if ((name[0] | 0x20) != 'x' && !length) return false;
-    snprintf(number, NAME, "%d", axis + 1);
-    return !strcmp(name + ((name[0] | 0x20) == 'x'), number);
+cli_axis cli_axis_name(const char *prefix, int axis) {
+    cli_axis name;
+    if (axis >= 4)
+        snprintf(name.text, sizeof name.text, "%sx%d", prefix, axis + 1);
+    else
+        snprintf(name.text, sizeof name.text, "%s%c", prefix, "xyzw"[axis]);
+    return name;
 }
 
-/* Which number has this name? -1: none. */
-static int number_of(const cli_column *columns, int dim, const char *name) {
+/* Which axis behind the prefix does it name in a family? -1: none. Only lo_ and the like stand before lon and lat. */
+static int axis_behind(const char *name, const char *prefix, int family) {
+    const size_t length = strlen(prefix);
+    if (strncasecmp(name, prefix, length) != 0 || (family && length && prefix[length - 1] != '_')) return -1;
+    return support_csv_axis(name + length, family, length > 0);
+}
+
+/* Which number has this name? -1: none. *beyond: it names the axis behind the last. */
+static int number_of(const cli_column *columns, int dim, int family, const char *name, bool *beyond) {
     int number = 0;
-    for (; columns->name; columns++)
-        for (int axis = 0; axis < (columns->axes ? dim : 1); axis++, number++)
-            if (columns->axes ? names_axis(name, columns->name, axis) : !strcasecmp(name, columns->name)) return number;
+    for (; columns->name; columns++) {
+        const int axis = columns->axes ? axis_behind(name, columns->name, family) : -1;
+        if (axis >= 0 && axis < dim) return number + axis;
+        if (!columns->axes && support_equal_nocase(name, columns->name)) return number;
+        *beyond = *beyond || axis == dim;
+        number += columns->axes ? dim : 1;
+    }
     return -1;
 }
 
@@ -60,84 +84,103 @@ static size_t header_text(const cli_column *columns, int dim, char *out, size_t 
     size_t length = 0, count = 0;
     for (; columns->name; columns++)
         for (int axis = 0; axis < (columns->axes ? dim : 1); axis++, count++) {
-            char name[NAME];
-            if (!columns->axes)
-                snprintf(name, NAME, "%s", columns->name);
-            else if (axis >= 4)
-                snprintf(name, NAME, "%sx%d", columns->name, axis + 1);
-            else
-                snprintf(name, NAME, "%s%c", columns->name, "xyzw"[axis]);
-            if (length < size) length += (size_t)snprintf(out + length, size - length, "%s%s", count ? "," : "", name);
+            const cli_axis name = cli_axis_name(columns->name, axis);
+            if (length < size)
+                length += (size_t)snprintf(out + length, size - length, "%s%s", count ? "," : "",
+                                           columns->axes ? name.text : columns->name);
         }
     return count;
 }
 
-/* Finds the columns in the header line; false: some number has none, or two, or rows->sentence says what it is. */
-static bool read_header(cli_rows *rows, const cli_column *columns, int dim) {
+/* Finds the columns, with axes of one family; false: some number has none, or two. *beyond: that of an axis that the
+ * tree has not, which counts where all others are found. */
+static bool find_columns(cli_rows *rows, const cli_column *columns, int dim, int family, const char **beyond) {
     unsigned found = 0;
-    char *at = rows->text;
-    if (!strncmp(at, "\xef\xbb\xbf", 3)) at += 3;
-    rows->separator = strchr(at, ',') ? ',' : strchr(at, ';') ? ';' : '\t';
-    for (rows->columns = 0; at; rows->columns++) {
-        if (rows->columns == CLI_ROW_COLUMNS) return false;
-        const char *name = next_field(&at, rows->separator);
-        const int number = number_of(columns, dim, name);
-        /* A column that holds the axis behind the last: rows are of another dimension than the tree. */
-        for (const cli_column *c = columns; c->name && number < 0; c++)
-            if (c->axes && names_axis(name, c->name, dim)) {
-                snprintf(rows->sentence, sizeof rows->sentence,
-                         "The header names %.40s, and the tree has %d dimensions.", name, dim);
-                return false;
-            }
+    *beyond = NULL;
+    for (size_t i = 0; i < rows->columns; i++) {
+        bool more = false;
+        const int number = number_of(columns, dim, family, rows->names[i], &more);
+        if (more && !*beyond) *beyond = rows->names[i];
         if (number >= 0 && found >> number & 1) return false;
         if (number >= 0) found |= 1u << number;
-        rows->place[rows->columns] = (signed char)number;
+        rows->place[i] = (signed char)number;
     }
     return found == (1u << rows->numbers) - 1;
 }
 
+static int read_header(cli_rows *rows, const cli_column *columns, int dim) {
+    char expected[200], names[400];
+    const char *beyond, *first_beyond = NULL;
+    rows->numbers = header_text(columns, dim, expected, sizeof expected);
+    if (next_record(rows)) {
+        rows->header = rows->text;
+        rows->text = NULL;
+        rows->capacity = 0;
+        char *at = rows->header;
+        support_csv_field field = {.last = false};
+        for (; !field.last && rows->columns < SUPPORT_CSV_COLUMNS; rows->columns++) {
+            field = support_csv_next(&at, rows->separator);
+            rows->names[rows->columns] = field.text;
+        }
+        if (!field.last)
+            return cli_fail(CLI_INPUT, rows->path, "line 1: The header has more than %d columns.", SUPPORT_CSV_COLUMNS);
+    }
+    bool found = false;
+    for (int family = 0; family < SUPPORT_CSV_FAMILIES && !found; family++) {
+        found = find_columns(rows, columns, dim, family, &beyond);
+        if (!first_beyond || found) first_beyond = beyond;
+    }
+    if (first_beyond)
+        return cli_fail(CLI_INPUT, rows->path, "line 1: The header names %.40s, and the tree has %d dimensions.",
+                        first_beyond, dim);
+    if (found) return 0;
+    support_csv_names(names, sizeof names, rows->names, rows->columns);
+    return cli_fail(CLI_INPUT, rows->path,
+                    "line 1: The header must name the columns %s, each once, and it names %s. Axes are named "
+                    "x,y,z or x1,x2,..., or lon,lat, or easting,northing.",
+                    expected, *names ? names : "nothing");
+}
+
 int cli_rows_open(const char *path, const cli_column *columns, int dim, cli_rows *out) {
     const bool standard = !strcmp(path, "-");
-    char expected[200];
     *out = (cli_rows){.path = standard ? "standard input" : path};
     out->file = standard ? stdin : fopen(path, "r");
     if (!out->file) return cli_fail_file(CLI_INPUT, path, "read");
-    out->numbers = header_text(columns, dim, expected, sizeof expected);
-    int code = 0;
-    if (!next_line(out))
-        code = cli_fail(CLI_INPUT, out->path, "line 1: The header must name the columns %s, each once.", expected);
-    else if (!read_header(out, columns, dim))
-        code = out->sentence[0] ? cli_fail(CLI_INPUT, out->path, "line 1: %s", out->sentence)
-                                : cli_fail(CLI_INPUT, out->path,
-                                           "line 1: The header must name the columns %s, each once.", expected);
+    const int code = read_header(out, columns, dim);
     if (code) cli_rows_close(out);
     return code;
 }
 
 void cli_rows_close(cli_rows *rows) {
     if (rows->file && rows->file != stdin) fclose(rows->file);
+    free(rows->header);
     free(rows->text);
+    free(rows->more);
     *rows = (cli_rows){0};
 }
 
 /* -------------------------------------------------------------------- rows -- */
 
 static bool read_numbers(cli_rows *rows, double *values) {
-    char *at = rows->text, *end;
+    char *at = rows->text;
     size_t column = 0;
-    for (; at && column < rows->columns; column++) {
-        const char *field = next_field(&at, rows->separator);
-        if (rows->place[column] < 0) continue;
-        values[rows->place[column]] = strtod(field, &end);
-        if (end != field && !*end) continue;
-        if (*field)
-            snprintf(rows->sentence, sizeof rows->sentence, "'%.40s' is not a number.", field);
+    support_csv_field field = {.last = false};
+    if (rows->open) {
+        snprintf(rows->sentence, sizeof rows->sentence, "A quotation mark is not closed.");
+        return false;
+    }
+    for (; !field.last && column < rows->columns; column++) {
+        rows->fields[column] = field = support_csv_next(&at, rows->separator);
+        double *value = rows->place[column] < 0 ? NULL : &values[rows->place[column]];
+        if (!value || support_csv_number(field.text, rows->separator, value)) continue;
+        if (*field.text)
+            snprintf(rows->sentence, sizeof rows->sentence, "'%.40s' is not a number.", field.text);
         else
             snprintf(rows->sentence, sizeof rows->sentence, "Column %zu is empty.", column + 1);
         return false;
     }
-    if (!at && column == rows->columns) return true;
-    while (at) next_field(&at, rows->separator), column++;
+    if (field.last && column == rows->columns) return true;
+    for (; !field.last; column++) field = support_csv_next(&at, rows->separator);
     snprintf(rows->sentence, sizeof rows->sentence, "The row has %zu columns, and the header %zu.", column,
              rows->columns);
     return false;
@@ -145,9 +188,10 @@ static bool read_numbers(cli_rows *rows, double *values) {
 
 cli_row cli_rows_next(cli_rows *rows, double *values) {
     do {
-        if (next_line(rows)) continue;
-        if (!ferror(rows->file)) return CLI_ROWS_END;
-        cli_fail(CLI_INPUT, rows->path, "line %llu: The file cannot be read: %s.", (unsigned long long)rows->line + 1,
+        errno = 0;
+        if (next_record(rows)) continue;
+        if (!ferror(rows->file) && errno != ENOMEM) return CLI_ROWS_END;
+        cli_fail(CLI_INPUT, rows->path, "line %llu: The file cannot be read: %s.", (unsigned long long)rows->line,
                  strerror(errno));
         return CLI_ROWS_FAILED;
     } while (!rows->text[strspn(rows->text, " \t")]); /* blank lines are no rows */

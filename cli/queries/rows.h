@@ -6,11 +6,12 @@
  *     while (cli_rows_next(&rows, values) == CLI_ROW_READ) ...
  *     cli_rows_close(&rows);
  *
- * The header line names the columns, in any order; columns of other names are passed over, but for an axis more than
- * the tree has, which is refused. Axes are x, y, z, w or x1, x2, ...; separators commas, semicolons or tabs. Empty
- * lines do not count as rows. */
+ * The header line names the columns, in any order, and columns of other names beside them; an axis more than the tree
+ * has is refused. What separates fields, what may stand in them, and how axes may be called: support/csv.h. Empty lines
+ * do not count as rows. */
 #ifndef FROE_CLI_ROWS_H
 #define FROE_CLI_ROWS_H
+#include "support/csv.h"
 #include <froe/froe.h>
 #include <stdio.h>
 
@@ -20,21 +21,24 @@ typedef struct cli_column {
     bool axes;
 } cli_column;
 
-enum { CLI_ROW_NUMBERS = 2 * FROE_MAX_DIM + 2, CLI_ROW_COLUMNS = 64 };
+enum { CLI_ROW_NUMBERS = 2 * FROE_MAX_DIM + 2 };
 typedef enum cli_row { CLI_ROW_READ, CLI_ROW_BAD, CLI_ROWS_END, CLI_ROWS_FAILED } cli_row;
 
 typedef struct cli_rows {
     const char *path; /**< as messages name it */
     FILE *file;
-    char *text; /**< the current line */
-    size_t capacity;
-    uint64_t line; /**< of `text`, from 1 */
-    uint64_t row;  /**< of `text`, from 0, bad ones included */
-    uint64_t rows; /**< read so far */
-    size_t numbers;
-    size_t columns;
-    signed char place[CLI_ROW_COLUMNS]; /**< which number a column holds, -1: none */
+    char *header, *text;     /**< the first record, with `names` in it; the current one, with `fields` in it */
+    char *more;              /**< a line that belongs to a record */
+    size_t capacity, room;   /**< of text; of more */
+    uint64_t line, lines;    /**< the first of `text`, from 1; read so far */
+    uint64_t row;            /**< of `text`, from 0, bad ones included */
+    uint64_t rows;           /**< read so far */
+    size_t numbers, columns; /**< asked for; there are */
+    const char *names[SUPPORT_CSV_COLUMNS];
+    support_csv_field fields[SUPPORT_CSV_COLUMNS]; /**< of a row that was read, as they stand in the file */
+    signed char place[SUPPORT_CSV_COLUMNS];        /**< which number a column holds, -1: none */
     char separator;
+    bool open;          /**< the file ends within quotation marks */
     char sentence[120]; /**< what is wrong with a bad row */
 } cli_rows;
 
@@ -44,4 +48,10 @@ int cli_rows_open(const char *path, const cli_column *columns, int dim, cli_rows
  * call goes on behind it. CLI_ROWS_FAILED: the file cannot be read on, and that has been said. */
 cli_row cli_rows_next(cli_rows *rows, double *values);
 void cli_rows_close(cli_rows *rows);
+
+/** The name of an axis: x, y, z, w, x5, ... behind a prefix. */
+typedef struct cli_axis {
+    char text[32];
+} cli_axis;
+cli_axis cli_axis_name(const char *prefix, int axis);
 #endif

@@ -1,41 +1,6 @@
 /* csv_header.c: columns by their names: axes, ends of boxes, radius, tag and geometry. */
 #include "formats/input/csv_header.h"
-#include <stdlib.h>
 #include <string.h>
-
-char *formats_csv_field(char **at, char separator, bool *last) {
-    char *from = *at, *to = from, *field = from;
-    from += strspn(from, " ");
-    if (*from == '"') {
-        for (++from; *from && (*from != '"' || from[1] == '"'); ++from) {
-            if (*from == '"') ++from;
-            *to++ = *from;
-        }
-        if (*from) ++from;
-    }
-    while (*from && *from != separator && *from != '\n') *to++ = *from++;
-    *last = *from != separator;
-    *at = *from ? from + 1 : from;
-    while (to > field && strchr(" \t\r", to[-1])) to--;
-    *to = '\0';
-    return field + strspn(field, " \t\r");
-}
-
-/* Axis of a name like x, z or x7, behind lo_ and hi_ also 7; -1 when it is none, FROE_MAX_DIM when it is beyond. */
-static int axis_of(const char *name, bool sided) {
-    static const char letters[] = "xyzw";
-    const char *at = name[0] && !name[1] ? strchr(letters, name[0] | 0x20) : NULL;
-    char *end;
-    if (at) return (int)(at - letters);
-    if ((name[0] | 0x20) == 'x')
-        ++name;
-    else if (!sided)
-        return -1;
-    if (name[0] < '1' || name[0] > '9') return -1;
-    long number = strtol(name, &end, 10);
-    if (*end) return -1;
-    return number <= FROE_MAX_DIM ? (int)number - 1 : FROE_MAX_DIM;
-}
 
 /* Added to the role of a column from_ or to_ until it is known whether the rows are segments. */
 enum { SEGMENT_END = 64 };
@@ -58,15 +23,17 @@ static name_side side_of(const char *name) {
     return (name_side){0, 0};
 }
 
-static int role_of(const char *name, bool *beyond) {
-    if (support_equal_nocase(name, "r") || support_equal_nocase(name, "radius")) return FORMATS_CSV_RADIUS;
-    if (support_equal_nocase(name, "tag")) return FORMATS_CSV_TAG;
-    if (support_equal_nocase(name, "hull")) return FORMATS_CSV_HULL;
-    if (support_equal_nocase(name, "wkt") || support_equal_nocase(name, "geometry") ||
-        support_equal_nocase(name, "geom"))
-        return FORMATS_CSV_GEOMETRY;
+static int role_of(const char *name, int family, bool *beyond) {
+    static const struct {
+        const char *name;
+        int role;
+    } roles[] = {{"r", FORMATS_CSV_RADIUS},  {"radius", FORMATS_CSV_RADIUS}, {"tag", FORMATS_CSV_TAG},
+                 {"hull", FORMATS_CSV_HULL}, {"wkt", FORMATS_CSV_GEOMETRY},  {"geometry", FORMATS_CSV_GEOMETRY},
+                 {"name", FORMATS_CSV_NAME}, {"geom", FORMATS_CSV_GEOMETRY}};
+    for (size_t i = 0; i < sizeof roles / sizeof *roles; i++)
+        if (support_equal_nocase(name, roles[i].name)) return roles[i].role;
     const name_side side = side_of(name);
-    int axis = axis_of(name + side.length, side.length > 0);
+    const int axis = support_csv_axis(name + side.length, family, side.length > 0);
     if (axis < 0) return FORMATS_CSV_LEFT_ALONE;
     if (axis >= FROE_MAX_DIM) return *beyond = true, FORMATS_CSV_LEFT_ALONE;
     return side.role + axis; /* a plain axis is stored as corner 0; sides are told apart by the presence of corner 1 */
@@ -77,7 +44,7 @@ static bool settle(formats_csv_table *t, froe_kind sided) {
     int count[FORMATS_CSV_LEFT_ALONE + 1] = {0}, dim = 0, high = 0;
     for (int i = 0; i < t->columns; ++i) ++count[t->role[i]];
     for (int role = 0; role < FORMATS_CSV_LEFT_ALONE; ++role)
-        if (count[role] > 1) return false;
+        if (count[role] > 1 && role != FORMATS_CSV_NAME) return false;
     while (dim < FROE_MAX_DIM && count[dim]) ++dim;
     while (high < FROE_MAX_DIM && count[FROE_MAX_DIM + high]) ++high;
     for (int k = 0; k < FROE_MAX_DIM; ++k)
@@ -90,19 +57,15 @@ static bool settle(formats_csv_table *t, froe_kind sided) {
     return dim >= 2 && !count[FORMATS_CSV_GEOMETRY] && high == (sided != FROE_POINT ? dim : 0);
 }
 
-formats_csv_header formats_csv_read_header(char **at, formats_csv_table *t) {
-    size_t length = strcspn(*at, "\r\n");
-    char *line = *at;
-    t->separator = memchr(line, ',', length) ? ',' : memchr(line, ';', length) ? ';' : '\t';
-    bool last = false, beyond = false;
+/* What the names say when axes are those of one family. */
+static formats_csv_header read_names(formats_csv_table *t, const char *const *names, int family) {
+    bool beyond = false;
     int sided = 0, plain = 0, ends = 0;
-    for (t->columns = 0; !last; ++t->columns) {
-        if (t->columns == FORMATS_CSV_COLUMNS) return FORMATS_CSV_OTHER;
-        char *name = formats_csv_field(at, t->separator, &last);
-        int role = role_of(name, &beyond);
-        if (role < FORMATS_CSV_RADIUS) ++*(strchr(name, '_') ? &sided : &plain);
+    for (int i = 0; i < t->columns; ++i) {
+        const int role = role_of(names[i], family, &beyond);
+        if (role < FORMATS_CSV_RADIUS) ++*(strchr(names[i], '_') ? &sided : &plain);
         ends += role >= SEGMENT_END;
-        t->role[t->columns] = (unsigned char)role;
+        t->role[i] = (unsigned char)role;
     }
     const bool segments = ends && !sided && !plain; /* else such columns are others */
     for (int i = 0; i < t->columns; ++i)
@@ -114,6 +77,34 @@ formats_csv_header formats_csv_read_header(char **at, formats_csv_table *t) {
     return sided + (segments ? ends : 0) > 1 && !memchr(t->role, FORMATS_CSV_GEOMETRY, (size_t)t->columns)
                ? FORMATS_CSV_HALVES
                : FORMATS_CSV_OTHER;
+}
+
+/* Where there is no column `name`, one that is named `group` has the names of groups. */
+static void find_names(formats_csv_table *t, const char *const *names) {
+    const unsigned char *role = memchr(t->role, FORMATS_CSV_NAME, (size_t)t->columns);
+    for (int i = 0; i < t->columns; ++i) {
+        if (t->role[i] == FORMATS_CSV_NAME && t->role + i != role) t->role[i] = FORMATS_CSV_LEFT_ALONE;
+        if (!role && support_equal_nocase(names[i], "group")) t->role[i] = FORMATS_CSV_NAME, role = t->role + i;
+    }
+}
+
+formats_csv_header formats_csv_read_header(char **at, formats_csv_table *t) {
+    const char *names[SUPPORT_CSV_COLUMNS];
+    support_csv_field field = {.last = false};
+    t->separator = support_csv_separator(*at);
+    for (t->columns = 0; !field.last; ++t->columns) {
+        if (t->columns == SUPPORT_CSV_COLUMNS) return FORMATS_CSV_OTHER;
+        field = support_csv_next(at, t->separator);
+        names[t->columns] = field.text;
+    }
+    support_csv_names(t->found, sizeof t->found, names, (size_t)t->columns);
+    formats_csv_header first = FORMATS_CSV_OTHER;
+    for (int family = 0; family < SUPPORT_CSV_FAMILIES; ++family) {
+        const formats_csv_header what = read_names(t, names, family);
+        if (what == FORMATS_CSV_OURS) return find_names(t, names), what;
+        if (first == FORMATS_CSV_OTHER) first = what;
+    }
+    return first;
 }
 
 /* Reads the header from the file's first bytes. */
@@ -128,8 +119,10 @@ static formats_csv_header peek_header(const formats_source *source, formats_csv_
 }
 
 bool formats_csv_recognise(const formats_source *source) {
-    formats_csv_table t;
-    return peek_header(source, &t) != FORMATS_CSV_OTHER;
+    formats_csv_table t = {.columns = 0};
+    const bool named = !strcmp(source->extension.text, "csv") || !strcmp(source->extension.text, "tsv");
+    return peek_header(source, &t) != FORMATS_CSV_OTHER ||
+           (named && !memchr(t.role, FORMATS_CSV_GEOMETRY, (size_t)t.columns));
 }
 
 bool formats_csv_has_geometry(const formats_source *source) {

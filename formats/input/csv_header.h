@@ -3,20 +3,21 @@
 #ifndef FROE_FORMATS_CSV_HEADER_H
 #define FROE_FORMATS_CSV_HEADER_H
 #include "formats/input/source.h"
+#include "support/csv.h"
 
-enum { FORMATS_CSV_COLUMNS = 512 };
 /** What a column holds. Corner c (0, or 1 for hi_ and to_) of axis a is c * FROE_MAX_DIM + a. */
 enum {
     FORMATS_CSV_RADIUS = 2 * FROE_MAX_DIM,
     FORMATS_CSV_TAG,
     FORMATS_CSV_HULL,     /**< the number of the hull that the row is a corner of */
+    FORMATS_CSV_NAME,     /**< of the group */
     FORMATS_CSV_GEOMETRY, /**< well-known text */
     FORMATS_CSV_LEFT_ALONE
 };
 
 typedef enum formats_csv_header {
     FORMATS_CSV_OURS,
-    FORMATS_CSV_OTHER,  /**< left to OGR */
+    FORMATS_CSV_OTHER,  /**< none of these */
     FORMATS_CSV_BEYOND, /**< more axes than there can be */
     FORMATS_CSV_HALVES  /**< ends of boxes or segments, but not both on the same axes */
 } formats_csv_header;
@@ -26,12 +27,10 @@ typedef struct formats_csv_table {
     froe_kind kind;
     int dim;
     int columns;
-    unsigned char role[FORMATS_CSV_COLUMNS];
+    unsigned char role[SUPPORT_CSV_COLUMNS];
+    char found[80]; /**< the names of the columns, for a sentence */
 } formats_csv_table;
 
-/** One field, in place: ends it, unquotes it, takes the blanks around it away, and moves `at` to the next. Returns it;
- * *last when its line ends with it. */
-char *formats_csv_field(char **at, char separator, bool *last);
 /** Reads the header line, which it changes, and moves `at` behind it. */
 formats_csv_header formats_csv_read_header(char **at, formats_csv_table *table);
 /** Does the header line say points, boxes, balls, segments or hulls, or try to? */

@@ -119,13 +119,9 @@ static froe_status fill_scene(formats_choose_fn *choose, formats_reader *maps, c
     froe_status status = reader(source, sink);
     if (!status) status = formats_sink_end_feature(sink);
     if (!status && !sink->total)
-        status =
-            support_fail(sink->diag, FROE_E_INPUT,
-                         reader == maps && !strcmp(source->extension.text, "csv")
-                             ? "%s: The file holds no objects (%llu features without geometry, %llu skipped). "
-                               "A CSV begins with a line like x,y or x,y,r or lo_x,lo_y,hi_x,hi_y."
-                             : "%s: The file holds no objects (%llu features without geometry, %llu skipped).",
-                         name, (unsigned long long)sink->report.no_geometry, (unsigned long long)sink->report.skipped);
+        status = support_fail(sink->diag, FROE_E_INPUT,
+                              "%s: The file holds no objects (%llu features without geometry, %llu skipped).", name,
+                              (unsigned long long)sink->report.no_geometry, (unsigned long long)sink->report.skipped);
     if (!status) status = formats_sink_progress(sink, 1);
     return status ? status : formats_sink_take(sink, out);
 }

@@ -3,7 +3,8 @@
  *
  *     x,y,z       lo_x,lo_y,hi_x,hi_y       x,y,r       from_x,from_y,to_x,to_y       hull,x,y
  *
- * A hull has one row for each corner: rows one after the other with the same number are one hull. */
+ * A hull has one row for each corner: rows one after the other with the same number are one hull. Rows one after the
+ * other with the same name (column name, or else group) are one group. */
 #include "formats/input/csv_header.h"
 #include "formats/read/readers.h"
 #include <errno.h>
@@ -12,31 +13,34 @@
 
 typedef struct csv_row {
     double corners[2 * FROE_MAX_DIM], radius; /* corner 1 directly behind corner 0 */
-    uint64_t tag, hull;
+    uint64_t row, tag, hull;
     bool tagged;
+    const char *name; /* of its group; NULL or "": none */
 } csv_row;
 
-/** The hull whose rows are read. */
-typedef struct csv_hull {
-    uint64_t number, row, tag; /* row: its first */
-    bool tagged;
+typedef struct csv_reader {
+    formats_sink *sink;
+    formats_csv_table table;
+    const char *name; /* of the last group, in the text */
+    uint32_t group;
+    csv_row first; /* of the hull whose rows are read */
     ARRAY(double) corners;
-} csv_hull;
+} csv_reader;
 
-static froe_status read_csv_number(formats_sink *sink, const char *field, double *value) {
-    char *end;
-    *value = strtod(field, &end); /* correctly rounded, in the C locale of this thread */
-    if (end != field && !*end) return FROE_OK;
+static froe_status read_csv_number(formats_sink *sink, char *field, char separator, double *value) {
+    if (support_csv_number(field, separator, value)) return FROE_OK;
     if (!*field) return formats_sink_fail(sink, FROE_E_FORMAT, "A coordinate is missing.");
     return formats_sink_fail(sink, FROE_E_FORMAT, "'%.40s' is not a number.", field);
 }
 
-static froe_status read_field(formats_sink *sink, const formats_csv_table *t, int role, const char *field, csv_row *r) {
-    if (role == FORMATS_CSV_RADIUS && t->kind == FROE_BALL) return read_csv_number(sink, field, &r->radius);
+static froe_status read_field(formats_sink *sink, const formats_csv_table *t, int role, char *field, csv_row *r) {
+    if (role == FORMATS_CSV_RADIUS && t->kind == FROE_BALL)
+        return read_csv_number(sink, field, t->separator, &r->radius);
     if (role < FORMATS_CSV_RADIUS) {
         int corner = role / FROE_MAX_DIM, axis = role % FROE_MAX_DIM;
-        return read_csv_number(sink, field, &r->corners[corner * t->dim + axis]);
+        return read_csv_number(sink, field, t->separator, &r->corners[corner * t->dim + axis]);
     }
+    if (role == FORMATS_CSV_NAME) r->name = field;
     const bool hull = role == FORMATS_CSV_HULL && t->kind == FROE_HULL;
     if (role != FORMATS_CSV_TAG && !hull) return FROE_OK;
     char *end;
@@ -49,78 +53,99 @@ static froe_status read_field(formats_sink *sink, const formats_csv_table *t, in
     return FROE_OK;
 }
 
+/* Begins the object that a row makes, or a hull whose first row it is. */
+static froe_status begin_object(csv_reader *c, const csv_row *r) {
+    formats_sink *sink = c->sink;
+    froe_status status = formats_sink_feature(sink, r->row);
+    sink->tagged = r->tagged;
+    sink->tag = r->tag;
+    if (status || !r->name || !*r->name) return status;
+    if (!c->name || strcmp(c->name, r->name) != 0) {
+        status = formats_sink_group(sink, &(froe_group){.name = r->name});
+        c->group = sink->group;
+        c->name = r->name;
+    }
+    sink->group = c->group;
+    return status;
+}
+
 /* Ends the hull whose rows were read, if there is one. */
-static froe_status end_hull(formats_sink *sink, csv_hull *hull) {
-    if (!hull->corners.count) return FROE_OK;
-    froe_status status = formats_sink_feature(sink, hull->row);
-    sink->tagged = hull->tagged;
-    sink->tag = hull->tag;
-    if (!status) status = formats_sink_hull(sink, hull->corners.data, hull->corners.count / (size_t)sink->dim);
-    hull->corners.count = 0;
+static froe_status end_hull(csv_reader *c) {
+    if (!c->corners.count) return FROE_OK;
+    froe_status status = begin_object(c, &c->first);
+    if (!status) status = formats_sink_hull(c->sink, c->corners.data, c->corners.count / (size_t)c->table.dim);
+    c->corners.count = 0;
     return status;
 }
 
 /* A row as a corner of the hull that it says. */
-static froe_status take_corner(formats_sink *sink, const csv_row *r, uint64_t row, csv_hull *hull) {
-    if (hull->corners.count && hull->number != r->hull) {
-        const froe_status status = end_hull(sink, hull);
+static froe_status take_corner(csv_reader *c, const csv_row *r) {
+    if (c->corners.count && c->first.hull != r->hull) {
+        const froe_status status = end_hull(c);
         if (status) return status;
     }
-    if (!hull->corners.count) hull->number = r->hull, hull->row = row, hull->tag = r->tag, hull->tagged = r->tagged;
-    return array_append(&sink->alloc, &hull->corners, r->corners, (size_t)sink->dim) ? FROE_OK
-                                                                                     : support_fail_memory(sink->diag);
+    if (!c->corners.count) c->first = *r;
+    return array_append(&c->sink->alloc, &c->corners, r->corners, (size_t)c->table.dim)
+               ? FROE_OK
+               : support_fail_memory(c->sink->diag);
 }
 
 /* A row as the object that it says. */
-static froe_status read_row(formats_sink *sink, const formats_csv_table *t, char **at, uint64_t row, csv_hull *hull) {
-    csv_row r = {.tag = 0};
-    bool last = false;
+static froe_status read_row(csv_reader *c, char **at, uint64_t row) {
+    formats_sink *sink = c->sink;
+    const formats_csv_table *t = &c->table;
+    csv_row r = {.row = row};
+    support_csv_field field = {.last = false};
+    froe_status status = FROE_OK;
     int column = 0;
-    froe_status status = t->kind == FROE_HULL ? FROE_OK : formats_sink_feature(sink, row);
     sink->number = row;
-    while (!last && !status) {
-        char *field = formats_csv_field(at, t->separator, &last);
-        if (column < t->columns) status = read_field(sink, t, t->role[column], field, &r);
-        ++column;
+    for (; !field.last && !status; ++column) {
+        field = support_csv_next(at, t->separator);
+        if (column < t->columns) status = read_field(sink, t, t->role[column], field.text, &r);
     }
     if (status) return status;
     if (column != t->columns)
         return formats_sink_fail(sink, FROE_E_FORMAT, "The row has %d columns, and the header %d.", column, t->columns);
-    if (t->kind == FROE_HULL) return take_corner(sink, &r, row, hull);
-    sink->tagged = r.tagged;
-    sink->tag = r.tag;
+    if (t->kind == FROE_HULL) return take_corner(c, &r);
+    status = begin_object(c, &r);
+    if (status) return status;
     if (t->kind == FROE_SEGMENT) return formats_sink_segment(sink, r.corners, r.corners + t->dim);
     if (t->kind == FROE_BOX) return formats_sink_box(sink, r.corners, r.corners + t->dim);
     if (t->kind == FROE_BALL) return formats_sink_ball(sink, r.corners, r.radius);
     return formats_sink_point(sink, r.corners);
 }
 
+static froe_status refuse_header(const csv_reader *c, const formats_source *source, formats_csv_header what) {
+    const char *name = support_short(source->path);
+    froe_diagnostic *diag = c->sink->diag;
+    if (what == FORMATS_CSV_BEYOND)
+        return support_fail(diag, FROE_E_UNSUPPORTED, "%s: The header has more than %d axes.", name, FROE_MAX_DIM);
+    if (what == FORMATS_CSV_HALVES)
+        return support_fail(diag, FROE_E_FORMAT,
+                            "%s: Columns of boxes are lo_ and hi_, of segments from_ and to_, of the same two or more "
+                            "axes, as in lo_x,lo_y,hi_x,hi_y.",
+                            name);
+    return support_fail(diag, FROE_E_FORMAT,
+                        "%s: The header names %s. Columns of points are x,y or x1,x2 or lon,lat or easting,northing, "
+                        "of balls x,y,r, of boxes lo_x,lo_y,hi_x,hi_y.",
+                        name, c->table.found);
+}
+
 froe_status formats_read_csv(const formats_source *source, formats_sink *sink) {
     enum { ROWS_PER_REPORT = 4096 };
     formats_text text = {0};
-    formats_csv_table t;
-    csv_hull hull = {.number = 0};
+    csv_reader c = {.sink = sink};
     uint64_t row = 0;
     froe_status status = formats_load(source, sink, false, &text);
     char *at = text.data;
-    const formats_csv_header what = status ? FORMATS_CSV_OURS : formats_csv_read_header(&at, &t);
-    const char *name = support_short(source->path);
-    if (what == FORMATS_CSV_BEYOND)
-        status =
-            support_fail(sink->diag, FROE_E_UNSUPPORTED, "%s: The header has more than %d axes.", name, FROE_MAX_DIM);
-    else if (what == FORMATS_CSV_HALVES)
-        status = support_fail(
-            sink->diag, FROE_E_FORMAT,
-            "%s: Columns of boxes are lo_ and hi_, of segments from_ and to_, of the same two or more axes, as in "
-            "lo_x,lo_y,hi_x,hi_y.",
-            name);
-    else if (what == FORMATS_CSV_OTHER)
-        status = support_fail(sink->diag, FROE_E_IO, "%s: The file changed while it was read.", name);
-    if (!status) status = formats_sink_open(sink, t.dim);
+    const formats_csv_header what = status ? FORMATS_CSV_OURS : formats_csv_read_header(&at, &c.table);
+    if (what != FORMATS_CSV_OURS) status = refuse_header(&c, source, what);
+    if (!status) status = formats_sink_open(sink, c.table.dim);
     sink->unit = "row";
     sink->report.layers = 1;
     if (!status)
-        formats_report_format(sink, "float64", "CSV %ss", t.kind == FROE_BOX ? "boxe" : froe_kind_name(t.kind));
+        formats_report_format(sink, "float64", "CSV %ss",
+                              c.table.kind == FROE_BOX ? "boxe" : froe_kind_name(c.table.kind));
     while (!status && *at) {
         const char *word = at + strspn(at, " \t\r");
         if (*word == '\n' || !*word) { /* a blank line */
@@ -128,12 +153,12 @@ froe_status formats_read_csv(const formats_source *source, formats_sink *sink) {
             at += *at == '\n';
             continue;
         }
-        status = read_row(sink, &t, &at, ++row, &hull);
+        status = read_row(&c, &at, ++row);
         if (!status && row % ROWS_PER_REPORT == 0)
             status = formats_sink_progress(sink, (double)(at - text.data) / (double)text.count);
     }
-    if (!status) status = end_hull(sink, &hull);
-    array_free(&sink->alloc, &hull.corners);
+    if (!status) status = end_hull(&c);
+    array_free(&sink->alloc, &c.corners);
     array_free(&sink->alloc, &text);
     return status;
 }

@@ -12,6 +12,11 @@ static froe_scene *table(const char *text, const char *format) {
     return scene;
 }
 
+static void refuse_table(const char *text, froe_status status, const char *words) {
+    write_text("bad.csv", text);
+    refuse("bad.csv", status, words);
+}
+
 static void the_header_says_what_the_rows_are(void **state) {
     (void)state;
     froe_scene *s = table("x,y\n1,2\n3,4\n", "CSV points");
@@ -67,10 +72,67 @@ static void other_headers_are_left_to_ogr(void **state) {
     assert_string_equal(froe_scene_group(s, 0).name, "here");
     froe_scene_free(s);
     refuse("table-without-geometry.csv", FROE_E_IO, "No such file");
-    write_text("plain.csv", "a,b\n1,2\n");
-    refuse("plain.csv", FROE_E_INPUT, "holds no objects");
-    write_text("gap.csv", "x,z\n1,2\n");
-    refuse("gap.csv", FROE_E_INPUT, "holds no objects");
+}
+
+static void axes_have_several_names(void **state) {
+    (void)state;
+    static const char *const headers[] = {"lon,lat", "LNG,Lat", "longitude,latitude", "long,lat", "easting,northing"};
+    char text[80];
+    for (size_t i = 0; i < sizeof headers / sizeof *headers; i++) {
+        snprintf(text, sizeof text, "%s\n2,1\n", headers[i]);
+        froe_scene *s = table(text, "CSV points");
+        assert_true(corner(s, 0, 0)[0] == 2 && corner(s, 0, 0)[1] == 1);
+        froe_scene_free(s);
+    }
+    froe_scene *s = table("note,latitude,r,longitude\nhere,1,5,2\n", "CSV balls");
+    assert_true(corner(s, 0, 0)[0] == 2 && corner(s, 0, 0)[1] == 1 && froe_scene_object(s, 0).radius == 5);
+    froe_scene_free(s);
+    s = table("lon,lat,x,y\n7,8,1,2\n", "CSV points"); /* x and y count before others */
+    assert_true(corner(s, 0, 0)[0] == 1 && corner(s, 0, 0)[1] == 2);
+    froe_scene_free(s);
+    s = table("lon,lat,z\n7,8,9\n", "CSV points");
+    assert_true(froe_scene_dim(s) == 3 && corner(s, 0, 0)[2] == 9);
+    froe_scene_free(s);
+    s = table("lo_lon,lo_lat,hi_lon,hi_lat\n7,8,9,10\n", "CSV boxes");
+    assert_true(corner(s, 0, 1)[0] == 9);
+    froe_scene_free(s);
+}
+
+static void decimal_commas_stand_between_semicolons(void **state) {
+    (void)state;
+    froe_scene *s = table("\"a, b\";x;y\nc;0,1;-2,5e1\nd;3.5;4\n", "CSV points");
+    assert_true(corner(s, 0, 0)[0] == 0.1 && corner(s, 0, 0)[1] == -25);
+    assert_true(corner(s, 1, 0)[0] == 3.5);
+    froe_scene_free(s);
+    refuse_table("x;y\n1,2,3;4\n", FROE_E_FORMAT, "'1,2,3' is not a number");
+    refuse_table("x;y\n1.000,5;4\n", FROE_E_FORMAT, "'1.000,5' is not a number");
+}
+
+static void rows_of_one_name_are_a_group(void **state) {
+    (void)state;
+    froe_scene *s =
+        table("name,x,y\n\"St. \"\"J\"\",\nOnt.\",1,2\n\"St. \"\"J\"\",\nOnt.\",3,4\n,5,6\nB,7,8\n", "CSV points");
+    assert_int_equal(froe_scene_group_count(s), 2);
+    assert_string_equal(froe_scene_group(s, 0).name, "St. \"J\",\nOnt.");
+    assert_int_equal(froe_scene_object(s, 1).group, 0);
+    assert_int_equal(froe_scene_object(s, 2).group, FROE_NONE);
+    assert_string_equal(froe_scene_group(s, froe_scene_object(s, 3).group).name, "B");
+    froe_scene_free(s);
+    s = table("group,hull,x,y\nroof,1,0,0\nroof,1,1,0\nwall,2,5,5\n", "CSV hulls");
+    assert_string_equal(froe_scene_group(s, froe_scene_object(s, 0).group).name, "roof");
+    assert_string_equal(froe_scene_group(s, froe_scene_object(s, 1).group).name, "wall");
+    froe_scene_free(s);
+}
+
+static void headers_without_axes_are_told(void **state) {
+    (void)state;
+    refuse_table("town,population\nHere,2\n", FROE_E_FORMAT,
+                 "bad.csv: The header names town, population. Columns of points are x,y or x1,x2 or lon,lat or "
+                 "easting,northing, of balls x,y,r, of boxes lo_x,lo_y,hi_x,hi_y.");
+    refuse_table("x,z\n1,2\n", FROE_E_FORMAT, "The header names x, z. Columns");
+    refuse_table("x,lat\n1,2\n", FROE_E_FORMAT, "The header names x, lat. Columns");
+    refuse_table("a column with a long name,another one,and one more,one,x\n1,2,3,4,5\n", FROE_E_FORMAT,
+                 "The header names a column with a long name, another one and 3 more. Columns");
 }
 
 static void numbers_are_the_nearest_doubles_in_any_locale(void **state) {
@@ -102,11 +164,6 @@ static void rows_of_one_number_are_the_corners_of_a_hull(void **state) {
     froe_scene_free(s);
 }
 
-static void refuse_table(const char *text, froe_status status, const char *words) {
-    write_text("bad.csv", text);
-    refuse("bad.csv", status, words);
-}
-
 static void bad_rows_are_named(void **state) {
     (void)state;
     refuse_table("x,y\n1,2\n3,nan\n", FROE_E_INPUT, "row 2: Coordinate y of corner 0 is nan, not a finite number.");
@@ -131,7 +188,7 @@ static void bad_rows_are_named(void **state) {
     refuse_table("hull,x,y\n1,0,0\none,1,0\n", FROE_E_FORMAT, "row 2: The hull 'one' is not a whole number");
     refuse_table("hull,x,y\n1,0,0\n1,nan,0\n", FROE_E_INPUT, "Coordinate x of corner 1 is nan");
     refuse_table("lo_1,hi_1,lo_9,hi_9\n0,1,0,1\n", FROE_E_UNSUPPORTED, "more than 8 axes");
-    refuse_table("0,0,1,1\n2,2,3,3\n", FROE_E_INPUT, "begins with a line like x,y");
+    refuse_table("0,0,1,1\n2,2,3,3\n", FROE_E_FORMAT, "The header names 0, 0, 1, 1. Columns of points are x,y");
     refuse_table("x,y\n", FROE_E_INPUT, "holds no objects");
     refuse_table("x1,x2,x3,x4,x5,x6,x7,x8,x9\n1,2,3,4,5,6,7,8,9\n", FROE_E_UNSUPPORTED, "more than 8");
     write_bytes("zero.csv", "x,y\n1,\0002\n", 9);
@@ -155,6 +212,10 @@ int main(void) {
         cmocka_unit_test(the_header_says_what_the_rows_are),
         cmocka_unit_test(columns_come_in_any_order_with_others_between),
         cmocka_unit_test(other_headers_are_left_to_ogr),
+        cmocka_unit_test(axes_have_several_names),
+        cmocka_unit_test(decimal_commas_stand_between_semicolons),
+        cmocka_unit_test(rows_of_one_name_are_a_group),
+        cmocka_unit_test(headers_without_axes_are_told),
         cmocka_unit_test(numbers_are_the_nearest_doubles_in_any_locale),
         cmocka_unit_test(rows_of_one_number_are_the_corners_of_a_hull),
         cmocka_unit_test(bad_rows_are_named),

@@ -1,0 +1,127 @@
+/* csv.c: see csv.h. */
+#include "support/csv.h"
+#include "support/path.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ------------------------------------------------------------------ fields -- */
+
+/* The quotation mark that ends what one begins; the end of the text if none does. */
+static const char *end_of_quotes(const char *at) {
+    for (++at; *at && (*at != '"' || at[1] == '"'); ++at)
+        if (*at == '"') ++at;
+    return at;
+}
+
+static const char *first_of_field(const char *at) {
+    return at + strspn(at, " ");
+}
+
+char support_csv_separator(const char *text) {
+    static const char separators[] = ",;\t";
+    size_t counts[3] = {0}, best = 0;
+    const char *found;
+    bool begins = true; /* a field, whatever separates: quotation marks within fields are letters */
+    for (const char *at = text; *at && *at != '\n'; ++at) {
+        if (begins && *at == '"') {
+            at = end_of_quotes(at);
+            if (!*at) break;
+            continue;
+        }
+        found = strchr(separators, *at);
+        if (found) ++counts[found - separators];
+        begins = found || (begins && *at == ' ');
+    }
+    for (size_t i = 1; i < 3; ++i)
+        if (counts[i] > counts[best]) best = i;
+    return counts[best] ? separators[best] : ',';
+}
+
+support_csv_field support_csv_next(char **at, char separator) {
+    char *to = *at, *quoted_end = NULL;
+    const char *from = first_of_field(to);
+    support_csv_field field = {.text = to, .quoted = *from == '"'};
+    if (field.quoted) {
+        const char *end = end_of_quotes(from);
+        for (++from; from < end; ++from) {
+            if (*from == '"') ++from;
+            *to++ = *from;
+        }
+        from = end + (*end == '"');
+        quoted_end = to;
+    }
+    while (*from && *from != separator && *from != '\n') *to++ = *from++;
+    field.last = *from != separator;
+    *at = (char *)from + (*from != '\0');
+    while (to > field.text && to != quoted_end && strchr(" \t\r", to[-1])) to--;
+    *to = '\0';
+    if (!field.quoted) field.text += strspn(field.text, " \t\r");
+    return field;
+}
+
+bool support_csv_goes_on(const char *text, char separator, bool within) {
+    do {
+        const char *field = within ? text - 1 : first_of_field(text);
+        if (within || *field == '"') {
+            field = end_of_quotes(field);
+            if (!*field) return true;
+            within = false;
+        }
+        while (*field && *field != separator && *field != '\n') ++field;
+        text = field + (*field != '\0');
+    } while (*text);
+    return false;
+}
+
+bool support_csv_number(char *field, char separator, double *out) {
+    char *end, *comma = separator == ';' ? strchr(field, ',') : NULL;
+    if (comma) *comma = '.';
+    *out = strtod(field, &end);
+    const bool whole = end != field && !end[strspn(end, " \t")];
+    if (comma) *comma = ',';
+    return whole;
+}
+
+/* ------------------------------------------------------------------- names -- */
+
+/* x, z or x7; behind a prefix also 7. */
+static int numbered_axis(const char *name, bool sided) {
+    static const char letters[] = "xyzw";
+    const char *letter = name[0] && !name[1] ? strchr(letters, name[0] | 0x20) : NULL;
+    char *end;
+    if (letter) return (int)(letter - letters);
+    if ((name[0] | 0x20) == 'x')
+        ++name;
+    else if (!sided)
+        return -1;
+    if (name[0] < '1' || name[0] > '9') return -1;
+    const long number = strtol(name, &end, 10);
+    return *end ? -1 : number < 1000 ? (int)number - 1 : 999;
+}
+
+int support_csv_axis(const char *name, int family, bool sided) {
+    static const struct {
+        const char *name;
+        int family, axis;
+    } places[] = {{"lon", 1, 0}, {"lng", 1, 0},      {"long", 1, 0},    {"longitude", 1, 0}, {"lat", 1, 1},
+                  {"z", 1, 2},   {"latitude", 1, 1}, {"easting", 2, 0}, {"northing", 2, 1},  {"z", 2, 2}};
+    if (!family) return numbered_axis(name, sided);
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++)
+        if (places[i].family == family && support_equal_nocase(name, places[i].name)) return places[i].axis;
+    return -1;
+}
+
+void support_csv_names(char *out, size_t size, const char *const *names, size_t count) {
+    enum { REST = 32 }; /* what is said of those that are left out */
+    size_t length = 0;
+    *out = '\0';
+    for (size_t i = 0; i < count; i++) {
+        const char *name = *names[i] ? names[i] : "''";
+        if (length + strlen(name) + REST > size) {
+            snprintf(out + length, size - length, i ? " and %zu more" : "%zu columns", count - i);
+            return;
+        }
+        length += (size_t)snprintf(out + length, size - length, "%s%s", i ? ", " : "", name);
+    }
+}
