@@ -88,3 +88,29 @@ double geom_image_corner(const geom_plane *s, const geom_plane *a, const geom_pl
         if (planes[i]->form == GEOM_AXIS) out[planes[i]->axis] = planes[i]->c;
     return worst;
 }
+
+void geom_relative_crossing(const double *u, const double *v, const geom_plane *a, const double *from, double *out) {
+    const double share = -filter_value(a, u).x / filter_slope(a, u, v).x;
+    const double t = share > 0 ? share < 1 ? share : 1 : 0; /* a NaN becomes 0 */
+    for (int k = 0; k < a->dim; k++) {
+        const double x = (u[k] - from[k]) + t * (v[k] - u[k]);
+        out[k] = isfinite(x) ? x : 0;
+    }
+}
+
+/* By Cramer's rule, as the image of a corner. */
+void geom_relative_corner(const geom_plane *a, const geom_plane *b, const geom_plane *s, const double *from,
+                          double *out) {
+    const double *n = s->n, *m = a->n, *o = b->n, at_a = filter_value(a, from).x, at_b = filter_value(b, from).x;
+    double across[2][3]; /* b x s, s x a */
+    for (int k = 0; k < 3; k++) {
+        const int i = (k + 1) % 3, j = (k + 2) % 3;
+        across[0][k] = o[i] * n[j] - o[j] * n[i];
+        across[1][k] = n[i] * m[j] - n[j] * m[i];
+    }
+    const double divisor = m[0] * across[0][0] + m[1] * across[0][1] + m[2] * across[0][2];
+    for (int k = 0; k < 3; k++) {
+        const double x = -(at_a * across[0][k] + at_b * across[1][k]) / divisor;
+        out[k] = isfinite(x) ? x : 0;
+    }
+}

@@ -77,6 +77,13 @@ void geom_round_corner(num_context *context, const geom_plane *s, const geom_pla
  * image of a crossing always lies in the bounding box of u and v. */
 double geom_image_crossing(const double *u, const double *v, const geom_plane *a, double *out);
 double geom_image_corner(const geom_plane *s, const geom_plane *a, const geom_plane *b, double *out);
+/** The same points as vectors from `from`, an input point, which lies on `s` of a corner; in plain doubles without a
+ * bound, for scores. Only differences of input coordinates enter, so that a scene that is moved without rounding gives
+ * the same numbers, however far from the origin. Components that are not finite are 0. Dimensions 2 and 3; planes
+ * through points and across axes. */
+void geom_relative_crossing(const double *u, const double *v, const geom_plane *a, const double *from, double *out);
+void geom_relative_corner(const geom_plane *a, const geom_plane *b, const geom_plane *s, const double *from,
+                          double *out);
 /** Dimension 2 or 3: -1 or 1 when the image (x, error) is certainly on that side, NUM_UNSURE otherwise.
  * Input vertices have error 0. ~5 ns, so callers try it first.
  *

@@ -256,7 +256,9 @@ static split_corner corner_at_crossing(split_set *set, const split_plane *plane,
     split_corner k = {.type = SPLIT_CROSSING, .c = node};
     k.a = scene_corner(set->scene, object, i);
     k.b = scene_corner(set->scene, object, i + 1 < n ? i + 1 : 0);
-    k.error = geom_image_crossing(scene_vertex(set->scene, k.a), scene_vertex(set->scene, k.b), &plane->plane, k.x);
+    const double *u = scene_vertex(set->scene, k.a), *v = scene_vertex(set->scene, k.b);
+    k.error = geom_image_crossing(u, v, &plane->plane, k.x);
+    geom_relative_crossing(u, v, &plane->plane, scene_point(set->scene, object, 0), k.apart);
     return k;
 }
 
@@ -266,6 +268,7 @@ static split_corner meeting(split_set *set, const split_plane *plane, uint32_t n
     geom_plane own, first = split_plane_at(set, cutter);
     scene_support(set->scene, object, &own);
     k.error = geom_image_corner(&own, &first, &plane->plane, k.x);
+    geom_relative_corner(&first, &plane->plane, &own, scene_point(set->scene, object, 0), k.apart);
     return k;
 }
 

@@ -21,6 +21,8 @@ typedef enum split_type { SPLIT_VERTEX, SPLIT_CROSSING, SPLIT_CORNER } split_typ
 
 typedef struct split_corner {
     double x[3], error; /**< image: every coordinate within error of the true one; 0: exact */
+    double apart[3];    /**< of corners that cuts made: from the first vertex of the object, for scores; the same
+                             wherever the scene lies */
     uint32_t edge;      /**< ring entry of the edge leaving this corner (segments: of this end) */
     uint32_t type;      /**< split_type */
     uint32_t a, b, c;   /**< VERTEX: vertex a | CROSSING: vertices a, b with the cut of node c | CORNER: nodes a, b */

@@ -36,12 +36,29 @@ static bool reserve_view(split_view *v, const froe_allocator *alloc, uint32_t co
            array_reserve(alloc, &v->corner, corners) && array_reserve(alloc, &v->start, 1);
 }
 
-/** A corner of its own; coordinates as in the scene for now. */
-static uint32_t add_view_corner(split_view *v, const double *x, double radius, uint32_t vertex) {
+/** Half the way from the origin of the view to a point of the scene: a difference of halves, which never overflows. */
+static void half_way(const split_view *v, const double *x, double out[3]) {
+    for (int k = 0; k < 3; k++) out[k] = k < v->dim ? 0.5 * x[k] - v->origin[k] : 0;
+}
+
+/** The same to the i-th corner of a fragment; returns the input vertex that it is, or FROE_NONE. */
+static uint32_t half_way_to_corner(const split_view *v, const split_set *set, const split_fragment *f, uint32_t i,
+                                   double out[3]) {
+    const split_corner *k = f->count ? set->corners.data + f->first + i : NULL;
+    const uint32_t vertex = !k ? scene_corner(set->scene, f->object, i) : k->type == SPLIT_VERTEX ? k->a : FROE_NONE;
+    const bool image = k && !v->swept && isfinite(k->x[0]) && isfinite(k->x[1]) && (v->dim == 2 || isfinite(k->x[2]));
+    const double *first = scene_point(set->scene, f->object, 0);
+    half_way(v, vertex != FROE_NONE ? scene_vertex(set->scene, vertex) : image ? k->x : first, out);
+    for (int a = 0; a < v->dim && vertex == FROE_NONE && v->swept; a++) out[a] += 0.5 * k->apart[a];
+    return vertex;
+}
+
+/** A corner of its own, half way from the origin for now. */
+static uint32_t add_view_corner(split_view *v, const double half[3], double radius, uint32_t vertex) {
     uint32_t at = (uint32_t)v->x.count++;
-    v->x.data[at] = x[0];
-    v->y.data[at] = x[1];
-    v->z.data[at] = v->dim == 3 ? x[2] : 0;
+    v->x.data[at] = half[0];
+    v->y.data[at] = half[1];
+    v->z.data[at] = half[2];
     v->radius.data[at] = radius;
     v->vertex.data[at] = vertex;
     v->vertex.count = at + 1;
@@ -51,7 +68,9 @@ static uint32_t add_view_corner(split_view *v, const double *x, double radius, u
 static uint32_t add_view_vertex(split_view *v, const froe_scene *scene, uint32_t vertex) {
     uint32_t at = v->place[vertex];
     if (at != FROE_NONE) return at;
-    v->place[vertex] = at = add_view_corner(v, scene_vertex(scene, vertex), 0, vertex);
+    double half[3];
+    half_way(v, scene_vertex(scene, vertex), half);
+    v->place[vertex] = at = add_view_corner(v, half, 0, vertex);
     v->vertices.data[v->vertices.count++] = at;
     return at;
 }
@@ -60,6 +79,7 @@ static bool add_view_fragment(split_view *v, const split_set *set, const split_f
     const froe_scene *scene = set->scene;
     froe_kind form = scene_form(scene, item->object);
     bool solid = form == FROE_BOX || form == FROE_BALL;
+    double half[3];
     uint32_t n = solid ? 1u << v->dim : split_corner_count(set, item);
     if (!reserve_view(v, &set->alloc, n)) return false;
     if (solid) {
@@ -75,20 +95,14 @@ static bool add_view_fragment(split_view *v, const split_set *set, const split_f
         }
         for (unsigned i = 0; i < corners; i++) {
             for (int k = 0; k < v->dim; k++) x[k] = i >> k & 1 ? hi[k] : lo[k];
-            v->corner.data[v->corner.count++] = add_view_corner(v, x, radius, FROE_NONE);
+            half_way(v, x, half);
+            v->corner.data[v->corner.count++] = add_view_corner(v, half, radius, FROE_NONE);
         }
     }
     for (uint32_t i = 0; i < n && !solid; i++) {
-        const split_corner *k = item->count ? set->corners.data + item->first + i : NULL;
-        uint32_t vertex = !k ? scene_corner(scene, item->object, i) : k->type == SPLIT_VERTEX ? k->a : FROE_NONE, at;
-        if (vertex != FROE_NONE) {
-            at = add_view_vertex(v, scene, vertex);
-        } else {
-            /* where a corner lies beyond doubles, any place of its object will do */
-            bool known = isfinite(k->x[0]) && isfinite(k->x[1]) && (v->dim == 2 || isfinite(k->x[2]));
-            at = add_view_corner(v, known ? k->x : scene_point(scene, item->object, 0), 0, FROE_NONE);
-        }
-        v->corner.data[v->corner.count++] = at;
+        const uint32_t vertex = half_way_to_corner(v, set, item, i, half);
+        v->corner.data[v->corner.count++] =
+            vertex != FROE_NONE ? add_view_vertex(v, scene, vertex) : add_view_corner(v, half, 0, FROE_NONE);
     }
     v->start.data[v->start.count++] = (uint32_t)v->corner.count;
     return true;
@@ -103,8 +117,8 @@ static bool fill_pairs(split_view *v, const split_set *set, const split_fragment
         for (uint32_t k = 0; k < 2; k++, x++, y++) {
             const double *p = split_image(set, items + i, k);
             if (!isfinite(p[0]) || !isfinite(p[1])) p = scene_point(set->scene, items[i].object, 0);
-            *x = p[0];
-            *y = p[1];
+            *x = 0.5 * p[0];
+            *y = 0.5 * p[1];
         }
     }
     v->x.count = v->corners = 2 * v->count;
@@ -145,11 +159,12 @@ bool split_view_fill(split_view *v, const split_set *set, const split_cell *cell
     if (set->scene->dim > 3) return true;
     /* forgets the last cell */
     v->dim = set->scene->dim;
+    v->swept = swept;
+    for (int k = 0; k < v->dim; k++) v->origin[k] = swept ? 0.5 * scene_point(set->scene, items->object, 0)[k] : 0;
     v->pairs = v->round = false;
     for (size_t i = 0; i < v->vertices.count; i++) v->place[v->vertex.data[v->vertices.data[i]]] = FROE_NONE;
     v->x.count = v->vertex.count = v->vertices.count = v->start.count = v->corner.count = v->side.count = 0;
     if (!reserve_view(v, &set->alloc, 2 * v->count)) return false;
-    v->swept = swept;
     v->pairs = set->scene->dim == 2 && all && !swept && fill_pairs(v, set, items);
     if (!v->pairs) {
         if (!make_places(v, set)) return false;
@@ -166,20 +181,20 @@ bool split_view_fill(split_view *v, const split_set *set, const split_cell *cell
     /* to local coordinates, by a power of two at most twice the width of the corners */
     double *const x[3] = {v->x.data, v->y.data, v->z.data}, width = 0;
     int exponent = 0;
-    for (int k = 0; k < v->dim; k++) { /* half the middle and half the width, so that nothing overflows */
+    for (int k = 0; k < v->dim; k++) {
         double lo = x[k][0], hi = x[k][0];
         for (uint32_t i = 1; i < v->corners; i++) {
             lo = x[k][i] < lo ? x[k][i] : lo;
             hi = x[k][i] > hi ? x[k][i] : hi;
         }
-        v->middle[k] = 0.25 * lo + 0.25 * hi;
-        width = 0.5 * hi - 0.5 * lo > width ? 0.5 * hi - 0.5 * lo : width;
+        v->middle[k] = 0.5 * lo + 0.5 * hi;
+        width = hi - lo > width ? hi - lo : width;
     }
     if (width > 0) frexp(width, &exponent); /* width < 2^exponent; local coordinates are at most half as large */
     v->scale = ldexp(1, exponent < -1000 ? 1000 : -exponent);
-    for (int k = 0; k < 3; k++) v->reach[k] = k < v->dim ? 2 * fabs(v->middle[k]) * v->scale + 0.5 : 0;
+    for (int k = 0; k < 3; k++) v->reach[k] = k < v->dim ? 2 * fabs(v->origin[k] + v->middle[k]) * v->scale + 0.5 : 0;
     for (int k = 0; k < v->dim; k++)
-        for (size_t i = 0; i < v->x.count; i++) x[k][i] = (0.5 * x[k][i] - v->middle[k]) * v->scale;
+        for (size_t i = 0; i < v->x.count; i++) x[k][i] = (x[k][i] - v->middle[k]) * v->scale;
     for (size_t i = 0; i < v->x.count && v->round; i++) v->radius.data[i] *= 0.5 * v->scale;
     return true;
 }
@@ -187,7 +202,8 @@ bool split_view_fill(split_view *v, const split_set *set, const split_cell *cell
 /* ----------------------------------------------------------------- planes -- */
 
 void split_view_local(const split_view *v, const double *x, double out[3]) {
-    for (int k = 0; k < 3; k++) out[k] = k < v->dim ? (0.5 * x[k] - v->middle[k]) * v->scale : 0;
+    half_way(v, x, out);
+    for (int k = 0; k < v->dim; k++) out[k] = (out[k] - v->middle[k]) * v->scale;
 }
 
 /** Planes that agree up to the rounding of the scene's coordinates are meant as one. Views for sweeps are stricter:
@@ -237,7 +253,7 @@ bool split_view_span(const split_view *v, const froe_scene *scene, const uint32_
 split_view_plane split_view_axis(const split_view *v, int axis, double value) {
     split_view_plane out = {.slack = 0x1p-50, .known = {FROE_NONE, FROE_NONE, FROE_NONE}};
     out.n[axis] = 1;
-    out.d = (0.5 * value - v->middle[axis]) * v->scale;
+    out.d = (0.5 * value - v->origin[axis] - v->middle[axis]) * v->scale;
     return out;
 }
 
@@ -250,7 +266,7 @@ static split_view_plane plane_across(const split_view *v, const double *normal, 
     out.d = 0.5 * value / length;
     for (int k = 0; k < v->dim; k++) {
         out.n[k] = normal[k] / length;
-        out.d -= out.n[k] * v->middle[k];
+        out.d -= out.n[k] * v->origin[k] + out.n[k] * v->middle[k];
     }
     out.d *= v->scale;
     out.slack = slack_of(v, &out);
@@ -273,12 +289,6 @@ bool split_view_cut(const split_view *v, const froe_scene *scene, const froe_cut
     default:
         return plane_through(v, scene, cut->id, v->dim, THIN, out);
     }
-}
-
-double split_view_coordinate(const split_view *v, const froe_scene *scene, uint32_t corner, int axis) {
-    const double *const x[3] = {v->x.data, v->y.data, v->z.data};
-    uint32_t vertex = v->vertex.data[corner];
-    return vertex != FROE_NONE ? scene_vertex(scene, vertex)[axis] : 2 * (x[axis][corner] / v->scale + v->middle[axis]);
 }
 
 /* --------------------------------------------------------------- counting -- */

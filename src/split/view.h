@@ -8,7 +8,9 @@
  * Candidates are many and only one becomes the cut, so they are counted in plain doubles, and nearly right; the chosen
  * one is then classified exactly (cell.c). A wrong count costs a worse cut, never a wrong tree. Large cells are
  * represented by a sample. Coordinates are relative to the middle of the cell and of size at most 1/2, so a score does
- * not depend on where the scene lies, nor, for powers of two, on its scale.
+ * not depend on the scale of the scene, for powers of two. Nor, in views for sweeps, on where it lies, as long as no
+ * coordinate is rounded: there they come from differences of input coordinates alone (split_corner.apart). Others take
+ * images as they are.
  *
  * For sweeps (build/grain/sweep.h) vertices of the same objects that lie outside the cell come behind the corners:
  * where large polygons cross a small cell there may be no others to lay planes through. */
@@ -36,8 +38,9 @@ typedef struct split_view {
     bool round;       /**< there are balls */
     uint32_t count;   /**< fragments shown */
     double weight;    /**< fragments of the cell per fragment shown, >= 1 */
-    double middle[3]; /**< half the coordinates of the cell's middle */
-    double scale;     /**< local = (x / 2 - middle) * scale */
+    double origin[3]; /**< half the coordinates of an input vertex of the cell; 0 but for sweeps */
+    double middle[3]; /**< half the way from there to the cell's middle */
+    double scale;     /**< local = (x / 2 - origin - middle) * scale */
     double reach[3];  /**< about the largest coordinates of the scene here, in local units */
 } split_view;
 
@@ -62,8 +65,6 @@ bool split_view_span(const split_view *view, const froe_scene *scene, const uint
 split_view_plane split_view_axis(const split_view *view, int axis, double value);
 /** The plane of a cut; through vertices only if it is certainly one. Dimensions 2 and 3. */
 bool split_view_cut(const split_view *view, const froe_scene *scene, const froe_cut *cut, split_view_plane *out);
-/** A coordinate of a corner, in the scene; rounded once more where the corner is no vertex. */
-double split_view_coordinate(const split_view *view, const froe_scene *scene, uint32_t corner, int axis);
 /** Deals the fragments shown to sides; those of their corners stay in `side`. */
 split_tally split_view_count(split_view *view, const split_view_plane *plane);
 /** Computes the extents on an axis, and their ends, sorted, as `values`. Any dimension. */

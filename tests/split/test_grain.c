@@ -246,13 +246,14 @@ static void compare_axis(watch *w, split_work *work, const split_cell *cell) {
         uint32_t best;
         double least = INFINITY, found = INFINITY;
         assert_true(split_sweep_axis(&w->sweep, &work->set, &w->view, &w->price, &terms, axis, &best));
-        for (uint32_t i = 0; i < w->view.corners; i++) {
-            double value = split_view_coordinate(&w->view, work->set.scene, i, axis);
+        for (uint32_t i = 0; i < w->view.inside; i++) {
+            const uint32_t vertex = w->view.vertex.data[w->view.vertices.data[i]];
+            double value = scene_vertex(work->set.scene, vertex)[axis];
             split_view_plane plane = split_view_axis(&w->view, axis, value);
             split_tally tally = split_view_count(&w->view, &plane);
             double cost = split_tally_useful(tally) ? split_price_of(&w->price, &terms, tally, 1) : (double)INFINITY;
             least = cost < least ? cost : least;
-            if (i == best) found = cost;
+            if (vertex == best) found = cost;
         }
         assert_true(found == least);
         w->compared++;

@@ -49,11 +49,11 @@ void split_enter_axes(split_grain_search *s) {
     const split_set *set = &c->work->set;
     for (int axis = 0; axis < set->scene->dim && !c->done && !c->failed; axis++) {
         split_candidate k = {.cut = {.kind = FROE_CUT_AXIS, .axis = axis}};
-        uint32_t corner;
-        c->failed |= !split_sweep_axis(s->sweep, set, c->view, c->price, &c->terms, axis, &corner);
-        if (c->failed || corner == FROE_NONE) continue;
-        k.cut.value = split_view_coordinate(c->view, set->scene, corner, axis);
-        if (isfinite(k.cut.value)) score_and_enter(s, k);
+        uint32_t vertex;
+        c->failed |= !split_sweep_axis(s->sweep, set, c->view, c->price, &c->terms, axis, &vertex);
+        if (c->failed || vertex == FROE_NONE) continue;
+        k.cut.value = scene_vertex(set->scene, vertex)[axis];
+        score_and_enter(s, k);
     }
 }
 

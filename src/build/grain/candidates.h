@@ -18,7 +18,7 @@ typedef struct split_grain_search {
 bool split_grain_score(split_grain_search *search, split_candidate *candidate);
 /** Supporting planes of some fragments; of all, where there are few. */
 void split_enter_supports(split_grain_search *search);
-/** Of each axis the best plane across it, through a corner. */
+/** Of each axis the best plane across it, through an input vertex. */
 void split_enter_axes(split_grain_search *search);
 /** Planes through three vertices. Starts at some edges of the mesh: the best plane through the edge a-b and any vertex
  * c; then through b-c and any vertex, and so on, as long as one of the three exchanges makes it better. In the plane

@@ -98,8 +98,7 @@ static bool stands_for(const split_view *f, uint32_t corner, uint32_t other) {
     return f->vertex.data[other] == FROE_NONE || square_of(f, other) <= 0x1p20 * square_of(f, corner);
 }
 
-static uint32_t winner(split_sweep *s, const split_view *f, const split_price *price, const split_terms *terms,
-                       bool any) {
+static uint32_t winner(split_sweep *s, const split_view *f, const split_price *price, const split_terms *terms) {
     /* the different directions get numbers */
     uint64_t *x = s->order.data;
     uint32_t ranks = 0;
@@ -123,7 +122,7 @@ static uint32_t winner(split_sweep *s, const split_view *f, const split_price *p
     const uint32_t *corner = f->corner.data, *start = f->start.data;
     for (int k = 0; k < 3; k++) memset(s->change[k].data, 0, (ranks + 1) * sizeof *s->change[k].data);
     for (uint32_t i = 0; i < f->count; i++) note_fragment(s, corner + start[i], corner + start[i + 1], ranks);
-    /* the corner of the cheapest rank, of those with an input vertex or of all */
+    /* the corner of the cheapest rank that has an input vertex */
     uint32_t best = FROE_NONE;
     int32_t no_negative = 0, no_positive = 0, on = 0;
     double least = 0;
@@ -133,7 +132,7 @@ static uint32_t winner(split_sweep *s, const split_view *f, const split_price *p
         on += s->change[2].data[r];
         split_tally t = {(uint32_t)(no_positive - on), (uint32_t)(no_negative - on), (uint32_t)on, 0};
         t.both = f->count - t.negative - t.positive - t.on;
-        if ((!any && f->vertex.data[s->at.data[r]] == FROE_NONE) || !split_tally_useful(t)) continue;
+        if (f->vertex.data[s->at.data[r]] == FROE_NONE || !split_tally_useful(t)) continue;
         double cost = split_price_of(price, terms, t, f->weight);
         if (best != FROE_NONE && cost >= least) continue;
         best = s->at.data[r];
@@ -184,7 +183,7 @@ bool split_sweep_pencil(split_sweep *s, const split_set *set, const split_view *
         s->met.data[i] = !(size > near) ? ALWAYS : below ? NEGATIVE : 0;
         if (size > near) put_sweep_corner(s, 0.5 - 0.5 * (below ? -cosine : cosine), i);
     }
-    uint32_t corner = winner(s, view, price, terms, false);
+    uint32_t corner = winner(s, view, price, terms);
     if (corner != FROE_NONE) *best = view->vertex.data[corner];
     return true;
 }
@@ -199,6 +198,7 @@ bool split_sweep_axis(split_sweep *s, const split_set *set, const split_view *vi
         s->met.data[i] = 0;
         put_sweep_corner(s, 0.5 + 0.75 * x[i], i); /* |x| <= 1/2, but for rounding */
     }
-    *best = winner(s, view, price, terms, true);
+    uint32_t corner = winner(s, view, price, terms);
+    if (corner != FROE_NONE) *best = view->vertex.data[corner];
     return true;
 }

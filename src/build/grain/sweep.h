@@ -31,7 +31,8 @@ void split_sweep_free(const froe_allocator *alloc, split_sweep *sweep);
  * shown, the one of least price: that vertex, or FROE_NONE when none separates anything. False: no memory. */
 bool split_sweep_pencil(split_sweep *sweep, const split_set *set, const split_view *view, const split_price *price,
                         const split_terms *terms, const uint32_t *axle, uint32_t *best);
-/** Of the planes across an axis through a corner shown, the one of least price: that corner, or FROE_NONE. */
+/** Of the planes across an axis through a vertex shown, the one of least price: that vertex, or FROE_NONE. Corners that
+ * cuts made have no coordinates that a cut could take exactly, and the rounded ones depend on where the scene lies. */
 bool split_sweep_axis(split_sweep *sweep, const split_set *set, const split_view *view, const split_price *price,
                       const split_terms *terms, int axis, uint32_t *best);
 #endif
