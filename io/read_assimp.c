@@ -189,15 +189,38 @@ static froe_status refuse_import(const formats_source *source, formats_sink *sin
     if (*reason)
         return support_fail(sink->diag, FROE_E_FORMAT, "%s: The reader assimp reports '%.120s'.",
                             support_short(source->path), reason);
+    if (!strncmp(source->head, "glTF", 4)) /* chunks of odd lengths, or other JSON than text of version 1 or 2 */
+        return support_fail(sink->diag, FROE_E_FORMAT, "%s: The file begins as glTF, but is none that assimp can read.",
+                            support_short(source->path));
     return support_fail(sink->diag, FROE_E_FORMAT, "%s: The file is of no type that can be read.",
                         support_short(source->path));
 }
 
-/* The axis that points up in what assimp hands over. glTF has y up by its specification. From IFC, 3DS, Blender and
- * Collada assimp turns the model so that y is up. FBX says it. Other formats are mostly of things that stand on the
- * plane z = 0. */
+/* The axis that points up in what assimp hands over. glTF has y up by its specification, and so have X3D, BVH, and the
+ * files of AC3D, Blitz3D, DirectX, IQM, Irrlicht, LightWave, MilkShape, Nendo, NFF and Silo. From IFC, 3DS, Blender,
+ * Collada and the models of Quake assimp turns the model so that y is up. FBX says it. Other formats are mostly of
+ * things that stand on the plane z = 0. */
 static int up_of(const struct aiScene *scene, const char *format) {
-    static const char *const y_up[] = {"glTF", "Industry Foundation Classes", "Discreet 3DS", "Blender", "Collada"};
+    static const char *const y_up[] = {"glTF",
+                                       "Industry Foundation Classes",
+                                       "Discreet 3DS",
+                                       "Blender",
+                                       "Collada",
+                                       "Extensible 3D",
+                                       "BVH",
+                                       "AC3D",
+                                       "BlitzBasic 3D",
+                                       "Direct3D XFile",
+                                       "Inter-Quake",
+                                       "Irrlicht",
+                                       "LightWave",
+                                       "Milkshape 3D",
+                                       "Nendo",
+                                       "Neutral File Format",
+                                       "Silo SIB",
+                                       "Quake II ",
+                                       "Quake III Mesh",
+                                       "Return To Castle Wolfenstein"};
     for (size_t i = 0; i < sizeof y_up / sizeof *y_up; ++i)
         if (!strncmp(format, y_up[i], strlen(y_up[i]))) return 1;
     for (unsigned i = 0; scene->mMetaData && i < scene->mMetaData->mNumProperties; ++i) {
