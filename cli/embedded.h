@@ -1,13 +1,7 @@
-/* embedded.h: files that the build put into the program (cmake/FroeEmbed.cmake). */
+/* embedded.h: the files within the program: scenes of the demo, and what pages begin with. */
 #ifndef FROE_CLI_EMBEDDED_H
 #define FROE_CLI_EMBEDDED_H
-#include <stddef.h>
+#include "support/embedded.h"
 
-typedef struct cli_embedded {
-    const char *name;
-    const unsigned char *bytes;
-    size_t size;
-} cli_embedded;
-/** Ended by a NULL name. */
-extern const cli_embedded cli_embedded_files[];
+extern const support_embedded cli_embedded_files[];
 #endif

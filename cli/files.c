@@ -1,4 +1,4 @@
-/* files.c: files written as a whole, and files within the program. */
+/* files.c: files written as a whole. */
 #include "files.h"
 #include "exit.h"
 #include "support/writer.h"
@@ -43,10 +43,4 @@ int cli_check_outputs(const char *const *inputs, size_t input_count, const char 
                 return cli_fail(CLI_USE, outputs[i], "The file is written twice. An output needs a file of its own.");
     }
     return 0;
-}
-
-const cli_embedded *cli_embedded_named(const char *name) {
-    for (const cli_embedded *file = cli_embedded_files; file->name; file++)
-        if (strcmp(file->name, name) == 0) return file;
-    return NULL;
 }

@@ -1,7 +1,6 @@
-/* files.h: files that the program writes, and those it carries within itself. */
+/* files.h: files that the program writes. */
 #ifndef FROE_CLI_FILES_H
 #define FROE_CLI_FILES_H
-#include "embedded.h"
 #include <stdio.h>
 
 /** A file that appears whole or not at all (support/writer.h). Returns 0 or an exit code after saying why. */
@@ -12,6 +11,4 @@ int cli_write_text(const char *path, cli_write_fn *fn, const void *user);
 /** Keeps a mistyped command from overwriting its input: fails where one of the outputs is one of the inputs, by
  * whatever name, or is named twice. Names may be NULL. Returns 0 or an exit code after saying why. */
 int cli_check_outputs(const char *const *inputs, size_t input_count, const char *const *outputs, size_t output_count);
-/** The embedded file of that name, NULL if there is none. */
-const cli_embedded *cli_embedded_named(const char *name);
 #endif

@@ -1,4 +1,4 @@
-# Writes OUTPUT, a C source that holds the bytes of FILES. Run by froe_embed().
+# Writes OUTPUT, a C source that holds the bytes of FILES in TABLE, which HEADER declares. Run by froe_embed().
 set(arrays "")
 set(entries "")
 set(number 0)
@@ -13,10 +13,10 @@ foreach(file ${FILES})
   math(EXPR number "${number} + 1")
 endforeach()
 file(WRITE ${OUTPUT} "/* Made by cmake/embed.cmake. */
-#include \"embedded.h\"
+#include \"${HEADER}\"
 
 ${arrays}
-const cli_embedded cli_embedded_files[] = {
+const support_embedded ${TABLE}[] = {
 ${entries}    {0, 0, 0},
 };
 ")

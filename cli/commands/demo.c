@@ -4,6 +4,7 @@
  * folder of the demo; their reports are printed and become the page's tables. */
 #include "command.h"
 #include "demo/page.h"
+#include "embedded.h"
 #include "exit.h"
 #include "files.h"
 #include "progress.h"
@@ -72,21 +73,27 @@ static bool serves(const froe_method_info *method, int dim) {
     return (method->kinds[dim] >> kind & 1) && !(dim == 3 && o && o->name);
 }
 
-/* Unpacks the file of the scene, runs the commands of its page, and builds a tree of it by every method. */
+static int unpack(const char *name) {
+    const support_embedded *file = support_embedded_named(cli_embedded_files, name);
+    if (!file) return cli_fail(CLI_INPUT, name, "The program was built without this file.");
+    return cli_write_file(name, file->bytes, file->size);
+}
+
+/* Unpacks the files of the scene, runs the commands of its section, and builds a tree by every method where the section
+ * shows that. */
 static int run_scene(const cli_common *common, const demo_scene *scene, demo_result *result) {
-    const cli_embedded *file = cli_embedded_named(scene->file);
-    if (!file) return cli_fail(CLI_INPUT, scene->file, "The program was built without this file.");
-    int code = cli_write_file(scene->file, file->bytes, file->size);
+    int code = 0;
+    for (int i = 0; !code && i < DEMO_FILES && scene->files[i]; i++) code = unpack(scene->files[i]);
     for (int i = 0; !code && scene->steps[i].command; i++)
         code = run_line(common, scene->steps[i].command, !common->json && !common->quiet, &result->report[i]);
-    if (code) return code;
+    if (code || !scene->methods) return code;
     result->methods = json_array();
     const froe_method_info *method;
     for (size_t i = 0; (method = froe_method_at(i)) != NULL; i++) {
         if (!serves(method, scene->dim)) continue;
         char line[LINE];
         json_t *report;
-        snprintf(line, sizeof line, "build %s --method %s", scene->file, method->name);
+        snprintf(line, sizeof line, "build %s --method %s", scene->methods, method->name);
         code = run_line(common, line, false, &report);
         if (code || json_array_append_new(result->methods, report) != 0) return code ? code : cli_fail_memory();
     }
@@ -117,9 +124,10 @@ static int run_demo(const void *given) {
 const cli_command cli_command_demo = {
     .name = "demo",
     .summary = "run everything on real scenes and show it on one page",
-    .about = "Builds, checks and draws a floor plan, a map whose borders cross, and a house, all carried within the "
-             "program. Writes the scenes, trees and pictures and a page, index.html, that shows them with their "
-             "reports and the commands that made them. Needs no display and no network.",
+    .about = "Draws a house and a technical drawing, answers questions about a map and a model, finds when vehicles "
+             "meet, and shows the partitions behind all that. The scenes are within the program. Writes a folder with "
+             "a page, index.html, that shows the pictures with the commands that made them. Needs no display and no "
+             "network.",
     .examples = "froe demo\nfroe demo -o pictures --quiet\n",
     .parts = parts,
     .defaults = &(const demo_args){.common = CLI_COMMON_DEFAULTS, .output = "build/demo"},

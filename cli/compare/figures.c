@@ -75,31 +75,40 @@ static bool put_figure(FILE *out, const json_t *rows, const char *list, point_fn
 }
 
 bool figures_put(FILE *out, const json_t *rows) {
+    static const struct {
+        const char *list, *key, *title, *y;
+        point_fn *fn;
+    } figures[] = {
+        {"growth", "fragments", "Pieces per object", "pieces", per_object},
+        {"growth", "size", "Size of the tree per object", "nodes and list entries", per_object},
+        {"growth", "height", "Height of the tree", "cuts on the longest way", plain},
+        {"growth", "seconds", "Time to build", "seconds", plain},
+        {"by_eps", "nodes", "Nodes that a rough window visits", "nodes", by_eps},
+        {"by_eps", "microseconds", "Time that a rough window takes", "microseconds", by_eps},
+    };
     plot_options o = plot_defaults();
-    fputs("<div class=\"plots\">\n", out);
-    o.x_label = "objects n, from the middle outwards", o.log_x = o.log_y = true;
-    o.title = "Size against n", o.y_label = "nodes and list entries";
-    bool ok = put_figure(out, rows, "growth", plain, "size", &o);
-    o.title = "Pieces per object", o.y_label = "pieces / n";
-    ok = ok && put_figure(out, rows, "growth", per_object, "fragments", &o);
-    o.title = "Height", o.y_label = "edges on the longest path";
-    ok = ok && put_figure(out, rows, "growth", plain, "height", &o);
-    o.title = "Time to build", o.y_label = "seconds";
-    ok = ok && put_figure(out, rows, "growth", plain, "seconds", &o);
-    o.x_label = "1 / eps";
-    o.title = "Cost against 1 / eps", o.y_label = "nodes visited a query";
-    ok = ok && put_figure(out, rows, "by_eps", by_eps, "nodes", &o);
-    o.title = "Time against 1 / eps", o.y_label = "microseconds a query";
-    ok = ok && put_figure(out, rows, "by_eps", by_eps, "microseconds", &o);
+    bool ok = true;
+    o.log_x = o.log_y = true, o.width = 540;
+    fputs("<div class=\"grid plots\">\n", out);
+    for (size_t i = 0; i < sizeof figures / sizeof *figures && ok; i++) {
+        o.title = figures[i].title, o.y_label = figures[i].y;
+        o.x_label =
+            figures[i].fn == by_eps ? "1 / eps: how exact it is" : "objects, from the middle of the scene outwards";
+        ok = put_figure(out, rows, figures[i].list, figures[i].fn, figures[i].key, &o);
+    }
     fputs("</div>\n", out);
-    if (!ok) return false;
-    fputs("<h3>Loads of leaves</h3>\n<div class=\"plots small\">\n", out);
+    return ok;
+}
+
+bool figures_put_loads(FILE *out, const json_t *rows) {
+    bool ok = true;
     size_t i;
     json_t *row;
+    fputs("<details><summary>How full the leaves are</summary>\n<div class=\"grid small\">\n", out);
     json_array_foreach((json_t *)rows, i, row) { /* a small figure for each method */
         const json_t *bins = json_object_get(row, "leaf_loads");
         if (!bins || !ok) continue;
-        o = plot_defaults();
+        plot_options o = plot_defaults();
         o.kind = PLOT_COLUMNS, o.width = 260, o.height = 170;
         o.title = json_string_value(json_object_get(row, "method"));
         o.x_label = "pieces in a leaf", o.y_label = "leaves";
@@ -110,6 +119,6 @@ bool figures_put(FILE *out, const json_t *rows) {
         ok = one && put_figure(out, one, "leaf_loads", load, "leaves", &o);
         json_decref(one);
     }
-    fputs("</div>\n", out);
+    fputs("</div>\n</details>\n", out);
     return ok;
 }

@@ -5,6 +5,8 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-/** Writes the figures of all rows of a scene (row.h) as HTML. Returns false without memory. */
+/** Writes how trees grow and what queries cost, of all rows of a scene (row.h), as HTML; and how full the leaves are,
+ * folded away. Return false without memory. */
 bool figures_put(FILE *out, const json_t *rows);
+bool figures_put_loads(FILE *out, const json_t *rows);
 #endif

@@ -1,55 +1,103 @@
-/* page.c: scenes, tables, promises, figures and pictures of cells, all within one file: no scripts, no network. */
+/* page.c: the comparison as one page: what each scene is like, plots, tables, pictures of cells, and, folded away,
+ * promises and loads of leaves. Everything is within the file: no scripts, no network. */
 #include "compare/page.h"
+#include "compare/field.h"
 #include "compare/figures.h"
 #include "compare/table.h"
 #include "report/html.h"
+#include <math.h>
 #include <string.h>
 
-static const char *const measure_keys[] = {
-    "objects", "clutter at least", "density at least", "density at most", "fatness median", "directional 95 %", NULL};
+static const html_field measures[] = {
+    {"objects", "objects"},
+    {"clutter at least",
+     "clutter factor, at least<br><small>objects in a cube without a corner of their boxes</small>"},
+    {"density at least", "density, at least<br><small>objects at a ball that are as large as it</small>"},
+    {"density at most", "density, at most"},
+    {"fatness median", "fatness, the median<br><small>volume over that of the smallest ball around it</small>"},
+    {"directional 95 %", "directional density, of 95 %<br><small>boxes that cross the plane of a face near it</small>"},
+    {0}};
 
 /* -------------------------------------------------------------------- tables -- */
 
-static void put_cell(FILE *out, const char *tag, const json_t *value) {
-    fprintf(out, json_is_number(value) ? "<%s class=\"number\">" : "<%s>", tag);
-    html_value(out, value);
-    fprintf(out, "</%s>", tag);
+/* The least number of the column; it is marked, unless it is that of most rows. NaN: there is none. */
+static double best_of(const json_t *rows, const table_column *column) {
+    double best = INFINITY;
+    size_t i, count = 0;
+    json_t *row;
+    json_array_foreach((json_t *)rows, i, row) {
+        json_t *value = table_value(row, column);
+        const double number = json_is_number(value) ? json_number_value(value) : INFINITY;
+        count = number < best ? 1 : count + (number == best);
+        best = fmin(best, number);
+        json_decref(value);
+    }
+    return 2 * count <= json_array_size(rows) ? best : NAN;
 }
 
-static void put_methods(FILE *out, const json_t *rows) {
+static void put_cell(FILE *out, const table_column *column, json_t *value, double best) {
+    const bool is_best = json_is_number(value) && json_number_value(value) == best;
+    if (json_is_number(value) && column->times > 0) {
+        json_t *scaled = json_real(json_number_value(value) * column->times);
+        json_decref(value);
+        value = scaled;
+    }
+    fputs(is_best ? "<td class=\"best\">" : !*column->unit ? "<td class=\"text\">" : "<td>", out);
+    html_value(out, value);
+    fputs("</td>", out);
+    json_decref(value);
+}
+
+static void put_meanings(FILE *out, const json_t *rows, table_part part) {
+    const char *separator = "<p class=\"soft\">";
+    for (const table_column *c = table_columns; c->name; c++) {
+        if (c->part != part || !c->meaning || !table_column_used(rows, c)) continue;
+        fprintf(out, "%s<b>%s</b>: %s", separator, c->title, c->meaning);
+        separator = c->meaning[strlen(c->meaning) - 1] == '?' ? " " : ". ";
+    }
+    fprintf(out, "%sThe least of a column is bold.</p>\n", separator);
+}
+
+static void put_table(FILE *out, const json_t *rows, table_part part) {
     size_t i;
     json_t *row;
-    fputs("<div class=\"card wide\"><table class=\"methods\">\n<tr><th>method</th>", out);
-    for (const table_column *c = table_columns; c->name; c++) fprintf(out, "<th>%s</th>", c->name);
-    fputs("</tr>\n", out);
+    fputs("<div class=\"card\"><div class=\"scroll\"><table>\n<thead><tr><th scope=\"col\"><b>Method</b></th>", out);
+    for (const table_column *c = table_columns; c->name; c++)
+        if (c->part == part && table_column_used(rows, c))
+            fprintf(out, "<th scope=\"col\"%s><b>%s</b>%s</th>", *c->unit ? "" : " class=\"text\"", c->title, c->unit);
+    fputs("</tr></thead>\n<tbody>\n", out);
     json_array_foreach((json_t *)rows, i, row) {
-        fputs("<tr>", out);
-        put_cell(out, "th", json_object_get(row, "method"));
-        for (const table_column *c = table_columns; c->name; c++) {
-            json_t *value = table_value(row, c);
-            put_cell(out, "td", value);
-            json_decref(value);
-        }
+        if (part == TABLE_QUERY && !field_is_built(row)) continue;
+        fputs("<tr><th scope=\"row\">", out);
+        html_text(out, json_string_value(json_object_get(row, "method")));
+        fputs("</th>", out);
+        for (const table_column *c = table_columns; c->name; c++)
+            if (c->part == part && table_column_used(rows, c)) put_cell(out, c, table_value(row, c), best_of(rows, c));
         fputs("</tr>\n", out);
     }
-    fputs("</table></div>\n", out);
+    fputs("</tbody>\n</table></div>\n", out);
+    put_meanings(out, rows, part);
+    fputs("</div>\n", out);
 }
 
 static void put_choices(FILE *out, const json_t *choices) {
     const char *purpose;
     json_t *choice;
-    fputs("<p class=\"choice\">auto takes ", out);
+    fputs("<p>The method <code>auto</code> takes ", out);
     const char *separator = "";
     json_object_foreach((json_t *)choices, purpose, choice) {
         const json_t *ratio = json_object_get(choice, "ratio");
-        fprintf(out, "%s<b>%s</b> for %s", separator, json_string_value(json_object_get(choice, "auto")), purpose);
+        fprintf(out, "%s<b>%s</b> for %s", separator, json_string_value(json_object_get(choice, "auto")),
+                strcmp(purpose, "draw") == 0    ? "pictures"
+                : strcmp(purpose, "query") == 0 ? "queries"
+                                                : purpose);
         separator = ", ";
         if (json_is_null(ratio))
             fputs(" (not compared)", out);
         else if (json_number_value(ratio) <= 1)
             fputs(" (the best)", out);
         else
-            fprintf(out, " (best: %s, %.3g times as good)", json_string_value(json_object_get(choice, "best")),
+            fprintf(out, " (the best is %s, %.3g times as good)", json_string_value(json_object_get(choice, "best")),
                     json_number_value(ratio));
     }
     fputs(".</p>\n", out);
@@ -57,67 +105,90 @@ static void put_choices(FILE *out, const json_t *choices) {
 
 /* ------------------------------------------------------------------ pictures -- */
 
-static void put_picture(FILE *out, const json_t *of, const char *alt, const char *caption) {
+static void put_picture(FILE *out, const json_t *of, const char *of_what, const char *name, bool captioned) {
     const char *picture = json_string_value(json_object_get(of, "picture"));
     if (!picture) return;
-    fprintf(out, "<figure><img alt=\"%s\" src=\"data:image/png;base64,%s\"><figcaption>%s</figcaption></figure>\n", alt,
-            picture, caption);
+    fprintf(out, "<figure><div class=\"sheet\"><img alt=\"%s ", of_what);
+    html_text(out, name);
+    fprintf(out, "\" src=\"data:image/png;base64,%s\"></div>", picture);
+    if (captioned) html_element(out, "figcaption", name);
+    fputs("</figure>\n", out);
+}
+
+static void put_cells(FILE *out, const json_t *rows) {
+    size_t i;
+    json_t *row;
+    if (!json_is_string(json_object_get(json_array_get(rows, 0), "picture"))) return;
+    fputs("<h3>The cells of each tree</h3>\n<p class=\"soft\">Darker cells lie deeper in the tree.</p>\n"
+          "<div class=\"grid small\">\n",
+          out);
+    json_array_foreach((json_t *)rows, i, row) {
+        const char *method = json_string_value(json_object_get(row, "method"));
+        put_picture(out, row, "Cells of the tree by", method, true);
+    }
+    fputs("</div>\n", out);
 }
 
 /* -------------------------------------------------------------------- scenes -- */
 
-static void put_scene(FILE *out, const json_t *scene) {
-    const json_t *rows = json_object_get(scene, "methods");
+static void put_promises(FILE *out, const json_t *rows) {
     size_t i;
     json_t *row;
-    fputs("<section>\n<h2>", out);
-    html_text(out, json_string_value(json_object_get(scene, "scene")));
-    fputs("</h2>\n<div class=\"cards\"><div class=\"card scene\"><h3>What the scene is like</h3>\n", out);
-    html_pairs(out, json_object_get(scene, "measures"), measure_keys);
-    fputs("</div>\n", out);
-    put_picture(out, scene, "the scene", "");
-    fputs("</div>\n", out);
-    put_choices(out, json_object_get(scene, "auto"));
-    put_methods(out, rows);
-    if (!figures_put(out, rows)) fputs("<p>There was no memory for figures.</p>\n", out);
-    fputs("<h3>What methods promise, and what came out</h3>\n<div class=\"cards\">\n", out);
+    fputs("<details><summary>What the methods promise, and what came out</summary>\n<div class=\"grid\">\n", out);
     json_array_foreach((json_t *)rows, i, row) {
         const json_t *bounds = json_object_get(row, "bounds");
         if (!json_object_size(bounds)) continue;
-        fputs("<div class=\"card promise\"><h3>", out);
-        html_text(out, json_string_value(json_object_get(row, "method")));
-        fputs("</h3>\n", out);
+        fputs("<div class=\"card\">", out);
+        html_element(out, "h3", json_string_value(json_object_get(row, "method")));
         html_bounds(out, bounds);
         fputs("</div>\n", out);
     }
-    fputs("</div>\n", out);
-    if (json_is_string(json_object_get(json_array_get(rows, 0), "picture"))) {
-        fputs("<h3>Cells, dark where the tree is deep, and the scene in ink</h3>\n<div class=\"plots small\">\n", out);
-        json_array_foreach((json_t *)rows, i, row) {
-            const char *method = json_string_value(json_object_get(row, "method"));
-            put_picture(out, row, method, method);
-        }
-        fputs("</div>\n", out);
-    }
+    fputs("</div>\n</details>\n", out);
+}
+
+static void put_scene(FILE *out, const json_t *scene) {
+    const json_t *rows = json_object_get(scene, "methods");
+    const char *path = json_string_value(json_object_get(scene, "scene")), *slash = strrchr(path, '/');
+    const char *name = slash && slash[1] ? slash + 1 : path;
+    fputs("<section>\n", out);
+    html_element(out, "h2", name);
+    put_choices(out, json_object_get(scene, "auto"));
+    fputs("<div class=\"grid\">\n", out);
+    put_picture(out, scene, "The scene", name, false);
+    fputs("<div class=\"card\"><h3>What the scene is like</h3>\n", out);
+    html_pairs(out, json_object_get(scene, "measures"), measures);
+    fputs("</div>\n</div>\n", out);
+    const bool drawn = figures_put(out, rows);
+    fputs("<h3>The trees</h3>\n", out);
+    put_table(out, rows, TABLE_TREE);
+    fputs("<h3>What a query visits, and how long it takes</h3>\n", out);
+    put_table(out, rows, TABLE_QUERY);
+    put_cells(out, rows);
+    put_promises(out, rows);
+    if (!drawn || !figures_put_loads(out, rows)) fputs("<p>There was no memory for figures.</p>\n", out);
     fputs("</section>\n", out);
 }
 
 void page_put(FILE *out, const void *user) {
-    static const char *const sum_keys[] = {"scenes", "best", "within_10_percent", "failed", "worst_ratio", NULL};
+    static const html_field sums[] = {{"scenes", "scenes compared"},
+                                      {"best", "auto is the best"},
+                                      {"within_10_percent", "auto is within 10 % of the best"},
+                                      {"failed", "auto fails"},
+                                      {"worst_ratio", "auto over the best, at worst"},
+                                      {0}};
     const json_t *comparison = user;
     size_t i;
     const char *purpose;
     json_t *scene, *sum;
     html_begin(out, "froe compare", "compare.css");
-    fputs("<header>\n<h1>froe compare</h1>\n<p>Partitions of the same scenes by every method that serves them. Numbers "
-          "of "
-          "nodes are means over queries near objects; kept: promises of the method that hold.</p>\n</header>\n<main>\n",
+    fputs("<header>\n<h1>Which method suits which scene?</h1>\n<p class=\"lead\">Every method that serves a scene "
+          "builds a tree of it, and all trees are asked the same questions.</p>\n</header>\n<main>\n",
           out);
     json_array_foreach(json_object_get(comparison, "scenes"), i, scene) put_scene(out, scene);
-    fputs("<section>\n<h2>How well auto chose</h2>\n<div class=\"cards\">\n", out);
+    fputs("<section>\n<h2>How well auto chose</h2>\n<div class=\"grid\">\n", out);
     json_object_foreach(json_object_get(comparison, "auto"), purpose, sum) {
-        fprintf(out, "<div class=\"card\"><h3>--for %s</h3>\n", purpose);
-        html_pairs(out, sum, sum_keys);
+        fprintf(out, "<div class=\"card\"><h3><code>--for %s</code></h3>\n", purpose);
+        html_pairs(out, sum, sums);
         fputs("</div>\n", out);
     }
     fputs("</div>\n</section>\n", out);

@@ -5,25 +5,27 @@
 #include <math.h>
 #include <string.h>
 
-const table_column table_columns[] = {{"pieces/n", "/fragments", 3, TABLE_TREE},
-                                      {"size/n", "/size", 3, TABLE_TREE},
-                                      {"height", "height", 0, TABLE_TREE},
-                                      {"depth", "mean_depth", 3, TABLE_TREE},
-                                      {"fullest", "max_leaf", 0, TABLE_TREE},
-                                      {"bytes/n", "/bytes", 3, TABLE_TREE},
-                                      {"peak/n", "/peak_bytes", 3, TABLE_TREE},
-                                      {"build s", "seconds.build", 3, TABLE_TREE},
-                                      {"kept", "?kept", 0, TABLE_TREE},
-                                      {"point", "queries.point.nodes", 3, TABLE_QUERY},
-                                      {"window", "queries.window.nodes", 3, TABLE_QUERY},
-                                      {"ray", "queries.ray.nodes", 3, TABLE_QUERY},
-                                      {"approx", "queries.approximate.nodes", 3, TABLE_QUERY},
-                                      {"point us", "queries.point.microseconds", 3, TABLE_QUERY},
-                                      {"window us", "queries.window.microseconds", 3, TABLE_QUERY},
-                                      {"ray us", "queries.ray.microseconds", 3, TABLE_QUERY},
-                                      {"approx us", "queries.approximate.microseconds", 3, TABLE_QUERY},
-                                      {"note", "note", 0, TABLE_TREE},
-                                      {0}};
+const table_column table_columns[] = {
+    {"pieces/n", "/fragments", 3, TABLE_TREE, "Pieces", "per object", 0, "how many pieces the cuts make of an object"},
+    {"size/n", "/size", 3, TABLE_TREE, "Size", "entries per object", 0, "nodes, and entries of their lists"},
+    {"height", "height", 0, TABLE_TREE, "Height", "cuts", 0, "the most cuts on the way to a leaf"},
+    {"depth", "mean_depth", 3, TABLE_TREE, "Depth", "cuts", 0, "the mean over all pieces"},
+    {"fullest", "max_leaf", 0, TABLE_TREE, "Fullest leaf", "pieces", 0, "a leaf is a cell that is not cut further"},
+    {"bytes/n", "/bytes", 3, TABLE_TREE, "Memory", "bytes per object", 0, "of the tree, without the scene"},
+    {"peak/n", "/peak_bytes", 3, TABLE_TREE, "Peak", "bytes per object", 0, "the most memory in use while building"},
+    {"build s", "seconds.build", 3, TABLE_TREE, "Build", "ms", 1000, "time by the clock on the wall"},
+    {"kept", "?kept", 0, TABLE_TREE, "Kept", "promises", 0, "the bounds that the method promises, and that hold"},
+    {"note", "note", 0, TABLE_TREE, "Note", "", 0, NULL},
+    {"point", "queries.point.nodes", 3, TABLE_QUERY, "Point", "nodes", 0, "what contains a point?"},
+    {"point us", "queries.point.microseconds", 3, TABLE_QUERY, "Point", "&micro;s", 0, NULL},
+    {"window", "queries.window.nodes", 3, TABLE_QUERY, "Window", "nodes", 0, "what meets a box?"},
+    {"window us", "queries.window.microseconds", 3, TABLE_QUERY, "Window", "&micro;s", 0, NULL},
+    {"ray", "queries.ray.nodes", 3, TABLE_QUERY, "Ray", "nodes", 0, "what does a ray hit first?"},
+    {"ray us", "queries.ray.microseconds", 3, TABLE_QUERY, "Ray", "&micro;s", 0, NULL},
+    {"approx", "queries.approximate.nodes", 3, TABLE_QUERY, "Rough window", "nodes", 0,
+     "what meets a box, and perhaps what is nearer to it than an eighth of its diameter?"},
+    {"approx us", "queries.approximate.microseconds", 3, TABLE_QUERY, "Rough window", "&micro;s", 0, NULL},
+    {0}};
 
 /* "a.b.c" from the row. */
 static const json_t *find(const json_t *row, const char *path) {
@@ -65,8 +67,7 @@ json_t *table_value(const json_t *row, const table_column *column) {
     return json_real(unit >= 1 ? round(number / unit) * unit : round(number / unit) / round(1 / unit));
 }
 
-/* Columns that no row fills are left out. */
-static bool used(const json_t *rows, const table_column *column) {
+bool table_column_used(const json_t *rows, const table_column *column) {
     bool found = false;
     size_t i;
     json_t *row;
@@ -88,7 +89,8 @@ static json_t *rows_report(const json_t *rows, table_part part) {
             if (field_is_built(row) != built) continue;
             json_t *cells = json_pack("{s:O}", "method", json_object_get(row, "method"));
             for (const table_column *c = table_columns; c->name; c++)
-                if (c->part == part && used(rows, c)) json_object_set_new(cells, c->name, table_value(row, c));
+                if (c->part == part && table_column_used(rows, c))
+                    json_object_set_new(cells, c->name, table_value(row, c));
             json_array_append_new(table, cells);
         }
     }
@@ -104,8 +106,8 @@ static json_t *promises_report(const json_t *rows) {
         const char *name;
         json_object_foreach(json_object_get(row, "bounds"), name, bound) {
             json_t *line = json_pack("{s:O, s:s}", "method", json_object_get(row, "method"), "promises", name);
-            json_object_set_new(line, "at most", table_value(bound, &(table_column){"", "promised", 4, TABLE_TREE}));
-            json_object_set_new(line, "is", table_value(bound, &(table_column){"", "measured", 4, TABLE_TREE}));
+            json_object_set_new(line, "at most", table_value(bound, &(table_column){.path = "promised", .digits = 4}));
+            json_object_set_new(line, "is", table_value(bound, &(table_column){.path = "measured", .digits = 4}));
             json_array_append_new(table, line);
         }
     }
@@ -131,7 +133,7 @@ json_t *table_report(const json_t *comparison) {
         json_object_foreach(json_object_get(scene, "auto"), purpose, choice) {
             json_t *row = json_pack("{s:O, s:s}", "scene", json_object_get(scene, "scene"), "for", purpose);
             json_object_update(row, choice);
-            json_object_set_new(row, "ratio", table_value(choice, &(table_column){"", "ratio", 3, TABLE_TREE}));
+            json_object_set_new(row, "ratio", table_value(choice, &(table_column){.path = "ratio", .digits = 3}));
             json_array_append_new(choices, row);
         }
     }

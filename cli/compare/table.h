@@ -2,6 +2,7 @@
 #ifndef FROE_CLI_COMPARE_TABLE_H
 #define FROE_CLI_COMPARE_TABLE_H
 #include <jansson.h>
+#include <stdbool.h>
 #include <stdio.h>
 
 typedef enum table_part { TABLE_TREE, TABLE_QUERY } table_part;
@@ -9,11 +10,16 @@ typedef enum table_part { TABLE_TREE, TABLE_QUERY } table_part;
  * number per object. */
 typedef struct table_column {
     const char *name, *path;
-    int digits;      /**< that are worth reading; 0: all */
-    table_part part; /**< of which table on the terminal */
+    int digits;               /**< that are worth reading; 0: all */
+    table_part part;          /**< of which table */
+    const char *title, *unit; /**< on pages; the columns of a query have one title */
+    double times;             /**< units in the number; 0: 1 */
+    const char *meaning;      /**< a clause, for below the table; NULL: the column before says it */
 } table_column;
-/** Of the terminal; ended by a NULL name. */
+/** Ended by a NULL name. */
 extern const table_column table_columns[];
+/** Does any row fill the column? */
+bool table_column_used(const json_t *rows, const table_column *column);
 
 /** What stands in a cell; null if there is nothing. */
 json_t *table_value(const json_t *row, const table_column *column);

@@ -1,5 +1,5 @@
-/* page.c: lays out scenes, pictures and reports as a page that needs nothing
- * but the pictures beside it: no scripts, no fonts, no network. */
+/* page.c: what the commands of the demo made, as a page that needs nothing but the files beside it: pictures with the
+ * lines that make them first, tables folded away. */
 #include "demo/page.h"
 #include "files.h"
 #include "report/html.h"
@@ -7,109 +7,123 @@
 #include <stdio.h>
 #include <string.h>
 
-static const char *const tree_keys[] = {
-    "method",     "objects",     "fragments", "pieces_per_object", "in_cut",        "height", "nodes", "leaves",
-    "mean_depth", "inseparable", "bytes",     "seconds.read",      "seconds.build", NULL};
-static const char *const defect_keys[] = {"defects.zero_length",
-                                          "defects.zero_area",
-                                          "defects.duplicates",
-                                          "defects.crossings",
-                                          "defects.t_junctions",
-                                          "defects.overlaps",
-                                          NULL};
-static const char *const exactness_keys[] = {"predicates.calls",
-                                             "predicates.by_id",
-                                             "predicates.filtered",
-                                             "predicates.refined",
-                                             "predicates.exact",
-                                             "predicates.exact_zero",
-                                             NULL};
-static const char *const method_keys[] = {"method", "fragments", "pieces_per_object", "height",
-                                          "nodes",  "bytes",     "seconds.build",     NULL};
+static const html_field tree_fields[] = {{"method", "method"},
+                                         {"objects", "objects"},
+                                         {"fragments", "pieces of objects"},
+                                         {"pieces_per_object", "pieces per object"},
+                                         {"height", "height: cuts on the longest way"},
+                                         {"leaves", "leaves: cells that are not cut"},
+                                         {"bytes", "bytes, without the scene"},
+                                         {"seconds.read", "seconds to read"},
+                                         {"seconds.build", "seconds to build"},
+                                         {0}};
+static const html_field exactness_fields[] = {{"predicates.calls", "questions"},
+                                              {"predicates.by_id", "known from the input"},
+                                              {"predicates.filtered", "certain in floating point"},
+                                              {"predicates.refined", "certain with twice the digits"},
+                                              {"predicates.exact", "decided in exact numbers"},
+                                              {0}};
+static const html_field method_fields[] = {{"method", "method"},
+                                           {"pieces_per_object", "pieces per object"},
+                                           {"height", "height"},
+                                           {"leaves", "leaves"},
+                                           {"bytes", "bytes"},
+                                           {"seconds.build", "seconds to build"},
+                                           {0}};
 
-/* The report of the first step of that sort. */
-static const json_t *report_of(const demo_scene *scene, const demo_result *result, const char *command) {
-    for (int i = 0; scene->steps[i].command; i++)
-        if (strncmp(scene->steps[i].command, command, strlen(command)) == 0) return result->report[i];
-    return NULL;
+static bool begins(const char *text, const char *word) {
+    return strncmp(text, word, strlen(word)) == 0;
 }
 
-static void put_card(FILE *out, const char *title, const json_t *report, const char *const *keys) {
-    fprintf(out, "<div class=\"card\"><h3>%s</h3>\n", title);
-    html_pairs(out, report, keys);
-    fputs("</div>\n", out);
-}
-
-static void put_cards(FILE *out, const demo_scene *scene, const demo_result *result) {
-    const json_t *build = report_of(scene, result, "build ");
-    const json_t *bounds = json_object_get(build, "bounds");
-    fputs("<div class=\"cards\">\n", out);
-    put_card(out, "The tree", build, tree_keys);
-    put_card(out, "How exact predicates were answered", build, exactness_keys);
-    put_card(out, "What is odd about the scene", report_of(scene, result, "info "), defect_keys);
-    if (json_object_size(bounds)) {
-        fputs("<div class=\"card wide\"><h3>What the method promises, and what came out</h3>\n", out);
-        html_bounds(out, bounds);
-        fputs("</div>\n", out);
+/* The word after one of these: the name of a picture. */
+static int picture_of(const demo_step *step, const char **name) {
+    static const char *const before[] = {" --animate ", " -o "};
+    for (size_t i = 0; i < 2; i++) {
+        const char *at = strstr(step->command, before[i]);
+        if (!at || begins(at + strlen(before[i]), "--")) continue;
+        *name = at + strlen(before[i]);
+        return (int)strcspn(*name, " ");
     }
-    fputs("<div class=\"card wide\"><h3>All methods, same scene, same seed</h3>\n<table class=\"columns\">\n", out);
-    html_headings(out, method_keys);
-    size_t i;
-    json_t *report;
-    json_array_foreach(result->methods, i, report) html_row(out, report, method_keys);
-    fputs("</table></div>\n</div>\n", out);
+    return 0;
 }
 
-static void put_scene(FILE *out, const demo_scene *scene, const demo_result *result) {
-    static const struct {
-        const char *key, *after;
-    } figures[] = {
-        {"objects", "objects"}, {"fragments", "pieces"}, {"pieces_per_object", "per object"}, {"height", "levels"}};
-    const json_t *build = report_of(scene, result, "build ");
-    fputs("<section>\n<h2>", out);
-    html_text(out, scene->title);
-    fputs("</h2>\n<p class=\"figures\">", out);
-    for (size_t i = 0; i < sizeof figures / sizeof *figures; i++) {
-        fputs(i ? " <b>" : "<b>", out);
-        html_value(out, json_object_get(build, figures[i].key));
-        fprintf(out, "</b> %s", figures[i].after);
-    }
-    if (json_is_true(json_object_get(report_of(scene, result, "check "), "ok"))) fputs(" <em>audit passed</em>", out);
-    fputs("</p>\n<p>", out);
-    html_text(out, scene->text);
-    fputs("</p>\n<div class=\"pictures\">\n", out);
-    for (const demo_step *step = scene->steps; step->command; step++) {
-        const char *name = step->caption ? strstr(step->command, "-o ") : NULL;
-        if (!name) continue;
-        name += 3;
-        const int length = (int)strcspn(name, " ");
-        fprintf(out, "<figure><a href=\"%.*s\"><img src=\"%.*s\" loading=\"lazy\" alt=\"", length, name, length, name);
-        html_text(out, scene->title);
-        fputs("\"></a><figcaption>", out);
-        html_text(out, step->caption);
-        fputs("</figcaption></figure>\n", out);
+static void put_figure(FILE *out, const demo_step *step) {
+    const char *name = NULL;
+    const int length = picture_of(step, &name);
+    fputs("<figure>\n<div class=\"sheet\"><picture>", out);
+    if (step->still) fprintf(out, "<source media=\"(prefers-reduced-motion: reduce)\" srcset=\"%s\">", step->still);
+    fprintf(out, "<img src=\"%.*s\" loading=\"lazy\" alt=\"", length, name);
+    html_text(out, step->text);
+    fprintf(out, "\"></picture></div>\n<figcaption>%s</figcaption>\n", step->caption);
+    html_command(out, step->command);
+    fputs("</figure>\n", out);
+}
+
+/* The tree of one build: what it is like, how its decisions were made, and what was promised. */
+static void put_tree(FILE *out, const demo_step *step, const json_t *report) {
+    fputs("<div class=\"card\">\n", out);
+    html_command(out, step->command);
+    html_pairs(out, report, tree_fields);
+    fputs("<h3>How exact decisions were made</h3>\n", out);
+    html_pairs(out, report, exactness_fields);
+    if (json_object_size(json_object_get(report, "bounds"))) {
+        fputs("<h3>What the method promises, and what came out</h3>\n", out);
+        html_bounds(out, json_object_get(report, "bounds"));
     }
     fputs("</div>\n", out);
-    put_cards(out, scene, result);
-    fputs("<p>The same again, in this folder:</p>\n<pre>", out);
+}
+
+static void put_tables(FILE *out, const demo_scene *scene, const demo_result *result) {
+    bool any = false;
+    for (int i = 0; scene->steps[i].command; i++) {
+        if (!begins(scene->steps[i].command, "build ")) continue;
+        if (!any) fputs("<details><summary>The trees in numbers</summary>\n<div class=\"grid\">\n", out);
+        any = true;
+        put_tree(out, &scene->steps[i], result->report[i]);
+    }
+    if (any) fputs("</div>\n</details>\n", out);
+    if (json_array_size(result->methods)) {
+        fprintf(out, "<details><summary>%s by every method</summary>\n<div class=\"card\">\n", scene->methods);
+        html_rows(out, result->methods, method_fields);
+        fputs("</div>\n</details>\n", out);
+    }
+}
+
+static void put_commands(FILE *out, const demo_scene *scene) {
+    fputs("<details><summary>All commands of this section</summary>\n<pre class=\"all\">", out);
     for (const demo_step *step = scene->steps; step->command; step++) {
         fputs("froe ", out);
         html_text(out, step->command);
         fputc('\n', out);
     }
-    fputs("</pre>\n<p class=\"credit\">", out);
-    html_text(out, scene->credit);
-    fputs("</p>\n</section>\n", out);
+    fputs("</pre>\n</details>\n", out);
+}
+
+static void put_scene(FILE *out, const demo_scene *scene, const demo_result *result) {
+    int count = 0, audited = 0, shown = 0;
+    fputs("<section>\n", out);
+    html_element(out, "h2", scene->title);
+    fprintf(out, "<p>%s</p>\n<div class=\"grid\">\n", scene->text);
+    for (const demo_step *step = scene->steps; step->command; step++, count++)
+        if (step->caption) put_figure(out, step), shown++;
+    fputs("</div>\n", out);
+    for (int i = 0; i < count; i++) audited += json_is_true(json_object_get(result->report[i], "ok"));
+    if (audited) fprintf(out, "<p>The check of each of these %d trees passed.</p>\n", audited);
+    put_tables(out, scene, result);
+    if (count > shown) put_commands(out, scene);
+    if (scene->credit) html_element(out, "small", scene->credit);
+    fputs("</section>\n", out);
 }
 
 static void put_page(FILE *out, const void *given) {
     const demo_result *results = given;
-    html_begin(out, "froe: binary space partitions of real scenes", NULL);
-    fputs("<header>\n<h1>froe</h1>\n<p>Binary space partitions that stay small on real "
-          "scenes, exactly. A froe is the tool that splits wood along the grain instead of sawing across it.</p>\n"
-          "</header>\n<main>\n",
+    html_begin(out, "froe: exact line drawings of models, and answers from maps and models", NULL);
+    fputs("<header>\n<h1>Exact drawings of models, exact answers from maps</h1>\n<p class=\"lead\">froe turns 3D "
+          "models into line drawings, and says what is at a point, near it, or hit by a ray. Each picture below was "
+          "made on this computer by the line under it, which works in this folder.</p>\n</header>\n<main>\n",
           out);
     for (size_t i = 0; demo_scenes[i].title; i++) put_scene(out, &demo_scenes[i], &results[i]);
+    html_copying(out);
     html_end(out);
 }
 

@@ -1,65 +1,91 @@
-/* scenes.c: the script of the demo. */
+/* scenes.c: the script of the demo: what froe is for, and then how it works. */
 #include "demo/scenes.h"
 #include <stddef.h>
 
+#define HOUSE_CREDIT                                                                                                   \
+    "The house is FZK-Haus by the Karlsruhe Institute of Technology (KIT), Institute for Automation and Applied "      \
+    "Informatics (IAI)."
+
 const demo_scene demo_scenes[] = {
     {
-        .title = "A floor plan",
-        .file = "freedoom-e1m1.geojson",
-        .text = "The first map of a game: 812 walls as segments, most of them parallel to an axis. A tree of this kind "
-                "is what drew such maps on the machines of 1993: walking it from any point of view yields the walls "
-                "in depth order. Walls that no cut crosses stay whole.",
-        .credit = "Freedoom 0.12.1, BSD-3-Clause style, © Contributors to the Freedoom project.",
-        .dim = 2,
+        .title = "From a model to a drawing",
+        .text = "A model of a house with 35,906 triangles becomes a vector drawing. What is hidden is decided exactly, "
+                "so the files hold few shapes, without cracks.",
+        .files = {"fzk-haus.glb"},
         .steps =
             {
-                {"info freedoom-e1m1.geojson", NULL},
+                {"render fzk-haus.glb -o house-turning.svg --turntable 18 --animate --seconds 6 --preset web "
+                 "--size 900x640 --decimals 0 --min-area 3 --cull-back --line-kinds border,silhouette,object",
+                 "On a turntable: 18 drawings in one file, which any browser plays.",
+                 "A house with an orange roof turns around once in six seconds", "house.svg"},
+                {"render fzk-haus.glb -o house.svg --size 900x640",
+                 "One line, one drawing. It can be scaled, printed and edited.",
+                 "The house, seen from a corner and from above"},
+            },
+        .credit = HOUSE_CREDIT,
+    },
+    {
+        .title = "Hidden lines, dashed",
+        .text = "For manuals, plans and plotters: lines by their kind, those behind other parts dashed. Each ends "
+                "exactly where it goes behind something.",
+        .files = {"bracket.off"},
+        .steps =
+            {
+                {"render bracket.off -o bracket-lines.svg --preset technical --view iso --size 900x800 --line-width "
+                 "1.6",
+                 "A technical drawing: borders strong, edges fine, hidden ones dashed.",
+                 "Line drawing of an angle bracket with two holes and a ring; hidden edges are dashed"},
+                {"render bracket.off -o bracket.svg --view iso --size 900x800", "The same part in shades.",
+                 "The bracket with shaded faces"},
+            },
+    },
+    {
+        .title = "When do moving things meet?",
+        .text = "548 cars and bicycles drive for some seconds through Bologna. froe finds every contact between them, "
+                "and the exact moments at which it begins and ends.",
+        .files = {"cars-bologna.mfjson"},
+        .steps =
+            {
+                {"simulate cars-bologna.mfjson --from 303000 --to 311000 --contacts contacts.csv --animate cars.svg "
+                 "--player cars.html --seconds 16",
+                 "Vehicles in contact are orange. The marks below are the times of contacts. <a "
+                 "href=\"cars.html\">Open "
+                 "the player</a> to stop at each.",
+                 "A map of streets on which some 500 vehicles move"},
+            },
+        .credit = "Traffic simulated with Eclipse SUMO on its network of Bologna, © German Aerospace Center (DLR) and "
+                  "others, EPL-2.0 or GPL-2.0-or-later.",
+    },
+    {
+        .title = "How it works",
+        .text = "froe cuts space in two, and each half again, until every cell holds next to nothing. Such a binary "
+                "space partition is a tree; it tells what is in front of what, and finds what is near a place without "
+                "looking at the rest. Cuts that divide few objects make small trees. Every tree can be checked, in "
+                "exact arithmetic.",
+        .files = {"freedoom-e1m1.geojson", "countries-110m.json"},
+        .steps =
+            {
                 {"build freedoom-e1m1.geojson -o floor.froe", NULL},
                 {"check floor.froe", NULL},
-                {"draw floor.froe -o floor.svg", "Cells coloured by depth, pale near the root, with walls in ink."},
-                {"draw floor.froe -o floor-pieces.svg --show cuts,fragments",
-                 "The cuts, heavier near the root, and the pieces they leave."},
+                {"draw floor.froe -o floor.svg",
+                 "The floor plan of a game. The deeper a cell lies in the tree, the darker it is. Walls are red from "
+                 "a cut on.",
+                 "A floor plan with cells coloured by depth"},
                 {"export floor.froe -o floor-pieces.geojson", NULL},
-            },
-    },
-    {
-        .title = "A map with crossings",
-        .file = "countries-110m.json",
-        .text =
-            "The countries of the world as 10,301 boundary segments. Every shared border is stored twice. Seven "
-            "borders of Russia, Fiji and Antarctica run across the whole map, from about -180 to 180 degrees: 155 of "
-            "the 157 crossings lie on them. Nothing is snapped, merged or dropped: each crossing is decided "
-            "exactly, and every segment is exactly the union of its pieces.",
-        .credit = "world-atlas 2.0.2, ISC; Natural Earth, public domain.",
-        .dim = 2,
-        .steps =
-            {
-                {"info countries-110m.json", NULL},
                 {"build countries-110m.json -o countries.froe", NULL},
                 {"check countries.froe", NULL},
-                {"draw countries.froe -o countries.svg --width 1200", "The whole world; cells coloured by depth."},
-                {"draw countries.froe -o europe.svg --window -12,34,42,72",
-                 "Europe: the tree is deeper where borders are."},
-            },
-    },
-    {
-        .title = "A house",
-        .file = "fzk-haus.glb",
-        .text = "A building model as architects exchange it: 35,906 triangles in 110 objects, with thousands of pairs "
-                "that intersect or overlap in one plane. Every triangle is cut exactly where the planes of the tree "
-                "pass; the audit proves it with exact arithmetic.",
-        .credit = "FZK-Haus, KIT/IAI (Karlsruhe Institute of Technology, Institute for Automation and Applied "
-                  "Informatics), from assimp's test models.",
-        .dim = 3,
-        .steps =
-            {
-                {"info fzk-haus.glb", NULL},
+                {"draw countries.froe -o countries.svg --width 1200", "The countries of the world.",
+                 "A map of the world with the cells of its partition"},
                 {"build fzk-haus.glb -o house.froe", NULL},
                 {"check house.froe", NULL},
-                {"draw house.froe -o house-exploded.png --style exploded --scale 1.5",
-                 "Pulled apart along the first cuts of the tree."},
-                {"draw house.froe -o house-sections.svg", "Three sections through the middle."},
+                {"draw house.froe -o house-exploded.png --style exploded",
+                 "The house, pulled apart along the first cuts of its tree.",
+                 "The house in sixteen parts that float apart"},
             },
+        .methods = "freedoom-e1m1.geojson",
+        .dim = 2,
+        .credit = "The floor plan is that of map E1M1 of Freedoom 0.12.1, BSD-3-Clause, © Contributors to the Freedoom "
+                  "project. The countries are from world-atlas 2.0.2, ISC; Natural Earth, public domain. " HOUSE_CREDIT,
     },
     {0},
 };

@@ -1,6 +1,7 @@
 /* axis.c: scales of figures. Ticks stand at 1, 2 and 5 times powers of ten, on logarithmic axes of many decades at the
  * powers alone. */
 #include "report/axis.h"
+#include "support/nice.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -19,11 +20,9 @@ void plot_axis_add(plot_axis *axis, double value) {
     if (value > axis->hi) axis->hi = value;
 }
 
-/* The tick distance that gives some six of them: 1, 2 or 5 times a power of ten. */
+/* The tick distance that gives some six of them. */
 static double step_of(const plot_axis *axis) {
-    const double raw = (axis->hi - axis->lo) / 6, power = pow(10, floor(log10(raw)));
-    const double share = raw / power;
-    return power * (share <= 1 ? 1 : share <= 2 ? 2 : share <= 5 ? 5 : 10);
+    return support_nice_above((axis->hi - axis->lo) / 6);
 }
 
 void plot_axis_round(plot_axis *axis) {

@@ -1,6 +1,6 @@
 /* html.c: small pieces of HTML made from reports. */
 #include "report/html.h"
-#include "files.h"
+#include "embedded.h"
 #include "support/xml.h"
 #include "version.h"
 #include <froe/froe.h>
@@ -9,6 +9,33 @@
 void html_text(FILE *out, const char *text) {
     char bytes[8];
     for (size_t n; (n = support_xml_escape(&text, bytes));) fwrite(bytes, 1, n, out);
+}
+
+void html_element(FILE *out, const char *tag, const char *text) {
+    fprintf(out, "<%s>", tag);
+    html_text(out, text);
+    fprintf(out, "</%s>\n", tag);
+}
+
+void html_command(FILE *out, const char *words) {
+    fputs("<div class=\"command\"><code>froe ", out);
+    html_text(out, words);
+    fputs("</code></div>\n", out);
+}
+
+/* Buttons are made by the script: where none runs, there is none, and a click on the line selects all of it. */
+void html_copying(FILE *out) {
+    fputs("<script>\n"
+          "for (const line of document.querySelectorAll('.command')) {\n"
+          "  const button = line.appendChild(document.createElement('button'));\n"
+          "  button.type = 'button'; button.textContent = 'Copy';\n"
+          "  button.onclick = async () => {\n"
+          "    getSelection().selectAllChildren(line.firstChild);\n"
+          "    try { await navigator.clipboard.writeText(line.firstChild.textContent); }\n"
+          "    catch { document.execCommand('copy'); }\n"
+          "    button.textContent = 'Copied'; setTimeout(() => button.textContent = 'Copy', 1500);\n"
+          "  };\n}\n</script>\n",
+          out);
 }
 
 /* Digits in groups of three, parted by thin spaces. */
@@ -29,20 +56,13 @@ void html_value(FILE *out, const json_t *value) {
     else if (json_is_real(value) && size < 1e15 && (size >= 1000 || number == (double)(json_int_t)number))
         put_whole(out, (json_int_t)number);
     else if (json_is_real(value))
-        fprintf(out, "%.4g", number);
+        fprintf(out, "%.3g", number);
     else if (json_is_string(value))
         html_text(out, json_string_value(value));
     else if (json_is_boolean(value))
         fputs(json_is_true(value) ? "yes" : "no", out);
     else
         fputs("&ndash;", out);
-}
-
-/* "in_cut" reads "in cut", "defects.crossings" "crossings", "seconds.read" "read, s". */
-static void put_label(FILE *out, const char *name) {
-    const char *dot = strchr(name, '.');
-    for (const char *key = dot ? dot + 1 : name; *key; key++) fputc(*key == '_' ? ' ' : *key, out);
-    if (strncmp(name, "seconds.", 8) == 0) fputs(", s", out);
 }
 
 /* A key of the report, or "object.key" one level down. */
@@ -54,63 +74,62 @@ static const json_t *find(const json_t *report, const char *name) {
     return json_object_get(json_object_get(report, outer), dot + 1);
 }
 
-void html_pairs(FILE *out, const json_t *report, const char *const *names) {
-    fputs("<table>\n", out);
-    for (; *names; names++) {
-        const json_t *value = find(report, *names);
+static void put_field(FILE *out, const json_t *value) {
+    fputs("<td>", out);
+    html_value(out, value);
+    fputs("</td>", out);
+}
+
+void html_pairs(FILE *out, const json_t *report, const html_field *fields) {
+    fputs("<div class=\"scroll\"><table>\n", out);
+    for (; fields->key; fields++) {
+        const json_t *value = find(report, fields->key);
         if (!value) continue;
-        fputs("<tr><th>", out);
-        put_label(out, *names);
-        fputs("</th><td>", out);
-        html_value(out, value);
-        fputs("</td></tr>\n", out);
+        fprintf(out, "<tr><th scope=\"row\">%s</th>", fields->label);
+        put_field(out, value);
+        fputs("</tr>\n", out);
     }
-    fputs("</table>\n", out);
+    fputs("</table></div>\n", out);
 }
 
-void html_headings(FILE *out, const char *const *names) {
-    fputs("<tr>", out);
-    for (; *names; names++) {
-        fputs("<th>", out);
-        put_label(out, *names);
-        fputs("</th>", out);
+void html_rows(FILE *out, const json_t *reports, const html_field *fields) {
+    size_t i;
+    json_t *report;
+    fputs("<div class=\"scroll\"><table>\n<thead><tr>", out);
+    for (const html_field *f = fields; f->key; f++) fprintf(out, "<th scope=\"col\">%s</th>", f->label);
+    fputs("</tr></thead>\n<tbody>\n", out);
+    json_array_foreach((json_t *)reports, i, report) {
+        fputs("<tr>", out);
+        for (const html_field *f = fields; f->key; f++) put_field(out, find(report, f->key));
+        fputs("</tr>\n", out);
     }
-    fputs("</tr>\n", out);
-}
-
-void html_row(FILE *out, const json_t *report, const char *const *names) {
-    fputs("<tr>", out);
-    for (; *names; names++) {
-        fputs("<td>", out);
-        html_value(out, find(report, *names));
-        fputs("</td>", out);
-    }
-    fputs("</tr>\n", out);
+    fputs("</tbody>\n</table></div>\n", out);
 }
 
 void html_bounds(FILE *out, const json_t *bounds) {
     if (!json_object_size(bounds)) return;
-    fputs("<table class=\"bounds\">\n<tr><th>promise</th><th>promised</th><th>measured</th><th></th></tr>\n", out);
+    fputs("<div class=\"scroll\"><table>\n<thead><tr><th scope=\"col\">promise</th><th scope=\"col\">at most</th>"
+          "<th scope=\"col\">came out</th><th class=\"bar\"></th></tr></thead>\n<tbody>\n",
+          out);
     const char *name;
     json_t *bound;
     json_object_foreach((json_t *)bounds, name, bound) {
         const json_t *promised = json_object_get(bound, "promised"), *measured = json_object_get(bound, "measured");
         const double most = json_number_value(promised), is = json_number_value(measured);
         const double share = most > 0 ? 100 * is / most : is > 0 ? 100 : 0;
-        fputs("<tr><th>", out);
-        put_label(out, name);
-        fputs("</th><td>at most ", out);
-        html_value(out, promised);
-        fputs("</td><td>", out);
-        html_value(out, measured);
-        fprintf(out, "</td><td class=\"bar\"><div><i style=\"width:%.1f%%\"></i></div></td></tr>\n",
+        fputs("<tr><th scope=\"row\">", out);
+        for (const char *c = name; *c; c++) fputc(*c == '_' ? ' ' : *c, out);
+        fputs("</th>", out);
+        put_field(out, promised);
+        put_field(out, measured);
+        fprintf(out, "<td class=\"bar\"><div><i style=\"width:%.1f%%\"></i></div></td></tr>\n",
                 share > 100 ? 100 : share);
     }
-    fputs("</table>\n", out);
+    fputs("</tbody>\n</table></div>\n", out);
 }
 
 static void put_style(FILE *out, const char *name) {
-    const cli_embedded *style = name ? cli_embedded_named(name) : NULL;
+    const support_embedded *style = name ? support_embedded_named(cli_embedded_files, name) : NULL;
     if (style) fwrite(style->bytes, 1, style->size, out);
 }
 

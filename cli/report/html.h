@@ -11,14 +11,22 @@ void html_begin(FILE *out, const char *title, const char *style);
 void html_end(FILE *out);
 /** Text with markup escaped. */
 void html_text(FILE *out, const char *text);
-/** A number for reading: thousands set apart, reals with four digits; or text. */
+/** An element that holds text only. */
+void html_element(FILE *out, const char *tag, const char *text);
+/** A command line, "froe" and these words, with a button that copies it once html_copying() has been written. */
+void html_command(FILE *out, const char *words);
+void html_copying(FILE *out);
+/** A number for reading: thousands set apart, reals with three digits; or text. */
 void html_value(FILE *out, const json_t *value);
-/** A table of name and value; `names` are keys of the report, ended by NULL. */
-void html_pairs(FILE *out, const json_t *report, const char *const *names);
+
+/** A value of a report: the name of its key, or "object.key" one level down, and what pages call it. */
+typedef struct html_field {
+    const char *key, *label;
+} html_field;
+/** A table of name and value; fields are ended by a NULL key, and those that the report has not are left out. */
+void html_pairs(FILE *out, const json_t *report, const html_field *fields);
+/** A table with a row for each report, and its heading. */
+void html_rows(FILE *out, const json_t *reports, const html_field *fields);
 /** The promises of a build as a table with bars, nothing when there are none. */
 void html_bounds(FILE *out, const json_t *bounds);
-/** One row of cells: the values of these keys. */
-void html_row(FILE *out, const json_t *report, const char *const *names);
-/** Headings of such rows. */
-void html_headings(FILE *out, const char *const *names);
 #endif

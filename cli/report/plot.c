@@ -14,8 +14,10 @@
 #include <string.h>
 
 enum { COLOURS = 8, MARKERS = 5, LETTER = 7, ROW = 18 };
-static const char *const colours[COLOURS] = {"#3b82c4", "#e07b39", "#2f9e77", "#c04f8f",
-                                             "#8a6fd1", "#b0912a", "#d1495b", "#4fa3a5"};
+/* After M. Okabe and K. Ito (Color Universal Design, 2008), whose colours differ for all kinds of sight; yellow and black
+ * give way to violet and brown, so that all are seen on white and on dark pages. */
+static const char *const colours[COLOURS] = {"#0a7ac2", "#d55e00", "#009e73", "#cc79a7",
+                                             "#e69f00", "#56b4e9", "#8a63d2", "#8c6d46"};
 
 typedef struct plot {
     FILE *out;
@@ -130,10 +132,13 @@ static void put_frame(plot *p) {
 
 /* ------------------------------------------------------------------- series -- */
 
+/* From the ninth series on lines are dashed, and markers hollow. */
 static void put_series_style(plot *p, size_t series, bool line) {
-    const char *colour = colours[series % COLOURS];
-    put_markup(p, line ? "\" fill=\"none\" stroke-width=\"1.6\" stroke=\"" : "\" stroke=\"none\" fill=\"");
-    put_markup(p, colour);
+    const bool hollow = !line && series >= COLOURS && p->o->kind != PLOT_COLUMNS;
+    put_markup(p, line     ? "\" fill=\"none\" stroke-width=\"1.8\" stroke=\""
+                  : hollow ? "\" fill=\"none\" stroke-width=\"1.5\" stroke=\""
+                           : "\" stroke=\"none\" fill=\"");
+    put_markup(p, colours[series % COLOURS]);
     if (line && series >= COLOURS) put_markup(p, "\" stroke-dasharray=\"5 3");
     put_markup(p, "\"/>\n");
 }
@@ -201,15 +206,22 @@ static double key(plot *p, bool draw) {
     double x = p->x.from, y = p->o->height + 12;
     for (size_t s = 0; s < p->count; s++) {
         if (!p->series[s].count) continue; /* it only keeps its place among the colours */
-        double width = 26;
+        const double sample = p->o->kind == PLOT_LINES ? 24 : 8;
+        double width = sample + 18;
         for (const char *c = p->series[s].name; *c; c++) /* letters count by their first bytes */
             width += ((unsigned char)*c & 0xC0) != 0x80 ? LETTER : 0;
         if (x + width > p->o->width && x > p->x.from) x = p->x.from, y += ROW;
         if (draw) {
+            if (p->o->kind == PLOT_LINES) {
+                put_markup(p, "<path d=\"");
+                put_pair(p, "M", x, y - 4);
+                put_pair(p, "L", x + sample, y - 4);
+                put_series_style(p, s, true);
+            }
             put_markup(p, "<path d=\"");
-            put_marker(p, s, x + 4, y - 4);
+            put_marker(p, s, x + sample / 2, y - 4);
             put_series_style(p, s, false);
-            put_label(p, x + 12, y, "start", "", p->series[s].name);
+            put_label(p, x + sample + 4, y, "start", "", p->series[s].name);
         }
         x += width;
     }

@@ -9,26 +9,32 @@ froe_animation_options froe_animation_defaults(void) {
     return (froe_animation_options){.size = sizeof(froe_animation_options), .width = 960, .seconds = 20};
 }
 
+void formats_animation_knots(const formats_animation *a, uint32_t vertex, size_t *first, size_t *end) {
+    const size_t count = froe_motion_knot_count(a->motion, vertex);
+    *first = 0, *end = count;
+    while (*first + 1 < count && froe_motion_knot(a->motion, vertex, *first + 1).time <= a->begin) ++*first;
+    while (*end > *first + 1 && froe_motion_knot(a->motion, vertex, *end - 2).time >= a->end) --*end;
+}
+
 /* The hull of all knots and control points holds everything. */
 static void find_bounds(formats_animation *a) {
     for (int k = 0; k < 2; k++) a->lo[k] = (double)INFINITY, a->hi[k] = -(double)INFINITY;
-    for (uint32_t v = 0; v < froe_motion_vertex_count(a->motion); v++)
-        for (size_t i = 0; i < froe_motion_knot_count(a->motion, v); i++) {
-            froe_moving_knot knot = froe_motion_knot(a->motion, v, i);
-            for (int k = 0; k < 2; k++) {
-                if (!isnan(knot.control[k])) a->lo[k] = fmin(a->lo[k], knot.control[k]);
-                if (!isnan(knot.control[k])) a->hi[k] = fmax(a->hi[k], knot.control[k]);
-                a->lo[k] = fmin(a->lo[k], knot.at[k]);
-                a->hi[k] = fmax(a->hi[k], knot.at[k]);
+    for (uint32_t o = 0; o < froe_motion_object_count(a->motion); o++)
+        for (int corner = 0; corner < 2; corner++) {
+            const froe_moving_object object = froe_motion_object(a->motion, o);
+            size_t first, end;
+            formats_animation_knots(a, object.vertices[corner], &first, &end);
+            for (size_t i = first; i < end && object.birth <= object.death; i++) {
+                const froe_moving_knot knot = froe_motion_knot(a->motion, object.vertices[corner], i);
+                const bool curved = i + 1 < end && !isnan(knot.control[0]);
+                for (int k = 0; k < 2; k++) {
+                    a->lo[k] = fmin(a->lo[k], curved ? fmin(knot.at[k], knot.control[k]) : knot.at[k]);
+                    a->hi[k] = fmax(a->hi[k], curved ? fmax(knot.at[k], knot.control[k]) : knot.at[k]);
+                }
             }
         }
-    double width = a->hi[0] - a->lo[0], height = a->hi[1] - a->lo[1],
-           page = a->options.width - 2 * FORMATS_ANIMATION_MARGIN;
-    a->scale = page / fmax(fmax(width, height), 1e-300);
-    if (height <= width) a->scale = page / fmax(width, 1e-300);
-    if (!(a->scale > 0) || !isfinite(a->scale)) a->scale = 1; /* no extent, or one beyond doubles */
-    a->height = ceil(height * a->scale) + 2 * FORMATS_ANIMATION_MARGIN;
-    if (!(a->height > 2 * FORMATS_ANIMATION_MARGIN)) a->height = 2 * FORMATS_ANIMATION_MARGIN + 1;
+    for (int k = 0; k < 2; k++)
+        if (!(a->lo[k] <= a->hi[k])) a->lo[k] = 0, a->hi[k] = 1; /* nothing is ever there */
 }
 
 /* Deals the contacts to their objects. */
@@ -55,10 +61,11 @@ froe_status froe_animate(const froe_motion *motion, const froe_contact *contacts
     a.options = options ? *options : froe_animation_defaults();
     a.begin = froe_motion_window(motion).begin;
     a.end = froe_motion_window(motion).end;
+    a.clock = a.end - a.begin >= 1000 && fmax(fabs(a.begin), fabs(a.end)) < 8e15; /* the clock of scripts ends there */
     if (a.options.size != sizeof a.options) return support_fail_defaults(diag, "froe_animation_defaults");
-    if (!(a.options.width > 4 * FORMATS_ANIMATION_MARGIN) || !isfinite(a.options.width) || !(a.options.seconds > 0) ||
+    if (!(a.options.width >= 200) || !isfinite(a.options.width) || !(a.options.seconds > 0) ||
         !isfinite(a.options.seconds))
-        return support_fail(diag, FROE_E_OPTIONS, "The width of the animation is below 64, or its time is none.");
+        return support_fail(diag, FROE_E_OPTIONS, "The width of the animation is below 200, or its time is none.");
     const size_t objects = froe_motion_object_count(motion), starts = objects + 2;
     for (size_t i = 0; i < count; i++)
         if (contacts[i].a >= objects || contacts[i].b >= objects)

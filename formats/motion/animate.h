@@ -1,4 +1,4 @@
-/* animate.h: a motion on its way to a picture: its scale on the page, and the contacts of each object. It speaks for
+/* animate.h: a motion on its way to a picture: what it spans, and the contacts of each object. It speaks for
  * animate.c, animate_svg.c and animate_page.c. */
 #ifndef FROE_FORMATS_ANIMATE_H
 #define FROE_FORMATS_ANIMATE_H
@@ -10,15 +10,15 @@ typedef struct formats_animation {
     size_t count;
     froe_animation_options options;
     double begin, end;   /**< of the window */
-    double lo[2], hi[2]; /**< of everything */
-    double height;       /**< of the picture, whose width is in the options */
-    double scale;        /**< pixels a unit */
+    bool clock;          /**< times are milliseconds since 1970, as the standard says (OGC 19-045r3), and are shown as
+                            a clock shows them; numbers that span less than a second are shown as numbers */
+    double lo[2], hi[2]; /**< of everything that is there in the window */
     size_t *starts;      /**< [object]: its contacts, in order of time, begin in `touched` */
     uint32_t *touched;   /**< numbers of contacts */
 } formats_animation;
 
-/** Margins of the picture. */
-#define FORMATS_ANIMATION_MARGIN 16
+/** The knots of a vertex that matter in the window: first .. end - 1, one at least. */
+void formats_animation_knots(const formats_animation *a, uint32_t vertex, size_t *first, size_t *end);
 
 typedef void formats_animation_writer(formats_writer *w, const formats_animation *a);
 formats_animation_writer formats_animate_svg, formats_animate_page;

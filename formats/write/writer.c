@@ -59,7 +59,7 @@ void formats_put_json(formats_writer *w, const char *text) {
         size_t length = support_utf8_length((const char *)c);
         if (!length) {
             formats_put(w, "\\ufffd");
-        } else if (*c < 0x20 || *c == 0x7f) {
+        } else if (*c < 0x20 || *c == 0x7f || *c == '<') { /* no text ends the script of a page that it stands in */
             char escaped[8];
             snprintf(escaped, sizeof escaped, "\\u%04x", *c);
             formats_put(w, escaped);

@@ -85,7 +85,7 @@ static void what_cannot_be_shown_is_left_out(void **state) {
     o.log_y = false;                                     /* now 0 can be shown, and NaN still cannot */
     put(s, two, 2, &o);
     assert_int_equal(count_of(s->text, "Z"), 4 + 3 + 2);
-    assert_int_equal(count_of(s->text, "fill=\"none\""), 2); /* lines */
+    assert_int_equal(count_of(s->text, "fill=\"none\""), 2 + 2); /* lines: of the series, and of the key */
     o.kind = PLOT_POINTS;
     put(s, two, 2, &o);
     assert_int_equal(count_of(s->text, "Z"), 4 + 3 + 2);
@@ -99,6 +99,27 @@ static void what_cannot_be_shown_is_left_out(void **state) {
     const plot_series gap[] = {two[0], {"without points", NULL, NULL, 0}, two[1]};
     put(s, gap, 3, &standard);
     assert_null(strstr(s->text, "without points"));
+    free(s);
+}
+
+/* Each of twelve differs from the others by its colour, or else by a dashed line and a hollow marker. */
+static void series_differ_by_colour_or_by_dash_and_shape(void **state) {
+    (void)state;
+    sheet *s = calloc(1, sizeof *s);
+    plot_series series[12];
+    const plot_options o = plot_defaults();
+    for (size_t i = 0; i < 12; i++) series[i] = (plot_series){"s", xs, xs, 4};
+    put(s, series, 12, &o);
+    assert_int_equal(count_of(s->text, "stroke-dasharray"), 4 + 4);     /* lines, and samples in the key */
+    assert_int_equal(count_of(s->text, "stroke-width=\"1.5\""), 4 + 4); /* hollow markers */
+    const char *first = strstr(s->text, "stroke-width=\"1.8\" stroke=\"");
+    char colour[8][8];
+    for (int i = 0; i < 8; i++) {
+        assert_non_null(first);
+        snprintf(colour[i], sizeof colour[i], "%s", first + strlen("stroke-width=\"1.8\" stroke=\""));
+        for (int k = 0; k < i; k++) assert_string_not_equal(colour[i], colour[k]);
+        first = strstr(first + 1, "stroke-width=\"1.8\" stroke=\"");
+    }
     free(s);
 }
 
@@ -143,8 +164,11 @@ static void equal_factors_are_equal_distances(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(axes_place_numbers_and_ticks),           cmocka_unit_test(labels_are_short_and_right),
-        cmocka_unit_test(what_cannot_be_shown_is_left_out),       cmocka_unit_test(equal_factors_are_equal_distances),
+        cmocka_unit_test(axes_place_numbers_and_ticks),
+        cmocka_unit_test(labels_are_short_and_right),
+        cmocka_unit_test(what_cannot_be_shown_is_left_out),
+        cmocka_unit_test(equal_factors_are_equal_distances),
+        cmocka_unit_test(series_differ_by_colour_or_by_dash_and_shape),
         cmocka_unit_test(lines_break_where_a_number_is_left_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
