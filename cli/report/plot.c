@@ -14,8 +14,8 @@
 #include <string.h>
 
 enum { COLOURS = 8, MARKERS = 5, LETTER = 7, ROW = 18 };
-/* After M. Okabe and K. Ito (Color Universal Design, 2008), whose colours differ for all kinds of sight; yellow and black
- * give way to violet and brown, so that all are seen on white and on dark pages. */
+/* After M. Okabe and K. Ito (Color Universal Design, 2008), whose colours differ for all kinds of sight; yellow and
+ * black give way to violet and brown, so that all are seen on white and on dark pages. */
 static const char *const colours[COLOURS] = {"#0a7ac2", "#d55e00", "#009e73", "#cc79a7",
                                              "#e69f00", "#56b4e9", "#8a63d2", "#8c6d46"};
 
