@@ -37,7 +37,7 @@ static const writing writings[] = {
     {"simulate m.mfjson --animate out.svg", "out.svg", false},
     {"simulate m.mfjson --player out.html", "out.html", false},
     {"measure s.geojson --draw out.svg", "out.svg", false},
-    {"demo -o .", "freedoom-e1m1.geojson", false},
+    {"demo -o .", "fzk-haus.glb", false},
 };
 enum { WRITINGS = sizeof writings / sizeof *writings, MOST_CALLS = 32 };
 static const char old_text[] = "old";
