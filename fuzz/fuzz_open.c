@@ -32,6 +32,7 @@ static void look_at_scene(const froe_scene *scene) {
     }
     uint32_t ends[2];
     for (uint32_t edge = 0; froe_scene_edge(scene, edge, ends); edge++) sum += *froe_scene_vertex(scene, ends[1]);
+    sum += froe_scene_crs(scene).unit[0] + (double)froe_scene_across(scene, NULL);
     if (froe_scene_bounds(scene, lo, hi)) sum += lo[0] + hi[froe_scene_dim(scene) - 1];
     volatile double used = sum;
     (void)used;

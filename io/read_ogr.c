@@ -1,5 +1,6 @@
 /* read_ogr.c: plane maps in all formats of OGR. Messages of GDAL go to
  * a handler of this thread: the first failure becomes the diagnostic. */
+#include "crs.h"
 #include "formats/input/csv_header.h"
 #include "ogr_shapes.h"
 #include "readers.h"
@@ -48,6 +49,7 @@ typedef struct map {
     const char *layer_name;
     int name_field, id_field, layer_field; /* -1: none */
     uint64_t features_done;
+    io_crs crs; /* of the layers so far */
 } map;
 
 static froe_status map_fail(map *m, froe_status status, const char *sentence) {
@@ -156,8 +158,9 @@ static froe_status add_features(map *m, OGRLayerH one) {
             m->name_field = find_field(fields, names);
             m->id_field = find_field(fields, ids);
             m->layer_field = find_field(fields, layers);
+            status = io_crs_take(&m->crs, m->sink, layer);
         }
-        status = add_feature(m, feature);
+        if (!status) status = add_feature(m, feature);
         OGR_F_Destroy(feature);
         if (one) done = expected > 0 ? (double)m->features_done / expected : 0;
         if (!status && m->features_done++ % FEATURES_PER_REPORT == 0) status = formats_sink_progress(m->sink, done);
@@ -241,8 +244,10 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
     if (!m.data) status = refuse_content(&m, name);
     if (!status) {
         formats_report_format(sink, "float64", "%s", GDALGetDriverShortName(GDALGetDatasetDriver(m.data)));
+        m.crs.promise = io_crs_promise_of(m.data);
         status = add_layers(&m);
     }
+    io_crs_free(&m.crs);
     if (m.data) GDALClose(m.data);
     CPLPopErrorHandler();
     CPLErrorReset();

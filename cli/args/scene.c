@@ -47,6 +47,12 @@ int cli_read_scene(const cli_common *common, const cli_scene_args *args, froe_sc
         if (!own) cli_crash_end();
         cli_progress_end(&bar);
         if (status) code = cli_fail_status(CLI_READING, spool.name, status, &diag);
+        if (!status && report->no_degrees && !common->quiet)
+            (void)cli_fail(
+                0, spool.name,
+                "warning: Coordinates of a %s are degrees, and these cannot be any: the coordinate system is "
+                "unknown. A member \"crs\" of the file that is null says that, too.",
+                report->format);
     }
     cli_spool_free(&spool);
     return code;

@@ -19,6 +19,7 @@ extern const cli_option cli_scene_options[]; /**< the first is SCENE itself */
     "assimp reads (glTF, OBJ, STL, PLY, OFF, IFC, FBX, ...). CSV: points (x,y[,z...]), boxes "                         \
     "(lo_x,lo_y[,...],hi_x,...) or balls (x,y[,...],r)."
 
-/** Reads the scene with a progress bar. Returns 0, or an exit code after saying why. */
+/** Reads the scene with a progress bar. Says on stderr, unless --quiet, when its format promises degrees that it does
+ * not have. Returns 0, or an exit code after saying why. */
 int cli_read_scene(const cli_common *common, const cli_scene_args *args, froe_scene **scene, froe_read_report *report);
 #endif

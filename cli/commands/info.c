@@ -22,7 +22,22 @@ static json_t *pair_json(const uint32_t pair[2]) {
     return json_pack("[I, I]", (json_int_t)pair[0], (json_int_t)pair[1]);
 }
 
-static json_t *info_json(const char *path, const froe_scene *scene, const froe_read_report *r, const froe_defects *d) {
+static json_t *crs_json(const froe_scene *scene, bool whole) {
+    static const char *const kinds[FROE_CRS_KIND_COUNT] = {"unknown", "geographic", "projected", "other"};
+    const froe_crs crs = froe_scene_crs(scene);
+    json_t *out = json_pack("{s:s}", "kind", kinds[crs.kind]);
+    if (!out || !crs.kind) return out;
+    json_object_set_new(out, "name", cli_name_json(crs.name));
+    json_object_set_new(out, "code", cli_name_json(crs.code));
+    json_object_set_new(out, "unit", cli_name_json(crs.unit));
+    if (whole) json_object_set_new(out, "wkt", cli_name_json(crs.wkt));
+    if (crs.kind == FROE_CRS_GEOGRAPHIC)
+        json_object_set_new(out, "across_180", json_integer((json_int_t)froe_scene_across(scene, NULL)));
+    return out;
+}
+
+static json_t *info_json(const info_args *args, const froe_scene *scene, const froe_read_report *r,
+                         const froe_defects *d) {
     json_t *kinds = json_object();
     for (int kind = 0; kind < FROE_KIND_COUNT; kind++) {
         const size_t count = froe_scene_kind_count(scene, (froe_kind)kind);
@@ -47,10 +62,12 @@ static json_t *info_json(const char *path, const froe_scene *scene, const froe_r
                   "no_geometry", (json_int_t)r->no_geometry, "seconds", r->seconds);
     static const char *const axes[] = {"x", "y", "z"};
     json_t *up = dim == 3 ? json_string(axes[froe_scene_up(scene)]) : NULL;
-    return json_pack("{s:o, s:i, s:o*, s:I, s:o, s:I, s:I, s:o, s:o, s:o}", "file", cli_name_json(path), "dim",
-                     froe_scene_dim(scene), "up", up, "objects", (json_int_t)froe_scene_object_count(scene), "kinds",
-                     kinds, "vertices", (json_int_t)froe_scene_vertex_count(scene), "groups",
-                     (json_int_t)froe_scene_group_count(scene), "bounds", bounds, "defects", defects, "reader", reader);
+    json_t *crs = dim == 2 ? crs_json(scene, args->common.json) : NULL;
+    return json_pack("{s:o, s:i, s:o*, s:I, s:o, s:I, s:I, s:o, s:o*, s:o, s:o}", "file",
+                     cli_name_json(args->scene.path), "dim", froe_scene_dim(scene), "up", up, "objects",
+                     (json_int_t)froe_scene_object_count(scene), "kinds", kinds, "vertices",
+                     (json_int_t)froe_scene_vertex_count(scene), "groups", (json_int_t)froe_scene_group_count(scene),
+                     "bounds", bounds, "crs", crs, "defects", defects, "reader", reader);
 }
 
 static int run_info(const void *given) {
@@ -66,7 +83,7 @@ static int run_info(const void *given) {
         froe_scene_defects(scene, (unsigned)args->common.threads, cli_progress_step, &bar, &defects, &diag);
     cli_progress_end(&bar);
     code = status ? cli_fail_status(CLI_WORKING, args->scene.path, status, &diag)
-                  : cli_report(&args->common, NULL, info_json(args->scene.path, scene, &reader, &defects));
+                  : cli_report(&args->common, NULL, info_json(args, scene, &reader, &defects));
     froe_scene_free(scene);
     return code;
 }

@@ -104,9 +104,27 @@ static froe_status put_in_sink(formats_sink *sink, froe_kind kind, const double 
     return FROE_OK;
 }
 
+froe_status formats_sink_crs(formats_sink *sink, const froe_crs *crs) {
+    const froe_status status = froe_scene_set_crs(sink->scene, crs);
+    if (status == FROE_E_MEMORY) return support_fail_memory(sink->diag);
+    return status ? support_fail(sink->diag, status, "%s: The definition of its coordinate system is too long.",
+                                 support_short(sink->path))
+                  : FROE_OK;
+}
+
+/* Can all coordinates be longitudes and latitudes in degrees? */
+static bool are_degrees(const froe_scene *scene) {
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    return !froe_scene_bounds(scene, lo, hi) || (lo[0] >= -180 && hi[0] <= 180 && lo[1] >= -90 && hi[1] <= 90);
+}
+
 froe_status formats_sink_take(formats_sink *sink, froe_scene **scene) {
     froe_status status = formats_sink_end_feature(sink);
     if (!status) status = flush(sink);
+    if (!status && (sink->guessed || sink->promised) && !are_degrees(sink->scene)) {
+        sink->report.no_degrees = sink->promised;
+        status = formats_sink_crs(sink, &(froe_crs){.kind = FROE_CRS_UNKNOWN});
+    }
     if (status) return status;
     *scene = sink->scene;
     sink->scene = NULL;

@@ -25,6 +25,8 @@ typedef struct formats_sink {
     uint32_t face;      /**< FROE_NONE: each object its own */
     const char *unit;   /**< "feature", "row", "face", ... for messages */
     const char *inside; /**< name of the layer, node or group it is in; NULL: none */
+    bool guessed;       /**< that coordinates are degrees: it is believed if all of them can be some */
+    bool promised;      /**< the same by a rule of the format: it is told where they cannot be */
     uint64_t number;    /**< of the unit, as the file counts */
 
     /* private */
@@ -50,6 +52,8 @@ froe_status formats_sink_take(formats_sink *sink, froe_scene **scene);
 
 /** Which axis of space points up, after formats_sink_open(); z if it is not said. */
 void formats_sink_up(formats_sink *sink, int axis);
+/** The coordinate system of the scene, after formats_sink_open(). FROE_E_MEMORY, FROE_E_LIMIT. */
+froe_status formats_sink_crs(formats_sink *sink, const froe_crs *crs);
 /** Begins a feature: ends the one before. */
 froe_status formats_sink_feature(formats_sink *sink, uint64_t number);
 /** Ends the feature (with `boxes`: adds its box). */

@@ -170,11 +170,10 @@ static froe_status run_export(export_job *j, const char *path) {
         describe_piece(j, &like, &(froe_object){.group = FROE_NONE}, 0, (froe_node){0}, false);
     else
         describe_cell(&(export_job){.tree = NULL}, &like, &(froe_cell){.depth = 0});
-    formats_put(&j->writer, j->file->head);
-    if (j->file->columns) j->file->columns(&j->writer, &like);
+    j->file->begin(&j->writer, j->scene, &like);
     status = j->what == FROE_EXPORT_FRAGMENTS ? write_fragments(j) : write_cells(j);
     if (j->cancelled) status = support_fail_cancelled(j->diag);
-    if (!status) formats_put(&j->writer, j->file->foot);
+    if (!status) formats_put(&j->writer, j->file->end);
     array_free(&j->alloc, &j->coords);
     array_free(&j->alloc, &j->stack);
     return formats_writer_close(&j->writer, status);
@@ -209,5 +208,6 @@ froe_status froe_export(const froe_tree *tree, const char *path, froe_export_wha
                                    : j.dim == 3 ? ".obj or .csv"
                                                 : ".csv");
     }
-    return run_export(&j, path);
+    const froe_status status = j.file->check ? j.file->check(scene, path, diag) : FROE_OK;
+    return status ? status : run_export(&j, path);
 }

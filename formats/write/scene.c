@@ -1,6 +1,6 @@
 /* scene.c: froe_write_scene: a scene as GeoJSON, CSV, OFF or OBJ, so that
  * froe_read gives it back. */
-#include "formats/write/writer.h"
+#include "formats/write/geojson.h"
 #include "support/floats.h"
 #include <string.h>
 
@@ -79,7 +79,7 @@ static void put_box(pen *p, const double *lo, const double *hi) {
 
 static void write_geojson(pen *p) {
     formats_writer *w = &p->writer;
-    formats_put(w, "{\"type\":\"FeatureCollection\",\"features\":[");
+    formats_geojson_begin(w, p->scene);
     for (uint32_t i = 0, end; i < p->objects; i = end) {
         const froe_object o = froe_scene_object(p->scene, i);
         /* a run of segments that share their group is one feature */
@@ -106,7 +106,7 @@ static void write_geojson(pen *p) {
         if (o.kind == FROE_SEGMENT) put_lines(p, i, end);
         formats_put(w, "}}");
     }
-    formats_put(w, "\n]}\n");
+    formats_put(w, FORMATS_GEOJSON_END);
 }
 
 /* ------------------------------------------------------------------- CSV -- */
@@ -237,6 +237,7 @@ froe_status froe_write_scene(const froe_scene *scene, const char *path, froe_dia
     if (!status && file->write == write_csv && p.objects)
         status =
             check_kinds(&p, "CSV together with the kind of object 0", 1u << froe_scene_object(scene, 0).kind, true);
+    if (!status && file->write == write_geojson) status = formats_geojson_check(scene, path, diag);
     if (!status) status = formats_writer_open(&p.writer, path, diag);
     if (status) return status;
     file->write(&p);

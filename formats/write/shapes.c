@@ -1,5 +1,4 @@
-/* shapes.c: GeoJSON (RFC 7946, without its axis: froe's plane is no globe), Wavefront
- * OBJ, and CSV with well-known text (OGC Simple Features). */
+/* shapes.c: GeoJSON, Wavefront OBJ, and CSV with well-known text (OGC Simple Features). */
 #include "formats/write/shapes.h"
 #include <string.h>
 
@@ -13,6 +12,11 @@ static void put_attribute(formats_writer *w, const formats_attribute *a,
 }
 
 /* --------------------------------------------------------------- GeoJSON -- */
+
+static void geojson_begin(formats_writer *w, const froe_scene *scene, const formats_shape *like) {
+    (void)like;
+    formats_geojson_begin(w, scene);
+}
 
 static void geojson_shape(formats_writer *w, const formats_shape *s, bool first) {
     static const char *const types[] = {"MultiPoint", "LineString", "Polygon", "Polygon"};
@@ -49,6 +53,11 @@ static void geojson_shape(formats_writer *w, const formats_shape *s, bool first)
 }
 
 /* ------------------------------------------------------------------- OBJ -- */
+
+static void obj_begin(formats_writer *w, const froe_scene *scene, const formats_shape *like) {
+    (void)scene, (void)like;
+    formats_put(w, "# written by froe; group names carry the attributes\n");
+}
 
 static void obj_shape(formats_writer *w, const formats_shape *s, bool first) {
     (void)first;
@@ -95,7 +104,8 @@ static void wkt_run(formats_writer *w, const formats_shape *s, size_t first, siz
     formats_put(w, ")");
 }
 
-static void csv_columns(formats_writer *w, const formats_shape *like) {
+static void csv_begin(formats_writer *w, const froe_scene *scene, const formats_shape *like) {
+    (void)scene;
     for (int i = 0; i < like->attribute_count; ++i) {
         formats_put_csv(w, like->attributes[i].name);
         formats_put(w, ",");
@@ -130,10 +140,9 @@ static void csv_shape(formats_writer *w, const formats_shape *s, bool first) {
 
 const formats_shape_file *formats_shape_file_of(const char *path) {
     static const formats_shape_file geojson = {
-        2, 2, "{\"type\":\"FeatureCollection\",\"features\":[", NULL, geojson_shape, "\n]}\n"};
-    static const formats_shape_file obj = {3,    3,         "# written by froe; group names carry the attributes\n",
-                                           NULL, obj_shape, ""};
-    static const formats_shape_file csv = {2, FROE_MAX_DIM, "", csv_columns, csv_shape, ""};
+        2, 2, formats_geojson_check, geojson_begin, geojson_shape, FORMATS_GEOJSON_END};
+    static const formats_shape_file obj = {3, 3, NULL, obj_begin, obj_shape, ""};
+    static const formats_shape_file csv = {2, FROE_MAX_DIM, NULL, csv_begin, csv_shape, ""};
     support_extension extension = support_path_extension(path);
     if (!strcmp(extension.text, "geojson") || !strcmp(extension.text, "json")) return &geojson;
     if (!strcmp(extension.text, "obj")) return &obj;

@@ -2,7 +2,7 @@
 #ifndef FROE_FORMATS_SHAPES_H
 #define FROE_FORMATS_SHAPES_H
 
-#include "formats/write/writer.h"
+#include "formats/write/geojson.h"
 
 /** One attribute: a whole number, a text, or nothing ("unknown"). */
 typedef struct formats_attribute {
@@ -28,13 +28,15 @@ typedef struct formats_shape {
     int attribute_count;
 } formats_shape;
 
-/** How a file of shapes is written: head, columns, shapes, foot. */
+/** How a file of shapes is written: its beginning, shapes, its end. */
 typedef struct formats_shape_file {
     int least_dim, most_dim;
-    const char *head;
-    void (*columns)(formats_writer *writer, const formats_shape *like); /**< the names of its attributes; may be NULL */
+    froe_status (*check)(const froe_scene *scene, const char *path,
+                         froe_diagnostic *diag); /**< can it be? May be NULL */
+    /** `like` has the names of the attributes of all shapes to come. */
+    void (*begin)(formats_writer *writer, const froe_scene *scene, const formats_shape *like);
     void (*shape)(formats_writer *writer, const formats_shape *shape, bool first);
-    const char *foot;
+    const char *end;
 } formats_shape_file;
 
 /** By extension; NULL: none is known. */

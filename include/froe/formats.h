@@ -50,6 +50,8 @@ typedef struct froe_read_report {
     uint64_t closed;       /**< polygon rings without their last edge, which was added */
     uint64_t skipped;      /**< geometries without extent to read: of no known sort, empty, lines of one point */
     uint64_t no_geometry;  /**< features that have none */
+    bool no_degrees;       /**< the format promises longitudes and latitudes in degrees, and the coordinates cannot be
+                                any (beyond 180 or 90): the scene has no coordinate system */
     double seconds;        /**< from call to return, by the wall clock */
 } froe_read_report;
 

@@ -189,6 +189,37 @@ FROE_API froe_status froe_scene_add_group(froe_scene *scene, const froe_group *g
 FROE_API froe_status froe_scene_set_up(froe_scene *scene, int axis);
 FROE_API int froe_scene_up(const froe_scene *scene); /**< -1: not in space */
 
+/** What the coordinates of a scene mean. */
+typedef enum froe_crs_kind {
+    FROE_CRS_UNKNOWN = 0,    /**< nothing is known */
+    FROE_CRS_GEOGRAPHIC = 1, /**< x is a longitude and y a latitude, in degrees */
+    FROE_CRS_PROJECTED = 2,  /**< x and y are lengths on a map projection, mostly easting and northing */
+    FROE_CRS_OTHER = 3,      /**< something else, of which the definition tells */
+    FROE_CRS_KIND_COUNT = 4
+} froe_crs_kind;
+
+/** A coordinate reference system, as the file of a map names it. A scene carries it, its tree file keeps it, exports
+ * write it; no number of a scene is ever changed by it. Whatever order of axes its authority prefers, x is the
+ * longitude or the easting. */
+typedef struct froe_crs {
+    froe_crs_kind kind;
+    const char *wkt;  /**< its definition, WKT 2 (ISO 19162:2019) */
+    const char *name; /**< e.g. "WGS 84 / UTM zone 32N" */
+    const char *code; /**< authority and number, e.g. "EPSG:32632"; "" unknown */
+    const char *unit; /**< of x and y, e.g. "metre" */
+} froe_crs;
+/** Strings are copied; NULL counts as "". FROE_CRS_UNKNOWN takes away what was there, and has no strings. FROE_E_ARG:
+ * no such kind. FROE_E_LIMIT: more than 2^24 bytes. FROE_E_FROZEN: a tree holds the scene. FROE_E_MEMORY. */
+FROE_API froe_status froe_scene_set_crs(froe_scene *scene, const froe_crs *crs);
+/** Strings live until the next call of froe_scene_set_crs(), at most as long as the scene; none is NULL. */
+FROE_API froe_crs froe_scene_crs(const froe_scene *scene);
+/** How many features of a scene in longitudes and latitudes have an edge, or a box of their own, that is wider than
+ * 180 degrees, and the first object that is. As a rule the border of such a feature crosses the antimeridian, which
+ * its coordinates do not tell: a straight edge from 179 to -179 runs around the whole Earth. Edges along a pole do not
+ * count. Objects of one group are one feature, and so are neighbours without group that have the same tag. `first`
+ * may be NULL, and is FROE_NONE where there is none. 0 for scenes of other kinds. O(n). */
+FROE_API size_t froe_scene_across(const froe_scene *scene, uint32_t *first);
+
 FROE_API int froe_scene_dim(const froe_scene *scene);
 FROE_API size_t froe_scene_object_count(const froe_scene *scene);
 FROE_API size_t froe_scene_vertex_count(const froe_scene *scene);

@@ -117,6 +117,7 @@ froe_status scene_validate(const froe_scene *s, const froe_allocator *alloc, fro
     bool vertices = (!s->vertex_count || s->coords) && (!s->radius_count || s->radii);
     bool groups = !s->group_count || (s->group_table && s->text);
     if (!objects || !vertices || !groups) return bad_scene(diag, "a part is missing");
+    if (!scene_crs_fits(s->crs_kind, s->crs, s->crs_size)) return bad_scene(diag, "its coordinate system is wrong");
     froe_status status = check_vertices(s, alloc, diag);
     if (!status) status = check_objects(s, alloc, diag);
     if (status || !s->group_count) return status;

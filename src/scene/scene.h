@@ -44,6 +44,9 @@ struct froe_scene {
     uint32_t *groups; /**< NULL: none */
     scene_group *group_table;
     char *text; /**< NUL-terminated strings; text[0] = 0 */
+    froe_crs_kind crs_kind;
+    uint32_t crs_size; /**< bytes of the strings of the coordinate system, each ended by a NUL; 0: unknown */
+    char *crs;         /**< wkt, name, code, unit */
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
     struct scene_store *store; /**< hash table and capacities while the scene grows; NULL when mapped */
 };
@@ -140,6 +143,9 @@ geom_plane scene_cut_plane(const froe_scene *s, const froe_cut *cut);
 bool scene_equal(const froe_scene *s, uint32_t a, uint32_t b);
 /** For each object the lowest id equal to it (out[o] <= o). O(corners) expected. */
 froe_status scene_originals(const froe_scene *s, const froe_allocator *alloc, uint32_t *out);
+
+/** Are these the strings of a coordinate system of this kind, as scenes keep them? */
+bool scene_crs_fits(uint32_t kind, const char *strings, size_t size);
 
 /** Everything above said about the arrays, checked on unvalidated arrays: every
  * index, ring, form and coordinate, and that no two vertices are equal. Bounds are not looked at.

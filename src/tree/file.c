@@ -83,6 +83,8 @@ static file_array array_of(const froe_tree *t, file_id id) {
         return (file_array){t->packed.blocks, t->packed.block_count, PACKED_BLOCK};
     case FILE_OWNERS:
         return (file_array){t->packed.owners, t->packed.owner_count, sizeof *t->packed.owners};
+    case FILE_CRS:
+        return (file_array){s->crs, s->crs_size, 1};
     default:
         return (file_array){s->text, s->text_size, 1};
     }

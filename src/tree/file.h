@@ -12,7 +12,7 @@
 #define FROE_TREE_FILE_H
 #include "tree/packed/packed.h"
 
-#define FILE_VERSION 2u
+#define FILE_VERSION 3u
 #define FILE_ALIGN 64u
 #define FILE_MAGIC                                                                                                     \
     "\x89"                                                                                                             \
@@ -38,6 +38,7 @@ typedef enum file_id {
     FILE_TEXT,
     FILE_BLOCKS,
     FILE_OWNERS,
+    FILE_CRS,
     FILE_END
 } file_id;
 #define FILE_SECTIONS ((uint32_t)FILE_END - 1)
@@ -48,7 +49,8 @@ typedef struct file_header {
     uint64_t size;     /**< of the whole file */
     uint32_t dim;      /**< of the scene */
     uint32_t up;       /**< the axis of a scene in space that points up: 0 z, 1 x, 2 y; otherwise 0 */
-    uint64_t spare[3]; /**< 0 */
+    uint32_t crs;      /**< the kind of its coordinate system, see froe_crs_kind */
+    uint32_t spare[5]; /**< 0 */
     uint64_t checksum; /**< of the bytes before it, then of the table */
 } file_header;
 
@@ -68,7 +70,7 @@ bool file_machine_fits(void);
  * any 8 aligned bytes changes it for certain. */
 uint64_t file_checksum(const void *bytes, size_t size, uint64_t seed);
 static inline bool file_is_of_tree(file_id id) { /* not of its scene */
-    return id <= FILE_NORMALS || id >= FILE_BLOCKS;
+    return id <= FILE_NORMALS || id == FILE_BLOCKS || id == FILE_OWNERS;
 }
 /** Where a section of a tree lies in memory: *data (NULL: absent) and its size; returns the size of an item. */
 uint32_t file_part(const froe_tree *tree, file_id id, const void **data, uint64_t *size);

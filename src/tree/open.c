@@ -84,7 +84,8 @@ static froe_status check_layout(opening *o) {
     if (h->checksum != file_checksum(o->table, table, file_checksum(h, offsetof(file_header, checksum), 0)))
         return bad_file(o, "the checksum of its header is wrong");
     if (h->up > (h->dim == 3 ? 2 : 0)) return bad_file(o, "the axis that points up is wrong");
-    if (h->spare[0] || h->spare[1] || h->spare[2]) return bad_file(o, "an unused field is not 0");
+    for (size_t i = 0; i < sizeof h->spare / sizeof *h->spare; i++)
+        if (h->spare[i]) return bad_file(o, "an unused field is not 0");
     if (h->dim < 2 || h->dim > FROE_MAX_DIM) return bad_file(o, "its dimension is wrong");
     const froe_scene none = {.dim = 0};
     const froe_tree empty = {.scene = (froe_scene *)&none};
@@ -138,6 +139,8 @@ static froe_status claim_arrays(opening *o, froe_tree *t) {
     s->group_table = section(o, FILE_GROUP_TABLE, &s->group_count);
     s->text = section(o, FILE_TEXT, &text);
     s->text_size = text;
+    s->crs_kind = (froe_crs_kind)o->header->crs;
+    s->crs = section(o, FILE_CRS, &s->crs_size);
     s->vertex_count = coords / o->header->dim;
     bool fits = coords % o->header->dim == 0 && forms == s->object_count && starts == (uint64_t)s->object_count + 1 &&
                 optional(tags, forms) && optional(faces, forms) && optional(groups, forms);

@@ -39,6 +39,7 @@ froe_status froe_tree_save(const froe_tree *tree, const char *path, froe_diagnos
     h->size = offset;
     h->dim = (uint32_t)tree->scene->dim;
     h->up = ((uint32_t)tree->scene->up + 1) % 3; /* 0 where there is none */
+    h->crs = tree->scene->crs_kind;
     h->checksum = file_checksum(head.table, sizeof head.table, file_checksum(h, offsetof(file_header, checksum), 0));
     support_writer_put(&out, &head, head.table[0].offset);
     for (uint32_t i = 0; i < FILE_SECTIONS; i++) {

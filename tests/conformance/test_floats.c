@@ -108,6 +108,9 @@ static void additions(floats_run *r, void *user) {
     MUST(r, froe_scene_add(scene, &o, NULL));
     MUST(r, froe_scene_defects(scene, 2, floats_progress, r, &defects, NULL));
     floats_note(r, &defects, sizeof defects);
+    MUST(r, froe_scene_set_crs(scene, &(froe_crs){FROE_CRS_GEOGRAPHIC, "wkt", "name", "code", "degree"}));
+    const size_t across = froe_scene_across(scene, NULL);
+    floats_note(r, &across, sizeof across);
     froe_tree *tree = tree_of(r, scene, "autopartition", NULL);
     MUST(r, froe_tree_section(tree, plane, NULL, &section, NULL));
     ask_tree(r, section);

@@ -84,7 +84,9 @@ static froe_scene *areas(void) {
     const double pier[] = {3, 3, 6, 6};
     froe_objects o = froe_objects_defaults();
     froe_scene *scene;
+    const froe_crs degrees = {FROE_CRS_GEOGRAPHIC, "GEOGCRS[]", "WGS 84", "EPSG:4326", "degree"};
     need(froe_scene_new(2, NULL, &scene), "areas");
+    need(froe_scene_set_crs(scene, &degrees), "areas");
     add_ring(scene, "west", 3, west, 4);
     add_ring(scene, "east", 4, east, 3);
     add_ring(scene, "lake", FROE_NONE, lake, 3);

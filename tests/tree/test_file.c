@@ -56,6 +56,8 @@ static froe_tree *opened(const char *path) {
     return tree;
 }
 
+#define CRS_STRINGS "PROJCRS[\"grid\"]\0grid\0EPSG:25832\0metre\0"
+
 /* A scene with everything in it: tags, faces, groups, demoted objects; 2D segments or 3D mixed kinds. */
 static froe_scene *rich_scene(int dim) {
     froe_scene *scene = trees_scene(dim, dim == 2 ? FROE_SEGMENT : FROE_POLYGON, 5, 3, 1, 2);
@@ -64,7 +66,9 @@ static froe_scene *rich_scene(int dim) {
     const uint64_t tags[1] = {99};
     const uint32_t faces[1] = {7}, indices[3] = {0, 0, 0};
     froe_objects o = froe_objects_defaults();
+    const froe_crs crs = {FROE_CRS_PROJECTED, "PROJCRS[\"grid\"]", "grid", "EPSG:25832", "metre"};
     assert_int_equal(froe_scene_add_group(scene, &group, &o.group), FROE_OK);
+    assert_int_equal(froe_scene_set_crs(scene, &crs), FROE_OK);
     o.kind = dim == 2 ? FROE_SEGMENT : FROE_POLYGON;
     o.count = 1;
     o.coords = points;
@@ -115,6 +119,12 @@ static void assert_scenes_equal(const froe_scene *a, const froe_scene *b) {
         assert_string_equal(froe_scene_group(a, i).left, froe_scene_group(b, i).left);
         assert_string_equal(froe_scene_group(a, i).right, froe_scene_group(b, i).right);
     }
+    const froe_crs x = froe_scene_crs(a), y = froe_scene_crs(b);
+    assert_int_equal(x.kind, y.kind);
+    assert_string_equal(x.wkt, y.wkt);
+    assert_string_equal(x.name, y.name);
+    assert_string_equal(x.code, y.code);
+    assert_string_equal(x.unit, y.unit);
     assert_memory_equal(a->lo, b->lo, (size_t)a->dim * sizeof *a->lo);
     assert_memory_equal(a->hi, b->hi, (size_t)a->dim * sizeof *a->hi);
 }
@@ -199,19 +209,20 @@ static void checksums_are_as_specified(void **state) {
 static void files_are_as_specified(void **state) {
     (void)state;
     static const uint8_t magic[8] = {0x89, 0x66, 0x72, 0x6f, 0x65, 0x0d, 0x0a, 0x1a};
-    static const uint64_t items[19] = {1264, 16, 24, 8, 4, 8, 8, 1, 1, 4, 4, 8, 8, 4, 4, 20, 1, 64, 4};
+    static const uint64_t items[20] = {1264, 16, 24, 8, 4, 8, 8, 1, 1, 4, 4, 8, 8, 4, 4, 20, 1, 64, 4, 1};
     froe_tree *tree = rich_tree(3);
     const froe_scene *scene = froe_tree_scene(tree);
     size_t size, offset = 704;
     assert_saved(tree, NAME);
     uint8_t *bytes = slurp(NAME, &size);
     assert_memory_equal(bytes, magic, 8);
-    assert_int_equal(number(bytes, 8, 4), 2);
-    assert_int_equal(number(bytes, 12, 4), 19);
+    assert_int_equal(number(bytes, 8, 4), 3);
+    assert_int_equal(number(bytes, 12, 4), 20);
     assert_int_equal(number(bytes, 16, 8), size);
     assert_int_equal(number(bytes, 24, 4), 3);
-    assert_true(number(bytes, 56, 8) == file_checksum(bytes + 64, 19 * 32, file_checksum(bytes, 56, 0)));
-    const uint64_t counts[19] = {1,
+    assert_int_equal(number(bytes, 32, 4), FROE_CRS_PROJECTED);
+    assert_true(number(bytes, 56, 8) == file_checksum(bytes + 64, 20 * 32, file_checksum(bytes, 56, 0)));
+    const uint64_t counts[20] = {1,
                                  tree->node_count,
                                  tree->cut_count,
                                  tree->piece_count,
@@ -229,8 +240,9 @@ static void files_are_as_specified(void **state) {
                                  1,
                                  scene->text_size,
                                  0,
-                                 0};
-    for (size_t i = 0; i < 19; i++) {
+                                 0,
+                                 sizeof CRS_STRINGS - 1};
+    for (size_t i = 0; i < 20; i++) {
         const size_t entry = 64 + 32 * i;
         assert_int_equal(number(bytes, entry, 4), i + 1);
         assert_int_equal(number(bytes, entry + 4, 4), items[i]);
@@ -241,6 +253,8 @@ static void files_are_as_specified(void **state) {
     }
     assert_int_equal(offset, size);
     assert_string_equal(bytes + 704, "density");
+    const size_t strings = (sizeof CRS_STRINGS - 1 + 63) / 64 * 64;
+    assert_memory_equal(bytes + size - strings, CRS_STRINGS, sizeof CRS_STRINGS - 1);
     free(bytes);
     froe_tree_free(tree);
     unlink(NAME);
@@ -310,7 +324,7 @@ static uint8_t *small_file(int layout, size_t *size) {
 /* What to do about it is said. */
 static void files_of_other_versions_are_refused(void **state) {
     (void)state;
-    static const uint8_t versions[] = {0, 1, 3};
+    static const uint8_t versions[] = {0, 1, 2, 4};
     size_t size;
     uint8_t *bytes = small_file(COVERED, &size);
     for (size_t i = 0; i < sizeof versions; i++) {
@@ -322,7 +336,7 @@ static void files_of_other_versions_are_refused(void **state) {
         spill("other.froe", bytes, size);
         assert_int_equal(froe_tree_open("other.froe", NULL, &tree, &why), FROE_E_FORMAT);
         snprintf(expected, sizeof expected,
-                 "other.froe: It is a tree file of version %u, and this froe reads version 2: build it again from its "
+                 "other.froe: It is a tree file of version %u, and this froe reads version 3: build it again from its "
                  "scene.",
                  versions[i]);
         assert_string_equal(why.message, expected);

@@ -1,0 +1,17 @@
+/* geojson.h: how a GeoJSON file begins, and which coordinate system it is in.
+ *
+ * RFC 7946 knows longitudes and latitudes of WGS 84 alone. The specification of 2008, which GDAL and QGIS follow where
+ * they have to, has a member `crs` for other systems, by their codes; null says that nothing is known. */
+#ifndef FROE_FORMATS_GEOJSON_H
+#define FROE_FORMATS_GEOJSON_H
+
+#include "formats/write/writer.h"
+
+/** Can GeoJSON name the coordinate system of a scene? FROE_E_UNSUPPORTED: it has no code. */
+froe_status formats_geojson_check(const froe_scene *scene, const char *path, froe_diagnostic *diag);
+/** The beginning of a collection of features, up to the bracket before the first. */
+void formats_geojson_begin(formats_writer *writer, const froe_scene *scene);
+/** What ends it. */
+#define FORMATS_GEOJSON_END "\n]}\n"
+
+#endif
