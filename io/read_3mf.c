@@ -10,6 +10,7 @@
 #include "formats/input/colour.h"
 #include "formats/input/paint.h"
 #include "readers.h"
+#include "support/decimal/decimal.h"
 #include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <expat.h>
@@ -151,7 +152,7 @@ static void numbers(archive *a, const char *given, double *to, int count) {
     char *end;
     bool good = given;
     for (int i = 0; good && i < count; i++, given = end) {
-        to[i] = strtod(given, &end);
+        to[i] = support_decimal(given, &end);
         good = end != given && isfinite(to[i]);
     }
     if (!good || given[strspn(given, " \t\r\n")]) fail(a, "A coordinate is missing or no finite number.");

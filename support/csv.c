@@ -1,5 +1,6 @@
 /* csv.c: see csv.h. */
 #include "support/csv.h"
+#include "support/decimal/decimal.h"
 #include "support/path.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -77,7 +78,7 @@ bool support_csv_goes_on(const char *text, char separator, bool within) {
 bool support_csv_number(char *field, char separator, double *out) {
     char *end, *comma = separator == ';' ? strchr(field, ',') : NULL;
     if (comma) *comma = '.';
-    *out = strtod(field, &end);
+    *out = support_decimal(field, &end);
     const bool whole = end != field && !end[strspn(end, " \t")];
     if (comma) *comma = ',';
     return whole;

@@ -1,5 +1,6 @@
 /* json.c: reads a JSON text (RFC 8259). The `span` of a container that is not yet closed says which one it lies in. */
 #include "formats/motion/json.h"
+#include "support/decimal/decimal.h"
 #include "support/utf8.h"
 #include <math.h>
 #include <stdio.h>
@@ -64,7 +65,8 @@ static froe_status read_json_number(parser *p) {
         right = skip_digits(&at);
     }
     if (!right) return expected(p, "a number");
-    double number = strtod(begin, NULL);
+    char *end;
+    const double number = support_decimal(begin, &end);
     if (isinf(number)) return expected(p, "a smaller number");
     p->at = at;
     return put_value(p, FORMATS_JSON_NUMBER, begin, number);

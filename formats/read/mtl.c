@@ -8,6 +8,7 @@
 #include "formats/read/mtl.h"
 #include "formats/input/colour.h"
 #include "formats/input/source.h"
+#include "support/decimal/decimal.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -35,7 +36,7 @@ static const char *after(const char *line, const char *word) {
 static void read_colour(formats_material *m, const char *at) {
     int count = 0;
     for (char *end; count < 3; count++, at = end) {
-        m->rgba[count] = strtod(at, &end);
+        m->rgba[count] = support_decimal(at, &end);
         if (end == at) break;
     }
     m->coloured = count > 0;
@@ -44,7 +45,7 @@ static void read_colour(formats_material *m, const char *at) {
 
 static void read_share(double *share, const char *at, bool clear) {
     char *end;
-    const double value = strtod(at, &end);
+    const double value = support_decimal(at, &end);
     if (end != at) *share = clear ? 1 - value : value;
 }
 

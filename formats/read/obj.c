@@ -9,6 +9,7 @@
  */
 #include "formats/read/mtl.h"
 #include "formats/read/readers.h"
+#include "support/decimal/decimal.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -128,7 +129,7 @@ static froe_status read_line(obj *o) {
         char *end = line + 1;
         for (int k = 0; k < 3; ++k) {
             const char *from = end;
-            p[k] = strtod(from, &end);
+            p[k] = support_decimal(from, &end);
             if (end == from) return broken_obj(o, "A vertex needs three coordinates.");
         }
         return array_append(&o->sink->alloc, &o->points, p, 3) ? FROE_OK : out_of_memory(o);

@@ -7,6 +7,7 @@
 #include "formats/input/colour.h"
 #include "formats/input/paint.h"
 #include "formats/read/readers.h"
+#include "support/decimal/decimal.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -155,7 +156,7 @@ static froe_status read_ply_header(ply *p) {
 static bool read_number(ply *p, ply_type type, double *value) {
     if (p->text) {
         char *end;
-        *value = strtod(p->at, &end);
+        *value = support_decimal(p->at, &end);
         bool found = end != p->at;
         p->at = end;
         return found;

@@ -1,0 +1,103 @@
+/* decimal.c: see decimal.h. A decimal number is w 10^q with whole w and q. Three ways lead to the nearest double, each
+ * where the one before it does not apply:
+ *
+ *   w and 10^|q| are doubles without rounding: one multiplication or division rounds once (Clinger, "How to read
+ *   floating point numbers accurately", PLDI 1990)
+ *   w has up to 19 digits: 128 bits of w 5^q decide (Lemire, "Number parsing at a gigabyte per second", Software:
+ *   Practice and Experience 51, 2021, algorithm 1; Mushtak and Lemire, "Fast number parsing without fallback", 2023)
+ *   otherwise strtod() */
+#include "support/decimal/decimal.h"
+#include "support/arithmetic.h"
+#include "support/decimal/powers_of_five.h"
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+__extension__ typedef unsigned __int128 wide;
+
+enum { MOST_DIGITS = 19, MANTISSA = 52, BIAS = 1023, INFINITE = 2047 };
+
+static bool is_digit(char c) {
+    return (unsigned char)(c - '0') < 10;
+}
+
+static double assemble_double(uint64_t mantissa, int exponent) {
+    const uint64_t bits = (uint64_t)exponent << MANTISSA | (mantissa & (((uint64_t)1 << MANTISSA) - 1));
+    double value;
+    memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+/* The double nearest to w 10^q, w > 0, q within the table. */
+static double round_by_powers(uint64_t w, int q) {
+    const int zeros = __builtin_clzll(w);
+    const uint64_t *power = powers_of_five[q - LEAST_POWER];
+    const wide first = (wide)(w << zeros) * power[0];
+    uint64_t high = (uint64_t)(first >> 64), low = (uint64_t)first;
+    if ((high & 0x1ff) == 0x1ff) { /* 64 bits of the power leave a doubt in the bits that round */
+        const uint64_t more = (uint64_t)((wide)(w << zeros) * power[1] >> 64);
+        low += more;
+        high += low < more;
+    }
+    const int top = (int)(high >> 63), shift = top + 64 - MANTISSA - 3;
+    uint64_t mantissa = high >> shift; /* 54 bits, of which the last rounds */
+    /* floor(q log2(10)) + 63, as 217706 / 2^16 is near enough to log2(10) (Lemire, section 5) */
+    const int twos = (int)(((152170 + 65536) * (int64_t)q) >> 16) + 63;
+    int exponent = twos + top - zeros + BIAS;
+    if (exponent <= 0) { /* no tie can be here: q < -300, and 5^-q does not divide w */
+        if (exponent <= -63) return 0;
+        mantissa >>= 1 - exponent;
+        mantissa = (mantissa + (mantissa & 1)) >> 1;
+        return assemble_double(mantissa, mantissa >> MANTISSA ? 1 : 0);
+    }
+    /* a tie: 5^q is short enough for w 5^q to be exact, and nothing but zeros follows the bit that rounds */
+    if (low <= 1 && q >= -4 && q <= 23 && (mantissa & 3) == 1 && mantissa << shift == high) mantissa--;
+    mantissa = (mantissa + (mantissa & 1)) >> 1;
+    if (mantissa >> (MANTISSA + 1)) mantissa >>= 1, exponent++;
+    return exponent >= INFINITE ? HUGE_VAL : assemble_double(mantissa, exponent);
+}
+
+static double nearest_double(uint64_t w, long long q) {
+    static const double tens[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
+                                  1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
+    if (w <= (uint64_t)1 << (MANTISSA + 1) && q >= -22 && q <= 22)
+        return q < 0 ? (double)w / tens[-q] : (double)w * tens[q];
+    if (!w || q < LEAST_POWER) return 0; /* w < 2^64 */
+    return q > GREATEST_POWER ? HUGE_VAL : round_by_powers(w, (int)q);
+}
+
+double support_decimal(const char *text, char **end) {
+    const char *at = text;
+    while (*at == ' ' || (*at >= '\t' && *at <= '\r')) ++at;
+    const bool negative = *at == '-';
+    at += *at == '-' || *at == '+';
+    const char *first = at;
+    uint64_t w = 0;
+    size_t digits = 0; /* behind leading zeros */
+    for (; is_digit(*at); ++at) w = 10 * w + (uint64_t)(*at - '0'), digits += w || digits;
+    const bool whole = at > first;
+    long long q = 0;
+    if (*at == '.' && (whole || is_digit(at[1]))) {
+        const char *point = ++at;
+        for (; is_digit(*at); ++at) w = 10 * w + (uint64_t)(*at - '0'), digits += w || digits;
+        q = point - at;
+    } else if (!whole || *at == 'x' || *at == 'X') {
+        return strtod(text, end); /* nothing, infinity, NaN, or hexadecimal */
+    }
+    if (digits > MOST_DIGITS) return strtod(text, end); /* w has overflown */
+    if (*at == 'e' || *at == 'E') {
+        const char *e = at + 1;
+        const bool down = *e == '-';
+        long long power = 0; /* cut where no text is long enough to make up for it */
+        e += *e == '-' || *e == '+';
+        if (is_digit(*e)) {
+            for (; is_digit(*e); ++e) power = power < 1000000000000000 ? 10 * power + (*e - '0') : power;
+            q += down ? -power : power;
+            at = e;
+        }
+    }
+    *end = (char *)at;
+    const double value = nearest_double(w, q);
+    return negative ? -value : value;
+}
