@@ -2,12 +2,12 @@
 #include "output.h"
 #include "palette.h"
 #include "picture.h"
+#include "support/escape.h"
 #include "support/fail.h"
 #include "support/floats.h"
 #include "support/path.h"
 #include "support/utf8.h"
 #include "support/writer.h"
-#include "support/xml.h"
 #include <math.h>
 #include <string.h>
 

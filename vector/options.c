@@ -48,6 +48,7 @@ froe_status vector_check(const froe_scene *scene, const froe_render_options *o, 
                                    {"cel_levels", o->cel_levels, 2, 64},
                                    {"seams", o->seams, 0, FROE_SEAMS_COUNT - 1},
                                    {"ids", o->ids, 0, FROE_IDS_FACE},
+                                   {"layers", o->layers, 0, FROE_LAYERS_KIND},
                                    {"min_area", o->min_area, 0, 1e18},
                                    {"seam_width", o->seam_width, 0, 1e6},
                                    {"line_width", o->line_width, 0, 1e6},
@@ -60,6 +61,9 @@ froe_status vector_check(const froe_scene *scene, const froe_render_options *o, 
     if (o->seams == FROE_SEAMS_TWICE && o->interleaved)
         return support_fail(diag, FROE_E_OPTIONS,
                             "Shapes with lines among them cannot be painted twice. Other seams paint them once.");
+    if (o->layers == FROE_LAYERS_KIND && o->interleaved)
+        return support_fail(diag, FROE_E_OPTIONS,
+                            "Lines among shapes cannot be in layers by kind. Lines on top can, and layers by object.");
     for (uint32_t g = 0; g < froe_scene_group_count(scene); g++) {
         const double opacity = vector_opacity(scene, o, g);
         if (!(opacity >= 0 && opacity <= 1))
@@ -103,7 +107,7 @@ double vector_unit(const froe_render_options *o) {
 
 double vector_grid(const froe_render_options *o, froe_render_format format) {
     double grid = 1;
-    if (format != FROE_RENDER_SVG) return 256 * vector_unit(o);
+    if (format == FROE_RENDER_PDF || format == FROE_RENDER_EPS) return 256 * vector_unit(o);
     for (int i = 0; i < o->decimals; i++) grid *= 10;
     return grid;
 }

@@ -1,9 +1,10 @@
 /* output.c: bytes collected to some kilobytes before the receiver is called. */
 #include "output.h"
+#include "support/escape.h"
 #include "support/floats.h"
-#include "support/xml.h"
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 froe_status vector_flush(vector_output *o) {
@@ -38,6 +39,11 @@ void vector_put_escaped(vector_output *o, const char *text) {
     for (size_t n; (n = support_xml_escape(&text, out));) vector_put(o, out, n);
 }
 
+void vector_put_json(vector_output *o, const char *text) {
+    char out[8];
+    for (size_t n; (n = support_json_escape(&text, out));) vector_put(o, out, n);
+}
+
 vector_digits vector_real(int digits, double x) {
     vector_digits out;
     size_t kept = 0;
@@ -48,4 +54,10 @@ vector_digits vector_real(int digits, double x) {
     }
     out.text[kept] = '\0';
     return out;
+}
+
+void vector_put_exactly(vector_output *o, double x) {
+    char text[40];
+    snprintf(text, sizeof text, "%.15g", x);
+    vector_print(o, "%s", vector_real(strtod(text, NULL) == x ? 15 : 17, x).text);
 }

@@ -26,4 +26,8 @@ typedef struct vector_digits {
     char text[40];
 } vector_digits;
 vector_digits vector_real(int digits, double x);
+/** A number with 15 digits, or 17 where these do not give the same double again. */
+void vector_put_exactly(vector_output *output, double x);
+/** A text within a string of JSON. */
+void vector_put_json(vector_output *output, const char *text);
 #endif

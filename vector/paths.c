@@ -40,7 +40,7 @@ bool vector_ring_shows(const vector_render *r, const froe_outline *ring) {
     return area != 0;
 }
 
-static bool stroke_shows(const vector_render *r, const froe_stroke *s) {
+bool vector_stroke_shows(const vector_render *r, const froe_stroke *s) {
     for (size_t i = 1; i < s->count; i++)
         for (int k = 0; k < 2; k++)
             if (vector_step(r, s->points[2 * i + k]) != vector_step(r, s->points[k])) return true;
@@ -71,7 +71,7 @@ froe_status vector_count_shown(vector_render *r) {
     }
     for (size_t i = 0; i < strokes; i++) {
         const froe_stroke stroke = froe_picture_stroke(r->picture, i);
-        ++*(stroke_shows(r, &stroke) ? &r->report.strokes : &r->report.short_strokes);
+        ++*(vector_stroke_shows(r, &stroke) ? &r->report.strokes : &r->report.short_strokes);
     }
     r->room = rings > strokes ? rings : strokes;
     r->outlines = support_calloc(&r->alloc, r->room, sizeof *r->outlines);
@@ -81,22 +81,37 @@ froe_status vector_count_shown(vector_render *r) {
 /* ------------------------------------------------------------------------- paths -- */
 
 static size_t place_of_stroke(const vector_render *r, size_t stroke) {
-    return stroke < froe_picture_stroke_count(r->picture) ? froe_picture_stroke(r->picture, stroke).place : SIZE_MAX;
+    return stroke < froe_picture_stroke_count(r->picture) ? vector_stroke(r, stroke).place : SIZE_MAX;
 }
 
-/* Strokes of one kind that are due before the next shape. False: none of them shows. */
+static uint32_t owner_of(const vector_render *r, const froe_stroke *s) {
+    return r->owners ? r->owners[s->objects[0]] : FROE_NONE;
+}
+
+/* What the path of a stroke says that it belongs to. */
+static void set_owner(const vector_render *r, const froe_stroke *s, froe_render_path *path) {
+    path->object = path->group = path->layer = FROE_NONE;
+    if (!r->owners) return;
+    const uint32_t group = vector_group(r, s->objects[0]);
+    if (r->options->ids == FROE_IDS_FACE) path->object = owner_of(r, s);
+    if (r->options->ids != FROE_IDS_NONE) path->group = group;
+    if (r->layer_of && group != FROE_NONE) path->layer = r->layer_of[group];
+}
+
+/* Strokes of one kind and owner that are due before the next shape. False: none of them shows. */
 static bool take_strokes(const vector_render *r, vector_cursor *at, froe_render_path *path) {
-    const froe_stroke first = froe_picture_stroke(r->picture, at->stroke);
+    const froe_stroke first = vector_stroke(r, at->stroke);
     const froe_line_style style = vector_line_style(r->options, first.kind, first.hidden, 1);
     *path = (froe_render_path){.lines = true, .kind = first.kind, .hidden = first.hidden};
     path->colour = 0xFF000000 | style.colour;
     path->width = style.width, path->dash = style.dash, path->gap = style.gap;
-    path->object = path->group = path->layer = FROE_NONE;
+    set_owner(r, &first, path);
     path->outlines = r->outlines;
     for (; place_of_stroke(r, at->stroke) <= at->shape; at->stroke++) {
-        const froe_stroke next = froe_picture_stroke(r->picture, at->stroke);
-        if (next.kind != first.kind || next.hidden != first.hidden) break;
-        if (stroke_shows(r, &next)) r->outlines[path->count++] = (froe_outline){next.points, next.count, next.closed};
+        const froe_stroke next = vector_stroke(r, at->stroke);
+        if (next.kind != first.kind || next.hidden != first.hidden || owner_of(r, &next) != owner_of(r, &first)) break;
+        if (vector_stroke_shows(r, &next))
+            r->outlines[path->count++] = (froe_outline){next.points, next.count, next.closed};
     }
     return path->count;
 }

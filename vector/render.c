@@ -7,7 +7,7 @@
 #include <string.h>
 
 static froe_status format_of(const char *path, froe_render_format *format, froe_diagnostic *diag) {
-    static const char *const extensions[FROE_RENDER_FORMAT_COUNT] = {"svg", "pdf", "eps"};
+    static const char *const extensions[FROE_RENDER_FORMAT_COUNT] = {"svg", "pdf", "eps", "csv", "geojson"};
     const support_extension extension = support_path_extension(path);
     for (int f = 0; f < FROE_RENDER_FORMAT_COUNT; f++)
         if (strcmp(extension.text, extensions[f]) == 0) {
@@ -18,7 +18,8 @@ static froe_status format_of(const char *path, froe_render_format *format, froe_
         return support_fail(diag, FROE_E_UNSUPPORTED,
                             "%s: A PNG is made by froe_render_png() of the library froe-draw, not by froe_render().",
                             support_short(path));
-    return support_fail_ending(diag, FROE_E_OPTIONS, path, "pictures", ".svg, .pdf, .eps or .png");
+    return support_fail_ending(diag, FROE_E_OPTIONS, path, "pictures",
+                               ".svg, .pdf, .eps, .png, .dxf, .csv or .geojson");
 }
 
 /* ----------------------------------------------------------------------- making -- */
@@ -45,7 +46,7 @@ static froe_status find_picture(vector_render *r, froe_diagnostic *diag) {
     froe_picture_options p = froe_picture_defaults();
     p.view = &r->view;
     p.paint = o->paint;
-    p.no_fills = o->shading == FROE_SHADE_NONE;
+    p.no_fills = r->lines_only || o->shading == FROE_SHADE_NONE;
     p.underlap = o->seams == FROE_SEAMS_UNDERLAP ? o->seam_width : 0;
     p.styles = r->keys ? r->keys : r->style_of;
     p.min_area = o->min_area;
@@ -56,6 +57,7 @@ static froe_status find_picture(vector_render *r, froe_diagnostic *diag) {
     p.crease = o->crease;
     p.section = o->section;
     p.interleave = o->interleaved && p.lines ? vector_line_reach(o) : 0;
+    p.chains = r->owners;
     p.hidden = o->hidden;
     p.halo = o->halo;
     p.alloc = &r->alloc;
@@ -71,15 +73,17 @@ static froe_status prepare(vector_render *r, const froe_camera *camera, froe_dia
     if (!status) status = froe_surface_new(r->scene, &r->alloc, &r->surface, diag);
     if (status) return status;
     r->patches = froe_surface_patch_count(r->surface);
-    if (vector_shade(r) || spread_groups(r)) return support_fail_memory(diag);
+    if (vector_shade(r) || spread_groups(r) || vector_find_owners(r)) return support_fail_memory(diag);
     status = find_picture(r, diag);
     if (status) return status;
     r->report.picture = froe_picture_statistics(r->picture);
     r->report.view = r->view;
-    return vector_count_shown(r) ? support_fail_memory(diag) : FROE_OK;
+    return vector_sort_strokes(r) || vector_count_shown(r) ? support_fail_memory(diag) : FROE_OK;
 }
 
 static void free_render(vector_render *r) {
+    support_free(&r->alloc, r->owners, froe_scene_object_count(r->scene) * sizeof *r->owners);
+    if (r->order) support_free(&r->alloc, r->order, froe_picture_stroke_count(r->picture) * sizeof *r->order);
     froe_picture_free(r->picture);
     froe_surface_free(r->surface);
     support_free(&r->alloc, r->style_of, r->patches * sizeof *r->style_of);
@@ -102,18 +106,22 @@ static froe_status end_output(vector_output *output, froe_diagnostic *diag) {
                                    : FROE_OK;
 }
 
+static void put_svg(vector_render *r, vector_output *output) {
+    vector_svg_begin(r, output);
+    vector_svg_picture(r, output, &(vector_frame){0});
+    vector_svg_end(r, output);
+}
+
 /* A whole picture; the options are checked. */
 static froe_status write_picture(vector_render *r, froe_render_format format, vector_output *output,
                                  froe_diagnostic *diag) {
+    static void (*const writers[FROE_RENDER_FORMAT_COUNT])(vector_render *, vector_output *) = {
+        put_svg, vector_pdf, vector_eps, vector_csv, vector_geojson};
     r->grid = vector_grid(r->options, format);
+    r->lines_only = format == FROE_RENDER_CSV || format == FROE_RENDER_GEOJSON;
     froe_status status = prepare(r, &r->options->camera, diag);
     if (status) return status;
-    if (format == FROE_RENDER_SVG) {
-        vector_svg_begin(r, output);
-        vector_svg_picture(r, output, &(vector_frame){0});
-        vector_svg_end(r, output);
-    } else
-        (format == FROE_RENDER_PDF ? vector_pdf : vector_eps)(r, output);
+    writers[format](r, output);
     status = end_output(output, diag);
     r->report.bytes = output->count;
     return status;
@@ -186,6 +194,28 @@ froe_status froe_render_paths(const froe_tree *tree, double steps, froe_render_p
     if (status) return status;
     status = prepare(&r, &r.options->camera, diag);
     if (!status) vector_each_path(&r, hand_over, &to);
+    if (!status && report) *report = r.report;
+    free_render(&r);
+    return status;
+}
+
+froe_status froe_render_lines(const froe_tree *tree, froe_render_line_fn *fn, void *user,
+                              const froe_render_options *options, froe_render_report *report, froe_diagnostic *diag) {
+    SUPPORT_FLOATS_OWN;
+    const froe_render_options standard = froe_render_defaults();
+    if (!tree || !fn) return support_fail_null(diag, __func__);
+    vector_render r = {.tree = tree, .scene = froe_tree_scene(tree), .options = options ? options : &standard};
+    froe_status status = vector_check(r.scene, r.options, diag);
+    if (status) return status;
+    r.lines_only = true;
+    r.grid = vector_grid(r.options, FROE_RENDER_SVG);
+    status = prepare(&r, &r.options->camera, diag);
+    const size_t count = status ? 0 : froe_picture_stroke_count(r.picture);
+    bool more = true;
+    for (size_t i = 0; more && i < count; i++) {
+        const froe_stroke line = vector_stroke(&r, i);
+        more = !vector_stroke_shows(&r, &line) || support_callback(fn(user, &line));
+    }
     if (!status && report) *report = r.report;
     free_render(&r);
     return status;

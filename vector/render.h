@@ -11,7 +11,8 @@ typedef struct vector_render {
     const froe_tree *tree;
     const froe_scene *scene;
     const froe_render_options *options;
-    double grid; /**< steps of the output in a unit of the page: see vector_grid() */
+    bool lines_only; /**< nothing is filled, whatever the options say */
+    double grid;     /**< steps of the output in a unit of the page: see vector_grid() */
     froe_surface *surface;
     froe_projection view;
     froe_picture *picture;
@@ -20,6 +21,8 @@ typedef struct vector_render {
     ARRAY(uint32_t) styles; /**< colours, 0xAARRGGBB, ascending, each once */
     uint32_t *layer_of;     /**< per group: the first of its name; NULL: there are no layers */
     uint32_t *keys;         /**< per patch: what the order of painting keeps together; NULL: styles */
+    uint32_t *owners;       /**< per object: what its lines belong to, a face, group or layer; NULL: nothing is asked */
+    size_t *order;          /**< of the strokes, when they have owners: those of one are together */
     uint8_t *clear;         /**< per patch; NULL: all are opaque */
     int32_t *priorities;    /**< per patch; NULL */
     froe_outline *outlines; /**< room for those of the longest path */
@@ -36,13 +39,15 @@ froe_status vector_check_format(const froe_scene *scene, const froe_render_optio
                                 froe_diagnostic *diag);
 /** Length of a unit of the page in points (PDF, EPS). */
 double vector_unit(const froe_render_options *options);
-/** Steps of a format's coordinates in a unit of the page: SVG's digits, otherwise 1/256 of a point. */
+/** Steps of a format's coordinates in a unit of the page: 1/256 of a point in PDF and EPS, otherwise SVG's digits. */
 double vector_grid(const froe_render_options *options, froe_render_format format);
 
 /** Opacity of a group, 0 .. 1; of FROE_NONE 1. */
 double vector_opacity(const froe_scene *scene, const froe_render_options *options, uint32_t group);
 /** Fills style_of, styles, keys and layer_of. FROE_E_MEMORY. */
 froe_status vector_shade(vector_render *render);
+/** The group of an object, or FROE_NONE. */
+uint32_t vector_group(const vector_render *render, uint32_t object);
 
 /* ------------------------------------------------------------------------- strokes.c -- */
 
@@ -54,6 +59,12 @@ froe_line_style vector_line_style(const froe_render_options *options, froe_line 
 double vector_line_reach(const froe_render_options *options);
 /** FROE_E_OPTIONS, unless every style of lines is one. */
 froe_status vector_check_lines(const froe_render_options *options, froe_diagnostic *diag);
+/** Fills owners, before there is a picture, if the options keep lines of objects apart. FROE_E_MEMORY. */
+froe_status vector_find_owners(vector_render *render);
+/** Fills order, if there are owners. FROE_E_MEMORY. */
+froe_status vector_sort_strokes(vector_render *render);
+/** The i-th stroke in that order. */
+froe_stroke vector_stroke(const vector_render *render, size_t i);
 
 /* --------------------------------------------------------------------------- paths.c -- */
 
@@ -67,6 +78,8 @@ static inline int64_t vector_step(const vector_render *render, double x) {
 }
 /** Is anything left of a closed outline on that grid? */
 bool vector_ring_shows(const vector_render *render, const froe_outline *ring);
+/** Is anything left of a stroke there? */
+bool vector_stroke_shows(const vector_render *render, const froe_stroke *stroke);
 /** Makes room for outlines, and notes in the report how many shapes and strokes show, and how many do not.
  * FROE_E_MEMORY. */
 froe_status vector_count_shown(vector_render *render);
@@ -76,7 +89,7 @@ bool vector_next_path(const vector_render *render, vector_cursor *at, froe_rende
  * false. */
 bool vector_each_path(vector_render *render, froe_render_path_fn *fn, void *user);
 
-/* -------------------------------------------------------------------- svg.c, pdf.c, eps.c -- */
+/* ------------------------------------------------------------ svg.c, pdf.c, eps.c, data.c -- */
 
 /** When a picture is shown: the i-th of `count`, for a share of `seconds`. count 0: always. */
 typedef struct vector_frame {
@@ -89,4 +102,7 @@ void vector_svg_picture(vector_render *render, vector_output *output, const vect
 void vector_svg_end(const vector_render *render, vector_output *output);
 void vector_pdf(vector_render *render, vector_output *output);
 void vector_eps(vector_render *render, vector_output *output);
+/** The lines of a picture as data. */
+void vector_csv(vector_render *render, vector_output *output);
+void vector_geojson(vector_render *render, vector_output *output);
 #endif

@@ -93,12 +93,12 @@ static void number_styles(vector_render *r) {
 froe_status vector_shade(vector_render *r) {
     const froe_render_options *o = r->options;
     const size_t groups = froe_scene_group_count(r->scene);
-    const bool keys = o->layers || o->ids == FROE_IDS_OBJECT;
+    const bool layers = o->layers == FROE_LAYERS_OBJECT, keys = layers || o->ids == FROE_IDS_OBJECT;
     uint32_t count = 0, *materials = first_of_name(r, true);
     r->style_of = support_calloc(&r->alloc, r->patches, sizeof *r->style_of);
-    if (o->layers) r->layer_of = first_of_name(r, false);
+    if (layers) r->layer_of = first_of_name(r, false);
     if (keys) r->keys = support_calloc(&r->alloc, r->patches, sizeof *r->keys);
-    const bool ok = materials && r->style_of && (!o->layers || r->layer_of) && (!keys || r->keys) &&
+    const bool ok = materials && r->style_of && (!layers || r->layer_of) && (!keys || r->keys) &&
                     array_reserve(&r->alloc, &r->styles, r->patches);
     /* Materials are numbered in the order in which they first occur. */
     for (uint32_t g = 0; ok && g < groups; g++) materials[g] = materials[g] < g ? materials[materials[g]] : count++;

@@ -1,6 +1,10 @@
-/* strokes.c: how lines of each kind are drawn: the options' styles, over widths that suit illustrations. */
+/* strokes.c: how lines of each kind are drawn (the options' styles, over widths that suit illustrations), and what they
+ * belong to. */
 #include "render.h"
 #include "support/fail.h"
+#include <stdlib.h>
+
+/* ----------------------------------------------------------------------- styles -- */
 
 froe_line_style froe_line_style_defaults(void) {
     return (froe_line_style){.width = NAN, .colour = FROE_NONE, .dash = NAN, .gap = NAN};
@@ -67,4 +71,69 @@ froe_status vector_check_lines(const froe_render_options *options, froe_diagnost
                                 i, s->dash, s->gap);
     }
     return FROE_OK;
+}
+
+/* ----------------------------------------------------------------------- owners -- */
+
+uint32_t vector_group(const vector_render *r, uint32_t object) {
+    return froe_scene_object(r->scene, object).group;
+}
+
+froe_status vector_find_owners(vector_render *r) {
+    const froe_render_options *o = r->options;
+    const size_t objects = froe_scene_object_count(r->scene);
+    if (o->ids == FROE_IDS_NONE && o->layers != FROE_LAYERS_OBJECT) return FROE_OK;
+    r->owners = support_calloc(&r->alloc, objects, sizeof *r->owners);
+    if (!r->owners) return FROE_E_MEMORY;
+    for (uint32_t i = 0; i < objects; i++) {
+        const uint32_t patch = froe_surface_patch_of(r->surface, i), group = vector_group(r, i);
+        const bool layer = o->ids == FROE_IDS_NONE && group != FROE_NONE;
+        r->owners[i] = o->ids != FROE_IDS_FACE ? (layer ? r->layer_of[group] : group)
+                       : patch == FROE_NONE    ? i
+                                               : froe_surface_patch(r->surface, patch).objects[0];
+    }
+    return FROE_OK;
+}
+
+typedef struct stroke_key {
+    size_t place, i;
+    uint32_t layer, kind, owner; /* kinds as the picture has them */
+    bool visible;
+} stroke_key;
+
+static int compare_strokes(const void *a, const void *b) {
+    const stroke_key *x = a, *y = b;
+    if (x->place != y->place) return x->place < y->place ? -1 : 1;
+    if (x->visible != y->visible) return x->visible - y->visible;
+    if (x->layer != y->layer) return x->layer < y->layer ? -1 : 1;
+    if (x->kind != y->kind) return x->kind < y->kind ? -1 : 1;
+    if (x->owner != y->owner) return x->owner < y->owner ? -1 : 1;
+    return (x->i > y->i) - (x->i < y->i);
+}
+
+froe_status vector_sort_strokes(vector_render *r) {
+    const size_t count = froe_picture_stroke_count(r->picture);
+    if (!r->owners) return FROE_OK;
+    stroke_key *keys = support_calloc(&r->alloc, count, sizeof *keys);
+    r->order = support_calloc(&r->alloc, count, sizeof *r->order);
+    uint32_t kinds = 0;
+    froe_line last = 0;
+    for (size_t i = 0; keys && i < count; i++) {
+        const froe_stroke s = froe_picture_stroke(r->picture, i);
+        const uint32_t group = vector_group(r, s.objects[0]);
+        kinds += s.kind != last; /* those of a kind follow each other */
+        last = s.kind;
+        keys[i] = (stroke_key){.place = s.place, .i = i, .kind = kinds, .visible = !s.hidden};
+        keys[i].owner = r->owners[s.objects[0]];
+        keys[i].layer = r->layer_of && group != FROE_NONE ? r->layer_of[group] : FROE_NONE;
+    }
+    if (keys) qsort(keys, count, sizeof *keys, compare_strokes);
+    for (size_t i = 0; keys && r->order && i < count; i++) r->order[i] = keys[i].i;
+    support_free(&r->alloc, keys, count * sizeof *keys);
+    return keys && r->order ? FROE_OK : FROE_E_MEMORY;
+}
+
+froe_stroke vector_stroke(const vector_render *r, size_t i) {
+    const bool there = r->order && i < froe_picture_stroke_count(r->picture);
+    return froe_picture_stroke(r->picture, there ? r->order[i] : i);
 }

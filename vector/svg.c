@@ -13,14 +13,23 @@ typedef struct svg_ring {
     double x, y; /* of its first point */
 } svg_ring;
 
+/* A group of paths, which may be a layer. */
+typedef struct svg_group {
+    bool any, lines, hidden;
+    froe_line kind;  /* by kind */
+    uint32_t object; /* by object: the first group of its name; FROE_NONE */
+} svg_group;
+
 typedef struct svg_writer {
     vector_render *render;
     vector_output *output;
     ARRAY(svg_ring) rings;
-    int64_t at[2];  /* where the last path command ended, on the grid */
-    char command;   /* the last one written; numbers may follow without repeating it */
-    bool number;    /* the last thing written is a number */
-    uint32_t layer; /* that is open; FROE_NONE */
+    int64_t at[2];   /* where the last path command ended, on the grid */
+    char command;    /* the last one written; numbers may follow without repeating it */
+    bool number;     /* the last thing written is a number */
+    svg_group group; /* that is open */
+    bool twice;      /* within it or around it, fills that are painted twice are a group, which is open */
+    size_t frame, layers;
 } svg_writer;
 
 static void put_text(svg_writer *w, const char *text) {
@@ -120,22 +129,19 @@ static void put_rings(svg_writer *w, const froe_render_path *path) {
     }
 }
 
-/* Ends the layer that is open, and begins that of a shape. */
-static void put_layer(svg_writer *w, uint32_t layer) {
-    if (w->layer == layer) return;
-    if (w->layer != FROE_NONE) put_text(w, "</g>\n");
-    if (layer != FROE_NONE) {
-        put_text(w, "<g data-layer=\"");
-        vector_put_escaped(w->output, froe_scene_group(w->render->scene, layer).name);
-        put_text(w, "\">\n");
-    }
-    w->layer = layer;
+/* What shapes and lines say of the objects they belong to. */
+static void put_ids(svg_writer *w, const froe_render_path *path) {
+    const froe_ids ids = w->render->options->ids;
+    if (ids == FROE_IDS_FACE) vector_print(w->output, " data-object=\"%u\"", path->object);
+    if (ids == FROE_IDS_NONE) return;
+    put_text(w, " data-group=\"");
+    if (path->group != FROE_NONE) vector_put_escaped(w->output, froe_scene_group(w->render->scene, path->group).name);
+    put_text(w, "\"");
 }
 
 static void put_shapes(svg_writer *w, const froe_render_path *path) {
     const vector_render *r = w->render;
     const uint32_t alpha = path->colour >> 24;
-    put_layer(w, path->layer);
     put_text(w, "<path fill=\"");
     put_colour(w->output, path->colour);
     if (alpha < 255) vector_print(w->output, "\" fill-opacity=\"0.%02u", alpha * 100 / 255);
@@ -144,11 +150,9 @@ static void put_shapes(svg_writer *w, const froe_render_path *path) {
         put_colour(w->output, path->colour);
         vector_print(w->output, "\" stroke-width=\"%s", vector_real(3, r->grid * path->width).text);
     }
-    if (r->options->ids == FROE_IDS_FACE) vector_print(w->output, "\" data-object=\"%u", path->object);
-    if (r->options->ids != FROE_IDS_NONE) put_text(w, "\" data-group=\"");
-    if (r->options->ids != FROE_IDS_NONE && path->group != FROE_NONE)
-        vector_put_escaped(w->output, froe_scene_group(r->scene, path->group).name);
-    put_text(w, "\" d=\"");
+    put_text(w, "\"");
+    put_ids(w, path);
+    put_text(w, " d=\"");
     begin_path(w);
     put_rings(w, path);
     put_text(w, "\"/>\n");
@@ -167,16 +171,82 @@ static void put_strokes(svg_writer *w, const froe_render_path *path) {
     if (style.dash > 0)
         vector_print(w->output, " stroke-dasharray=\"%s %s\"", vector_real(3, style.dash).text,
                      vector_real(3, style.gap).text);
+    if (w->render->options->ids != FROE_IDS_NONE)
+        vector_print(w->output, " data-kind=\"%s\"", froe_line_name(path->kind));
+    put_ids(w, path);
     put_text(w, " d=\"");
     begin_path(w);
     for (size_t i = 0; i < path->count; i++) put_outline(w, path->outlines + i, 0);
     put_text(w, "\"/>\n");
 }
 
-/* Fills that are painted twice are one group, which ends before the lines. */
-static void put_twice(svg_writer *w, bool begin, size_t frame) {
-    if (w->render->options->seams != FROE_SEAMS_TWICE) return;
-    vector_print(w->output, begin ? "<g id=\"fills%zu\">\n" : "</g>\n<use href=\"#fills%zu\"/>\n", frame);
+/* ----------------------------------------------------------------------- groups -- */
+
+static svg_group group_of_path(const svg_writer *w, const froe_render_path *path) {
+    const froe_layers layers = w->render->options->layers;
+    svg_group group = {.any = path->lines || layers, .lines = path->lines, .object = FROE_NONE};
+    if (layers) group.hidden = path->hidden;
+    if (layers == FROE_LAYERS_OBJECT) group.object = path->layer;
+    if (layers == FROE_LAYERS_KIND) group.kind = path->kind;
+    return group;
+}
+
+static bool same_group(const svg_group *a, const svg_group *b) {
+    return a->any == b->any && a->lines == b->lines && a->hidden == b->hidden && a->kind == b->kind &&
+           a->object == b->object;
+}
+
+/* Inkscape's layers are groups of its own mode, each with a label and, as every element, an id of its own. They have to
+ * be the outermost groups, and so each is scaled. */
+static void put_layer(svg_writer *w, const svg_group *group) {
+    const froe_render_options *o = w->render->options;
+    put_text(w, " inkscape:groupmode=\"layer\" inkscape:label=\"");
+    const char *name = group->object == FROE_NONE ? "" : froe_scene_group(w->render->scene, group->object).name;
+    vector_put_escaped(w->output, name);
+    put_text(w, *name ? ": " : "");
+    if (group->kind)
+        vector_print(w->output, "%s-%s", group->hidden ? "hidden" : "visible", froe_line_name(group->kind));
+    else
+        put_text(w, !group->lines ? "faces" : group->hidden ? "hidden lines" : "lines");
+    put_text(w, "\" id=\"");
+    if (w->frame) vector_print(w->output, "frame%zu-", w->frame);
+    vector_print(w->output, "layer%zu\"", ++w->layers);
+    if (*name) {
+        put_text(w, " data-layer=\"");
+        vector_put_escaped(w->output, name);
+        put_text(w, "\"");
+    }
+    if (o->decimals) vector_print(w->output, " transform=\"scale(0.%0*d)\"", o->decimals, 1);
+}
+
+static void begin_twice(svg_writer *w) {
+    vector_print(w->output, "<g id=\"fills%zu\">\n", w->frame);
+    w->twice = true;
+}
+
+static void end_twice(svg_writer *w) {
+    vector_print(w->output, "</g>\n<use href=\"#fills%zu\"/>\n", w->frame);
+    w->twice = false;
+}
+
+/* Ends the group that is open, and begins that of a path; NULL: nothing follows. Fills that are painted twice are a
+ * group around layers by object, and within that of all faces. */
+static void enter_group(svg_writer *w, const froe_render_path *path) {
+    const froe_render_options *o = w->render->options;
+    const bool within = o->layers == FROE_LAYERS_KIND, fills = path && !path->lines;
+    const svg_group next = path ? group_of_path(w, path) : (svg_group){.object = FROE_NONE};
+    const bool done = w->twice && !fills;
+    if (same_group(&next, &w->group) && !done) return;
+    if (done && within) end_twice(w);
+    if (w->group.any) put_text(w, "</g>\n");
+    if (done && !within) end_twice(w);
+    if (next.any) {
+        put_text(w, "<g");
+        if (o->layers) put_layer(w, &next);
+        put_text(w, next.lines ? " fill=\"none\" stroke=\"#1b2630\" stroke-linejoin=\"round\">\n" : ">\n");
+    }
+    if (within && fills && o->seams == FROE_SEAMS_TWICE) begin_twice(w);
+    w->group = next;
 }
 
 /* Shown for the i-th of `count` equal times, again and again; the first also where nothing moves. */
@@ -196,32 +266,25 @@ static void put_times(vector_output *output, const vector_frame *f) {
 }
 
 void vector_svg_picture(vector_render *render, vector_output *output, const vector_frame *frame) {
-    svg_writer w = {.render = render, .output = output, .layer = FROE_NONE};
-    const size_t shapes = froe_picture_shape_count(render->picture);
-    bool lines = false;
+    svg_writer w = {.render = render, .output = output, .group.object = FROE_NONE, .frame = frame->i};
     vector_cursor at = {0, 0};
     if (frame->count > 1) put_times(output, frame);
-    put_twice(&w, true, frame->i);
+    if (render->options->seams == FROE_SEAMS_TWICE && render->options->layers != FROE_LAYERS_KIND) begin_twice(&w);
     for (froe_render_path path; !output->status && vector_next_path(render, &at, &path);) {
-        if (path.lines && !lines) {
-            put_layer(&w, FROE_NONE);
-            if (at.shape >= shapes) put_twice(&w, false, frame->i);
-            put_text(&w, "<g fill=\"none\" stroke=\"#1b2630\" stroke-linejoin=\"round\">\n");
-        }
-        if (!path.lines && lines) put_text(&w, "</g>\n");
-        lines = path.lines;
-        if (lines)
+        enter_group(&w, &path);
+        if (path.lines)
             put_strokes(&w, &path);
         else
             put_shapes(&w, &path);
     }
-    put_layer(&w, FROE_NONE);
-    if (lines)
-        put_text(&w, "</g>\n");
-    else
-        put_twice(&w, false, frame->i);
+    enter_group(&w, NULL);
     if (frame->count > 1) put_text(&w, "</g>\n");
     array_free(&render->alloc, &w.rings);
+}
+
+/* Is there one scaled group around everything? Layers are scaled one by one. */
+static bool scales_all(const froe_render_options *o) {
+    return o->decimals && !o->layers;
 }
 
 void vector_svg_begin(const vector_render *render, vector_output *output) {
@@ -229,9 +292,10 @@ void vector_svg_begin(const vector_render *render, vector_output *output) {
     const char *unit = o->millimetres ? "mm" : "";
     const vector_digits width = vector_real(10, o->camera.width), height = vector_real(10, o->camera.height);
     vector_print(output,
-                 "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"%s%s\" height=\"%s%s\" viewBox=\"0 0 %s %s\" "
+                 "<svg xmlns=\"http://www.w3.org/2000/svg\"%s width=\"%s%s\" height=\"%s%s\" viewBox=\"0 0 %s %s\" "
                  "role=\"img\">\n",
-                 width.text, unit, height.text, unit, width.text, height.text);
+                 o->layers ? " xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\"" : "", width.text, unit,
+                 height.text, unit, width.text, height.text);
     const char *const parts[2][2] = {{"title", o->title}, {"desc", o->description}};
     for (int i = 0; i < 2; i++) {
         if (!parts[i][1]) continue;
@@ -245,9 +309,9 @@ void vector_svg_begin(const vector_render *render, vector_output *output) {
         vector_print(output, "\"/>\n");
     }
     /* Everything else is in steps of the grid. */
-    if (o->decimals) vector_print(output, "<g transform=\"scale(0.%0*d)\">\n", o->decimals, 1);
+    if (scales_all(o)) vector_print(output, "<g transform=\"scale(0.%0*d)\">\n", o->decimals, 1);
 }
 
 void vector_svg_end(const vector_render *render, vector_output *output) {
-    vector_print(output, render->options->decimals ? "</g>\n</svg>\n" : "</svg>\n");
+    vector_print(output, scales_all(render->options) ? "</g>\n</svg>\n" : "</svg>\n");
 }

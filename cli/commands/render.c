@@ -20,14 +20,14 @@ static const char *const hiddens[] = {"none", "dashed", NULL};
 static const char *const over[] = {"top", "interleaved", NULL};
 static const char *const colours[] = {"file", "own", NULL};
 static const char *const ids[] = {"none", "object", "face", NULL};
-static const char *const layers[] = {"none", "object", NULL};
+static const char *const layers[] = {"none", "object", "kind", NULL};
 static const char *const axes[] = {"x", "y", "z", NULL};
 static const char *const paints[] = {"whole", "regions", "fragments", NULL};
 static const char *const presets[] = {"illustration", "technical", "plotter", "web", "print", NULL};
 
 static const cli_option what[] = {
-    {"output", 'o', CLI_TEXT, offsetof(render_args, output), "FILE", .help = ".svg, .pdf, .eps or .png",
-     .required = true},
+    {"output", 'o', CLI_TEXT, offsetof(render_args, output), "FILE",
+     .help = ".svg, .pdf, .eps or .png; lines alone as .dxf, .csv or .geojson", .required = true},
     {"preset", 0, CLI_CHOICE, offsetof(render_args, preset), "NAME",
      .help =
          "what the other options begin with: illustration (default), technical (parallel, lines, hidden ones dashed), "
@@ -115,10 +115,12 @@ static const cli_option file[] = {
     {"decimals", 0, CLI_WHOLE, offsetof(render_args, decimals), "N", .help = "SVG: digits after the point (default 2)",
      .max = 6},
     {"ids", 0, CLI_CHOICE, offsetof(render_args, ids), "WHAT",
-     .help = "SVG: none (default), object (data-group on every path) or face (a path each, with data-object as well)",
+     .help = "what shapes and lines tell of their origin: none (default), object (its group; default in .csv and "
+             ".geojson) or face (a path each, and its number as well)",
      .choices = ids},
     {"layers", 0, CLI_CHOICE, offsetof(render_args, layers), "WHAT",
-     .help = "SVG: none (default) or object: a group with data-layer around each run of faces of one object",
+     .help = "SVG: layers for Inkscape: none (default), kind (faces, visible and hidden lines of each kind) or object "
+             "(its faces, its visible and its hidden lines)",
      .choices = layers},
     {"title", 0, CLI_TEXT, offsetof(render_args, title), "TEXT", .help = "SVG, PDF: title of the picture"},
     {"desc", 0, CLI_TEXT, offsetof(render_args, description), "TEXT", .help = "SVG, PDF: description of the picture"},
@@ -318,6 +320,7 @@ const cli_command cli_command_render = {
                                      .tree = CLI_TREE_DEFAULTS,
                                      .up_axis = -1,
                                      .hidden = -1,
+                                     .ids = -1,
                                      .halo = NAN,
                                      .fov = NAN,
                                      .unit = NAN,

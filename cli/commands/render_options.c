@@ -2,6 +2,7 @@
 #include "commands/render_options.h"
 #include "args/picture.h"
 #include "exit.h"
+#include "support/path.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -135,6 +136,12 @@ int render_set_groups(const char *option, const char *list, const froe_scene *sc
     return 0;
 }
 
+/* Lines as data are kept apart by object unless something else is said. */
+static bool is_data(const char *path) {
+    const support_extension extension = support_path_extension(path);
+    return !strcmp(extension.text, "csv") || !strcmp(extension.text, "geojson");
+}
+
 int render_set_options(const render_args *args, const froe_scene *scene, froe_render_options *o,
                        render_styles *styles) {
     if (args->preset == TECHNICAL) {
@@ -170,8 +177,8 @@ int render_set_options(const render_args *args, const froe_scene *scene, froe_re
     o->section = args->section.count ? -1 : 0;
     o->interleaved = args->over > 0;
     o->own_colours = args->colours > 0;
-    o->ids = (froe_ids)args->ids;
-    o->layers = args->layers > 0;
+    o->ids = args->ids >= 0 ? (froe_ids)args->ids : is_data(args->output) ? FROE_IDS_OBJECT : FROE_IDS_NONE;
+    o->layers = (froe_layers)args->layers;
     o->seams = (froe_seams)args->seams;
     cli_set_number(args->min_area, &o->min_area);
     o->title = args->title, o->description = args->description;

@@ -1,7 +1,7 @@
 /* html.c: small pieces of HTML made from reports. */
 #include "report/html.h"
 #include "embedded.h"
-#include "support/xml.h"
+#include "support/escape.h"
 #include "version.h"
 #include <froe/froe.h>
 #include <string.h>

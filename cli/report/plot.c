@@ -9,7 +9,7 @@
  */
 #include "report/plot.h"
 #include "report/axis.h"
-#include "support/xml.h"
+#include "support/escape.h"
 #include <math.h>
 #include <string.h>
 

@@ -1,6 +1,6 @@
 /* writer.c: text files, numbers and quotes. */
 #include "formats/write/writer.h"
-#include "support/utf8.h"
+#include "support/escape.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -53,22 +53,9 @@ void formats_put_point(formats_writer *w, const double *p, int dim, const char *
 }
 
 void formats_put_json(formats_writer *w, const char *text) {
-    const unsigned char *c = (const unsigned char *)text;
+    char out[8];
     put_byte(w, '"');
-    while (*c) {
-        size_t length = support_utf8_length((const char *)c);
-        if (!length) {
-            formats_put(w, "\\ufffd");
-        } else if (*c < 0x20 || *c == 0x7f || *c == '<') { /* no text ends the script of a page that it stands in */
-            char escaped[8];
-            snprintf(escaped, sizeof escaped, "\\u%04x", *c);
-            formats_put(w, escaped);
-        } else {
-            if (*c == '"' || *c == '\\') put_byte(w, '\\');
-            support_writer_put(&w->out, c, length);
-        }
-        c += length ? length : 1;
-    }
+    for (size_t n; (n = support_json_escape(&text, out));) support_writer_put(&w->out, out, n);
     put_byte(w, '"');
 }
 

@@ -7,7 +7,8 @@
  *
  * What is visible, and in which order it is painted, froe_picture_new() of froe/view.h finds. This header colours it,
  * joins it to paths, and writes them: to a file, as bytes to a function, or as paths, for formats that froe does not
- * write itself. The same tree and options give the same bytes on every machine. */
+ * write itself. The lines alone come as data, too: as arrays, as CSV and as GeoJSON. The same tree and options give the
+ * same bytes on every machine. */
 #ifndef FROE_RENDER_H
 #define FROE_RENDER_H
 
@@ -45,12 +46,24 @@ typedef enum froe_seams {
 /** "underlap", "none", "twice", "stroke"; NULL for other numbers. */
 FROE_API const char *froe_seams_name(froe_seams seams);
 
-/** What SVG contains of the origin of shapes. */
+/** What SVG contains of the origin of shapes and lines. Lines then have data-kind, too, and end where what they belong
+ * to does: see froe_stroke. */
 typedef enum froe_ids {
     FROE_IDS_NONE = 0,
-    FROE_IDS_OBJECT = 1, /**< one path for shapes of one colour and group that follow each other, with data-group */
-    FROE_IDS_FACE = 2    /**< one path per face, with data-object and data-group */
+    FROE_IDS_OBJECT = 1, /**< one path for shapes of one colour and group that follow each other, and for lines of one
+                              kind and group, with data-group */
+    FROE_IDS_FACE = 2    /**< one path per face, and for lines of one kind and face, with data-object, which is the
+                              first of the face, and data-group */
 } froe_ids;
+
+/** Groups around parts of an SVG, which Inkscape shows as layers. */
+typedef enum froe_layers {
+    FROE_LAYERS_NONE = 0,
+    FROE_LAYERS_OBJECT =
+        1,               /**< shapes of one object (groups of one name) that follow each other; its visible lines; its
+                                 hidden ones. The order of painting keeps objects together where it can */
+    FROE_LAYERS_KIND = 2 /**< all shapes; visible and hidden lines of each kind. Not with interleaved lines */
+} froe_layers;
 
 /** How lines of some kinds are drawn. What is NaN or FROE_NONE stays as it is without this style. */
 typedef struct froe_line_style {
@@ -87,11 +100,10 @@ typedef struct froe_render_options {
     const double *opacity;     /**< per group, 0 .. 1; NaN, or all NULL: that of its colour, or 1 */
     const int32_t *priorities; /**< per group, see froe_visibility_options; NULL: equal */
     bool cull_back;
-    uint32_t background; /**< 0xRRGGBB, FROE_DRAW_CLEAR or FROE_DRAW_BY_FORMAT (default) */
-    int decimals;        /**< SVG: digits after the point, 0 .. 6; default 2 */
-    froe_ids ids;        /**< default NONE */
-    bool layers; /**< SVG: shapes of one object (groups of one name) that follow each other are a group with data-layer;
-                      the order of painting keeps objects together where it can */
+    uint32_t background;             /**< 0xRRGGBB, FROE_DRAW_CLEAR or FROE_DRAW_BY_FORMAT (default) */
+    int decimals;                    /**< SVG: digits after the point, 0 .. 6; default 2 */
+    froe_ids ids;                    /**< default NONE */
+    froe_layers layers;              /**< SVG; default NONE */
     double min_area;                 /**< see froe_picture_options */
     const char *title, *description; /**< SVG, PDF: UTF-8; NULL: none */
     double pixels;                   /**< PNG: pixels per unit of the page, 0.1 .. 64; default 1 */
@@ -114,11 +126,18 @@ typedef enum froe_render_format {
     FROE_RENDER_SVG = 0,
     FROE_RENDER_PDF = 1, /**< 1.4, uncompressed */
     FROE_RENDER_EPS = 2, /**< PostScript level 2 */
-    FROE_RENDER_FORMAT_COUNT = 3
+    /** Lines alone, as data: those of an SVG of the same options, in the same order, each once. In units of the page, y
+     * upwards from its lower left corner, with all digits. Each has kind, hidden, closed; as far as the option `ids`
+     * keeps them apart, group and name (OBJECT), object and face (FACE: the first object of the face, and froe_object's
+     * face of it); and `space`, the same points in the scene. Where `closed`, the first point comes once more. */
+    FROE_RENDER_CSV = 3,     /**< a row each; in columns WKT and space LINESTRINGs, which OGR reads */
+    FROE_RENDER_GEOJSON = 4, /**< a feature each, in no coordinate system of the earth */
+    FROE_RENDER_FORMAT_COUNT = 5
 } froe_render_format;
 
 /** The polygons of a tree in space as a picture with hidden surfaces removed, exactly: see froe_picture_new(). `path`
- * ends in .svg, .pdf or .eps and appears whole or not at all. `options` NULL: the defaults; `report` may be NULL.
+ * ends in .svg, .pdf, .eps, .csv or .geojson and appears whole or not at all. `options` NULL: the defaults; `report`
+ * may be NULL.
  * FROE_E_OPTIONS: a value out of range, a title or description of a PDF that is not UTF-8, or EPS with an opacity below
  * 1, which EPS does not have. FROE_E_UNSUPPORTED: `path` ends in .png, which froe_render_png() of froe/draw.h makes.
  * FROE_E_IO: the directory or disk does not take it. Otherwise as froe_camera_place(), froe_picture_new(). */
@@ -149,14 +168,14 @@ typedef struct froe_outline {
 
 /** What is painted at once: faces of one colour, or lines of one kind. */
 typedef struct froe_render_path {
-    bool lines;                   /**< stroked, with round joins; otherwise filled by the nonzero rule */
-    uint32_t colour;              /**< 0xAARRGGBB, AA: opacity, 255 of lines */
-    double width;                 /**< of the stroke; of faces 0, but for FROE_SEAMS_STROKE */
-    double dash, gap;             /**< lengths; 0: the line is solid */
-    froe_line kind;               /**< lines */
-    bool hidden;                  /**< lines */
-    uint32_t object, group;       /**< faces: the first one's; FROE_NONE */
-    uint32_t layer;               /**< faces: with the option `layers` the first group of their name, else FROE_NONE */
+    bool lines;             /**< stroked, with round joins; otherwise filled by the nonzero rule */
+    uint32_t colour;        /**< 0xAARRGGBB, AA: opacity, 255 of lines */
+    double width;           /**< of the stroke; of faces 0, but for FROE_SEAMS_STROKE */
+    double dash, gap;       /**< lengths; 0: the line is solid */
+    froe_line kind;         /**< lines */
+    bool hidden;            /**< lines */
+    uint32_t object, group; /**< of the first face; of lines as far as the option `ids` keeps them apart; FROE_NONE */
+    uint32_t layer;         /**< with FROE_LAYERS_OBJECT the first group of that name, else FROE_NONE */
     const froe_outline *outlines; /**< a union, in any order; valid during the call */
     size_t count;
 } froe_render_path;
@@ -167,6 +186,15 @@ typedef bool froe_render_path_fn(void *user, const froe_render_path *path);
  * their points are rounded to 1/steps of a unit are no paths of their own, and lines not part of one. The page and its
  * background are the caller's to paint. `steps`: above 0, at most 1e6. `bytes` in the report is 0. */
 FROE_API froe_status froe_render_paths(const froe_tree *tree, double steps, froe_render_path_fn *fn, void *user,
+                                       const froe_render_options *options, froe_render_report *report,
+                                       froe_diagnostic *diag);
+
+/** Receives a line of a picture; false stops, which is no failure. Its arrays are valid during the call. */
+typedef bool froe_render_line_fn(void *user, const froe_stroke *line);
+/** The lines of the same picture, visible and hidden, in the order of painting: on the page, in units of it, y
+ * downwards; in the scene; and the objects that they belong to. They are those of an SVG of the same options: lines of
+ * which nothing is left in its coordinates are left out. Shapes are neither made nor counted. */
+FROE_API froe_status froe_render_lines(const froe_tree *tree, froe_render_line_fn *fn, void *user,
                                        const froe_render_options *options, froe_render_report *report,
                                        froe_diagnostic *diag);
 

@@ -10,7 +10,7 @@ static bool note_path(void *user, const froe_render_path *path) {
 }
 
 static void renderings(floats_run *r, void *user) {
-    static const char *const files[] = {"floats.svg", "floats.pdf", "floats.eps"};
+    static const char *const files[] = {"floats.svg", "floats.pdf", "floats.eps", "floats.csv", "floats.geojson"};
     const froe_allocator memory = {floats_memory, r};
     froe_render_options o = froe_render_defaults();
     froe_camera cameras[2];

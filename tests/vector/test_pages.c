@@ -304,7 +304,7 @@ static bool stop_at_third_path(void *user, const froe_render_path *path) {
 
 static void bytes_come_as_they_stand_in_a_file(void **state) {
     (void)state;
-    static const char *const names[] = {"bytes.svg", "bytes.pdf", "bytes.EPS"};
+    static const char *const names[] = {"bytes.svg", "bytes.pdf", "bytes.EPS", "bytes.csv", "bytes.geojson"};
     froe_tree *tree = tree_of(random_triangles(200, 0.6), "density", 1);
     froe_diagnostic why;
     for (int f = 0; f < FROE_RENDER_FORMAT_COUNT; f++) {
@@ -340,7 +340,7 @@ static void what_cannot_be_written_is_refused(void **state) {
     o.title = NULL, o.description = "\xC3(";
     REFUSED(froe_render(tree, "none.pdf", &o, NULL, &why), FROE_E_OPTIONS, "description");
     o = froe_render_defaults();
-    REFUSED(froe_render_write(tree, FROE_RENDER_FORMAT_COUNT, keep_bytes, NULL, &o, NULL, &why), FROE_E_OPTIONS, "3");
+    REFUSED(froe_render_write(tree, FROE_RENDER_FORMAT_COUNT, keep_bytes, NULL, &o, NULL, &why), FROE_E_OPTIONS, "5");
     REFUSED(froe_render_write(tree, FROE_RENDER_SVG, NULL, NULL, &o, NULL, &why), FROE_E_ARG, "NULL");
     REFUSED(froe_render_paths(tree, 0, stop_at_third_path, &calls, &o, NULL, &why), FROE_E_OPTIONS, "steps");
     REFUSED(froe_render_paths(tree, NAN, stop_at_third_path, &calls, &o, NULL, &why), FROE_E_OPTIONS, "steps");
@@ -364,7 +364,7 @@ static froe_status write_each(void *user, const froe_allocator *alloc) {
     froe_status status = FROE_OK;
     size_t bytes = 0;
     o.alloc = alloc;
-    o.layers = true;
+    o.layers = FROE_LAYERS_OBJECT;
     for (int f = 0; !status && f < FROE_RENDER_FORMAT_COUNT; f++)
         status = froe_render_write(user, (froe_render_format)f, count_bytes, &bytes, &o, NULL, NULL);
     return status;

@@ -80,9 +80,11 @@ static void a_cube_shows_three_faces_and_nine_edges(void **state) {
     assert_int_equal(report.picture.shapes, 3);
     assert_int_equal(report.picture.late, 0);
     assert_int_equal(report.picture.points, 12 + 2 * 3); /* seams of the three inner edges, two points each */
-    assert_int_equal(occurrences(svg, "data-object="), 3);
     assert_int_equal(occurrences(svg, "<title>a &lt; b &amp; c</title>"), 1);
-    assert_int_equal(occurrences(svg, "class=\"silhouette\""), 1);
+    assert_int_equal(occurrences(svg, "data-object="), occurrences(svg, "<path "));
+    assert_int_equal(occurrences(svg, "<path fill="), 3);
+    assert_int_equal(occurrences(svg, "class=\"silhouette\""), 3); /* two edges of each face */
+    assert_int_equal(report.picture.strokes, 3 + 3);
     free(svg);
     o = froe_render_defaults();
     o.hidden = true;
@@ -217,7 +219,7 @@ static froe_status animate_with(void *user, const froe_allocator *alloc) {
     froe_render_options o = froe_render_defaults();
     froe_camera cameras[2];
     o.alloc = alloc;
-    o.layers = true;
+    o.layers = FROE_LAYERS_OBJECT;
     o.ids = FROE_IDS_OBJECT;
     const froe_status status = froe_camera_turn(&o.camera, froe_tree_scene(user), 2, cameras, NULL);
     return status ? status : froe_render_animation(user, "memory.svg", &o, cameras, 2, 4, NULL, NULL);

@@ -92,7 +92,7 @@ static bool put_text(void *user, const void *bytes, size_t count) {
 
 static void svg_and_pdf_and_eps_show_styles(void **state) {
     (void)state;
-    static const char *const expected[FROE_RENDER_FORMAT_COUNT][2] = {
+    static const char *const expected[3][2] = {
         {"<path class=\"crease hidden\" stroke=\"#a0b0c0\" stroke-width=\"70\" stroke-dasharray=\"900 200\"",
          "#1b2630"},
         {"0.6275 0.6902 0.7529 RG\n179.2 w\n[2304 512] 0 d\n", "0.1059 0.149 0.1882 RG"},
@@ -103,7 +103,7 @@ static void svg_and_pdf_and_eps_show_styles(void **state) {
     s.hidden = FROE_LINE_CREASE, s.width = 0.7, s.colour = 0xA0B0C0, s.dash = 9, s.gap = 2;
     o.hidden = true;
     o.line_styles = &s, o.line_style_count = 1;
-    for (int format = 0; format < FROE_RENDER_FORMAT_COUNT; format++) {
+    for (int format = 0; format <= FROE_RENDER_EPS; format++) {
         char *text = calloc(1, 1 << 16);
         assert_int_equal(froe_render_write(tree, (froe_render_format)format, put_text, text, &o, NULL, NULL), FROE_OK);
         for (int i = 0; i < 2; i++)
