@@ -16,7 +16,8 @@ static const char *end_of_quotes(const char *at) {
 }
 
 static const char *first_of_field(const char *at) {
-    return at + strspn(at, " ");
+    while (*at == ' ') ++at;
+    return at;
 }
 
 char support_csv_separator(const char *text) {
@@ -39,25 +40,39 @@ char support_csv_separator(const char *text) {
     return counts[best] ? separators[best] : ',';
 }
 
-support_csv_field support_csv_next(char **at, char separator) {
-    char *to = *at, *quoted_end = NULL;
-    const char *from = first_of_field(to);
-    support_csv_field field = {.text = to, .quoted = *from == '"'};
-    if (field.quoted) {
-        const char *end = end_of_quotes(from);
-        for (++from; from < end; ++from) {
-            if (*from == '"') ++from;
-            *to++ = *from;
-        }
-        from = end + (*end == '"');
-        quoted_end = to;
+static inline bool is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\r';
+}
+
+/* The text of a field in quotation marks, which begin at `from`, moves to `to`. Returns its end, and where to go on.
+ */
+static char *unquote(char *to, const char *from, char **rest) {
+    const char *end = end_of_quotes(from);
+    for (++from; from < end; ++from) {
+        if (*from == '"') ++from;
+        *to++ = *from;
     }
-    while (*from && *from != separator && *from != '\n') *to++ = *from++;
+    *rest = (char *)end + (*end == '"');
+    return to;
+}
+
+support_csv_field support_csv_next(char **at, char separator) {
+    const char ends[] = {separator, '\n', '\0'};
+    char *from = *at, *to, *least;
+    while (*from == ' ') ++from;
+    support_csv_field field = {.text = from, .quoted = *from == '"'};
+    to = least = from;
+    if (field.quoted) to = least = unquote(to, from, &from);
+    const size_t moved = (size_t)(from - to);
+    from += strcspn(from, ends);
+    to = from - moved;
+    if (moved) memmove(least, least + moved, (size_t)(to - least));
     field.last = *from != separator;
-    *at = (char *)from + (*from != '\0');
-    while (to > field.text && to != quoted_end && strchr(" \t\r", to[-1])) to--;
+    *at = from + (*from != '\0');
+    while (to > least && is_blank(to[-1])) to--;
     *to = '\0';
-    if (!field.quoted) field.text += strspn(field.text, " \t\r");
+    if (!field.quoted)
+        while (is_blank(*field.text)) field.text++;
     return field;
 }
 
@@ -79,7 +94,7 @@ bool support_csv_number(char *field, char separator, double *out) {
     char *end, *comma = separator == ';' ? strchr(field, ',') : NULL;
     if (comma) *comma = '.';
     *out = support_decimal(field, &end);
-    const bool whole = end != field && !end[strspn(end, " \t")];
+    const bool whole = end != field && (!*end || !end[strspn(end, " 	")]);
     if (comma) *comma = ',';
     return whole;
 }

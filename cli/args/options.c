@@ -109,8 +109,10 @@ static int refuse_unknown(const cli_part *parts, const char *word) {
 /* ----------------------------------------------------------------- values -- */
 
 static int refuse_value(const cli_option *option, const char *text, const char *wanted) {
-    return cli_fail(CLI_USE, NULL, "%s%s: '%s' is not %s.", option->name ? "--" : "",
-                    option->name ? option->name : option->value, text, wanted);
+    const char *const named = option->name ? option->name : option->value, *const dashes = option->name ? "--" : "";
+    const char *const sentence = option->sentence;
+    if (sentence) return cli_fail(CLI_USE, NULL, "%s%s: '%s' is not %s. %s", dashes, named, text, wanted, sentence);
+    return cli_fail(CLI_USE, NULL, "%s%s: '%s' is not %s.", dashes, named, text, wanted);
 }
 
 static int set_whole(const cli_option *option, uint64_t *field, const char *text) {

@@ -51,6 +51,7 @@ typedef struct cli_option {
     uint64_t min, max;          /**< CLI_WHOLE; max 0: no limit */
     const char *const *choices; /**< CLI_CHOICE; ended by NULL */
     const char *alias;          /**< another long name, or NULL */
+    const char *sentence;       /**< CLI_CHOICE: behind the refusal of another value, or NULL */
 } cli_option;
 
 /** A table and where its struct lies within the command's arguments, so that

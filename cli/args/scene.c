@@ -10,8 +10,9 @@ static const char *const faces[] = {[FROE_FACES_TRIANGLES] = "triangles", [FROE_
 
 const cli_option cli_scene_options[] = {
     {NULL, 0, CLI_TEXT, offsetof(cli_scene_args, path), "SCENE", .help = "map, model or CSV file", .required = true},
-    {"format", 0, CLI_TEXT, offsetof(cli_scene_args, format), "EXT",
-     .help = "of SCENE from standard input (-) or a pipe: the usual extension of its files, e.g. geojson"},
+    {"input-format", 0, CLI_TEXT, offsetof(cli_scene_args, format), "EXT",
+     .help = "of SCENE from standard input (-) or a pipe: the usual extension of its files, e.g. geojson",
+     .alias = "format"},
     {"layer", 0, CLI_TEXT, offsetof(cli_scene_args, layer), "NAME",
      .help = "maps: read this layer only (default: all)"},
     {"where", 0, CLI_TEXT, offsetof(cli_scene_args, where), "FILTER",

@@ -34,12 +34,12 @@ int cli_spool_open(const char *path, const char *format, cli_spool *out) {
                       (!stat(path, &about) && !S_ISREG(about.st_mode) && !S_ISDIR(about.st_mode));
     if (!once && format)
         return cli_fail(CLI_USE, path,
-                        "The format is known by the file itself. --format is for standard input and pipes.");
+                        "The format is known by the file itself. --input-format is for standard input and pipes.");
     if (!once) return 0;
     if (!format || !*format || strlen(format) > 15 ||
         strspn(format, "abcdefghijklmnopqrstuvwxyz0123456789") < strlen(format))
         return cli_fail(CLI_USE, out->name,
-                        "The format must be named, as in --format geojson: the usual extension of its files.");
+                        "The format must be named, as in --input-format geojson: the usual extension of its files.");
     const char *folders = getenv("TMPDIR");
     snprintf(out->folder, sizeof out->folder, "%s/froe-XXXXXX", folders && *folders ? folders : "/tmp");
     if (!mkdtemp(out->folder)) {

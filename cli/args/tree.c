@@ -37,8 +37,12 @@ static int open_saved(const cli_tree_args *args, froe_tree **tree) {
     const struct {
         bool given;
         const char *name;
-    } options[] = {{args->scene.format, "format"},    {args->scene.layer, "layer"}, {args->scene.where, "where"},
-                   {args->scene.faces >= 0, "faces"}, {args->scene.boxes, "boxes"}, {args->method, "method"},
+    } options[] = {{args->scene.format, "input-format"},
+                   {args->scene.layer, "layer"},
+                   {args->scene.where, "where"},
+                   {args->scene.faces >= 0, "faces"},
+                   {args->scene.boxes, "boxes"},
+                   {args->method, "method"},
                    {args->save, "save-tree"}};
     for (size_t i = 0; i < sizeof options / sizeof *options; i++)
         if (options[i].given)

@@ -22,46 +22,27 @@ static const cli_option options[] = {
     {0},
 };
 
-static const cli_part parts[] = {CLI_TREE_PART(locate_args),
-                                 {"Locate", options, 0},
-                                 {"Queries", cli_query_options, offsetof(locate_args, query)},
-                                 CLI_TREE_BUILD_PARTS(locate_args),
-                                 {"Options", cli_common_options, 0},
-                                 {0}};
+static const cli_part parts[] = {CLI_TREE_PART(locate_args),         {"Locate", options, 0},
+                                 CLI_QUERY_PARTS(locate_args),       CLI_TREE_BUILD_PARTS(locate_args),
+                                 {"Options", cli_common_options, 0}, {0}};
 
-static void put_group(cli_answers *out, uint32_t group) {
-    if (group == FROE_NONE)
-        cli_answers_none(out);
-    else
-        cli_answers_whole(out, group);
-}
-
-/* "query,object,group": objects with the groups they belong to, then the other groups that the point lies in. */
-static void put_all(const froe_scene *scene, const cli_block *block, const froe_answers *objects,
-                    const froe_answers *groups, cli_answers *out) {
-    for (size_t i = 0; i < block->count; i++) {
+/* Objects with the groups they belong to, then the other groups that the point lies in. */
+static void put_all(const froe_scene *scene, const froe_answers *objects, const froe_answers *groups, cli_table *out) {
+    for (size_t i = 0; i < objects->queries; i++) {
         const uint32_t *found = objects->ids + objects->starts[i];
         const size_t count = objects->starts[i + 1] - objects->starts[i];
-        for (size_t j = 0; j < count; j++) {
-            cli_answers_whole(out, block->ids[i]);
-            cli_answers_whole(out, found[j]);
-            put_group(out, froe_scene_object(scene, found[j]).group);
-            cli_answers_end(out);
-        }
+        for (size_t j = 0; j < count; j++)
+            cli_table_put(out, &(cli_answer){.at = i, .object = found[j], .group = FROE_NONE});
         for (size_t j = groups->queries ? groups->starts[i] : 0; groups->queries && j < groups->starts[i + 1]; j++) {
             bool told = false; /* does one of the objects belong to the group? */
             for (size_t k = 0; k < count && !told; k++)
                 told = froe_scene_object(scene, found[k]).group == groups->ids[j];
-            if (told) continue;
-            cli_answers_whole(out, block->ids[i]);
-            cli_answers_none(out);
-            put_group(out, groups->ids[j]);
-            cli_answers_end(out);
+            if (!told) cli_table_put(out, &(cli_answer){.at = i, .object = FROE_NONE, .group = groups->ids[j]});
         }
     }
 }
 
-static froe_status answer_point(const void *given, const cli_asked *asked, const cli_block *block, cli_answers *out,
+static froe_status answer_point(const void *given, const cli_asked *asked, const cli_block *block, cli_table *out,
                                 froe_diagnostic *diag) {
     const locate_args *args = given;
     const bool areas = asked->dim == 2 && froe_scene_group_count(asked->scene) > 0;
@@ -71,47 +52,42 @@ static froe_status answer_point(const void *given, const cli_asked *asked, const
     if (!status && areas && !args->query.count)
         status = froe_batch_groups(asked->query, cli_block_numbers(block), block->count, &asked->batch, &groups, diag);
     if (!status && args->query.count) {
-        cli_answers_lists(out, block->ids, &objects, true);
+        cli_table_put_lists(out, &objects, true);
     } else if (!status) {
-        cli_answers_sort(&objects);
-        put_all(asked->scene, block, &objects, &groups, out);
+        cli_sort_answers(&objects);
+        put_all(asked->scene, &objects, &groups, out);
     }
     froe_answers_free(&objects);
     froe_answers_free(&groups);
     return status;
 }
 
-static froe_status answer_groups(const void *given, const cli_asked *asked, const cli_block *block, cli_answers *out,
+static froe_status answer_groups(const void *given, const cli_asked *asked, const cli_block *block, cli_table *out,
                                  froe_diagnostic *diag) {
     const locate_args *args = given;
     froe_answers groups = {0};
     const froe_status status =
         froe_batch_groups(asked->query, cli_block_numbers(block), block->count, &asked->batch, &groups, diag);
     if (status) return status;
-    if (args->query.count) cli_answers_lists(out, block->ids, &groups, true);
+    if (args->query.count) cli_table_put_lists(out, &groups, true);
     for (size_t i = 0; i < block->count && !args->query.count; i++)
-        for (size_t j = groups.starts[i]; j < groups.starts[i + 1]; j++) { /* "query,group,name" */
-            cli_answers_whole(out, block->ids[i]);
-            cli_answers_whole(out, groups.ids[j]);
-            cli_answers_name(out, froe_scene_group(asked->scene, groups.ids[j]).name);
-            cli_answers_end(out);
-        }
+        for (size_t j = groups.starts[i]; j < groups.starts[i + 1]; j++)
+            cli_table_put(out, &(cli_answer){.at = i, .object = FROE_NONE, .group = groups.ids[j]});
     froe_answers_free(&groups);
     return FROE_OK;
 }
 
 /* Above or below. */
-static froe_status answer_vertical(const void *given, const cli_asked *asked, const cli_block *block, cli_answers *out,
+static froe_status answer_vertical(const void *given, const cli_asked *asked, const cli_block *block, cli_table *out,
                                    froe_diagnostic *diag) {
     const locate_args *args = given;
     uint32_t objects[CLI_BLOCK];
     const froe_status status = froe_batch_vertical(asked->query, cli_block_numbers(block), block->count,
                                                    args->above ? 1 : -1, &asked->batch, objects, diag);
     for (size_t i = 0; !status && i < block->count; i++) {
-        if (args->query.count)
-            cli_answers_pair(out, block->ids[i], objects[i] != FROE_NONE);
-        else if (objects[i] != FROE_NONE)
-            cli_answers_pair(out, block->ids[i], objects[i]);
+        const bool found = objects[i] != FROE_NONE;
+        if (found || args->query.count)
+            cli_table_put(out, &(cli_answer){.at = i, .object = objects[i], .group = FROE_NONE, .count = found});
     }
     return status;
 }
@@ -123,13 +99,12 @@ static int run_locate(const void *given) {
         return cli_fail(CLI_USE, NULL, "--groups: It excludes --above and --below.");
     cli_queries queries = {
         .common = &args->common, .tree = &args->tree, .args = &args->query, .columns = columns, .given = args};
-    if (args->above || args->below)
-        queries.answer = answer_vertical, queries.header = "query,object";
-    else if (args->groups)
-        queries.answer = answer_groups, queries.header = "query,group,name";
-    else
-        queries.answer = answer_point, queries.header = "query,object,group";
-    if (args->query.count) queries.header = "query,count";
+    static const char objects[] = "query,object,group,name,id";
+    queries.answer = args->above || args->below ? answer_vertical : args->groups ? answer_groups : answer_point;
+    queries.kind = args->above || args->below ? (cli_answer_kind){"query,object", objects, CLI_SHAPE_QUERY}
+                   : args->groups ? (cli_answer_kind){"query,group,name", "query,group,name,id", CLI_SHAPE_QUERY}
+                                  : (cli_answer_kind){"query,object,group", objects, CLI_SHAPE_QUERY};
+    if (args->query.count) queries.kind = CLI_COUNTS(CLI_SHAPE_QUERY);
     return cli_queries_run(&queries);
 }
 
@@ -142,13 +117,17 @@ const cli_command cli_command_locate = {
              "holes left out. With --groups, only lines query,group,name: which country is this point in? A point on a "
              "border is in all groups whose border it is; features that are lines contain only their own points. With "
              "--above or --below, one line query,object for each point that has a segment there. Objects are closed, "
-             "and answers are exact. A query's number is that of its row, from 0.\n\n"
-             "With --json a summary takes the place of the answers: how many there are, and what was visited for them.",
+             "and answers are exact. A query's number is that of its row, from 0.\n\n" CLI_TABLE_ABOUT(
+                 "query, object, group, name, id") "\n\n"
+                                                   "With --json a summary takes the place of the answers: how many "
+                                                   "there are, and what was visited for them.",
     .examples =
         "froe locate countries.geojson --queries towns.csv --groups\nfroe locate house.glb --queries sensors.csv\n"
+        "froe locate countries.geojson --queries towns.csv --groups --columns '*,name'\n"
         "froe locate map.gpkg --layer roads --queries towns.csv --above\n",
     .parts = parts,
-    .defaults = &(const locate_args){.common = CLI_COMMON_DEFAULTS, .tree = CLI_TREE_DEFAULTS},
+    .defaults = &(
+        const locate_args){.common = CLI_COMMON_DEFAULTS, .tree = CLI_TREE_DEFAULTS, .query.table = CLI_TABLE_DEFAULTS},
     .size = sizeof(locate_args),
     .run = run_locate,
 };

@@ -23,14 +23,11 @@ static const cli_option options[] = {
     {0},
 };
 
-static const cli_part parts[] = {CLI_TREE_PART(near_args),
-                                 {"Near", options, 0},
-                                 {"Queries", cli_query_options, offsetof(near_args, query)},
-                                 CLI_TREE_BUILD_PARTS(near_args),
-                                 {"Options", cli_common_options, 0},
-                                 {0}};
+static const cli_part parts[] = {CLI_TREE_PART(near_args),           {"Near", options, 0},
+                                 CLI_QUERY_PARTS(near_args),         CLI_TREE_BUILD_PARTS(near_args),
+                                 {"Options", cli_common_options, 0}, {0}};
 
-static froe_status answer_near(const void *given, const cli_asked *asked, const cli_block *block, cli_answers *out,
+static froe_status answer_near(const void *given, const cli_asked *asked, const cli_block *block, cli_table *out,
                                froe_diagnostic *diag) {
     const near_args *args = given;
     froe_answers answers;
@@ -39,13 +36,10 @@ static froe_status answer_near(const void *given, const cli_asked *asked, const 
     if (status) return status;
     for (size_t i = 0; i < block->count; i++) {
         const size_t first = answers.starts[i], end = answers.starts[i + 1];
-        if (args->query.count) cli_answers_pair(out, block->ids[i], end - first);
-        for (size_t j = first; j < end && !args->query.count; j++) {
-            cli_answers_whole(out, block->ids[i]);
-            cli_answers_whole(out, answers.ids[j]);
-            cli_answers_real(out, answers.values[j]);
-            cli_answers_end(out);
-        }
+        if (args->query.count) cli_table_put(out, &(cli_answer){.at = i, .object = FROE_NONE, .count = end - first});
+        for (size_t j = first; j < end && !args->query.count; j++)
+            cli_table_put(
+                out, &(cli_answer){.at = i, .object = answers.ids[j], .group = FROE_NONE, .value = answers.values[j]});
     }
     froe_answers_free(&answers);
     return FROE_OK;
@@ -54,27 +48,42 @@ static froe_status answer_near(const void *given, const cli_asked *asked, const 
 static int run_near(const void *given) {
     const near_args *args = given;
     if (args->bound < 0) return cli_fail(CLI_USE, NULL, "--within: '%g' is not a number >= 0.", args->bound);
-    const cli_queries queries = {.common = &args->common,
-                                 .tree = &args->tree,
-                                 .args = &args->query,
-                                 .columns = columns,
-                                 .header = args->query.count ? "query,count" : "query,object,distance",
-                                 .answer = answer_near,
-                                 .given = args};
+    const cli_queries queries = {
+        .common = &args->common,
+        .tree = &args->tree,
+        .args = &args->query,
+        .columns = columns,
+        .kind = args->query.count ? CLI_COUNTS(CLI_SHAPE_QUERY)
+                                  : (cli_answer_kind){"query,object,distance",
+                                                      "query,object,group,name,id,distance,point", CLI_SHAPE_NEAREST},
+        .answer = answer_near,
+        .given = args};
     return cli_queries_run(&queries);
 }
 
-const cli_command cli_command_near = {
-    .name = "near",
-    .summary = "find the objects nearest to points",
-    .about = "Prints one line query,object,distance for each of the K objects nearest to a point, nearest first; equal "
-             "distances by object. Distances are compared exactly, and printed as the doubles nearest to them; 0 means "
-             "that the point is in the object. A query's number is that of its row, from 0.\n\n"
-             "With --json a summary takes the place of the answers: how many there are, and what was visited for them.",
-    .examples =
-        "froe near map.geojson --queries towns.csv -k 3\nfroe near house.glb --queries lamps.csv --within 0.5\n",
-    .parts = parts,
-    .defaults = &(const near_args){.common = CLI_COMMON_DEFAULTS, .tree = CLI_TREE_DEFAULTS, .k = 1, .bound = INFINITY},
-    .size = sizeof(near_args),
-    .run = run_near,
+const cli_command
+    cli_command_near =
+        {
+            .name = "near",
+            .summary = "find the objects nearest to points",
+            .about = "Prints one line query,object,distance for each of the K objects nearest to a point, nearest "
+                     "first; equal "
+                     "distances by object. Distances are compared exactly, and printed as the doubles nearest to them; "
+                     "0 means "
+                     "that the point is in the object. A query's number is that of its row, from "
+                     "0.\n\n" CLI_TABLE_ABOUT("query, object, group, name, id, distance and point (of the object, the "
+                                              "nearest one)") "\n\n"
+                                                              "With --json a summary takes the place of the answers: "
+                                                              "how many there are, and what was visited for them.",
+            .examples =
+                "froe near map.geojson --queries towns.csv -k 3\nfroe near house.glb --queries lamps.csv --within 0.5\n"
+                "froe near roads.gpkg --queries towns.csv --columns '*,name,distance,point' --format geojson\n",
+            .parts = parts,
+            .defaults = &(const near_args){.common = CLI_COMMON_DEFAULTS,
+                                           .tree = CLI_TREE_DEFAULTS,
+                                           .query.table = CLI_TABLE_DEFAULTS,
+                                           .k = 1,
+                                           .bound = INFINITY},
+            .size = sizeof(near_args),
+            .run = run_near,
 };

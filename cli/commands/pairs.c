@@ -3,15 +3,15 @@
 #include "command.h"
 #include "exit.h"
 #include "progress.h"
-#include "queries/answers.h"
 #include "queries/queries.h"
 #include "report/report.h"
-#include <inttypes.h>
+#include "support/fail.h"
 #include <stdlib.h>
 
 typedef struct pairs_args {
     cli_common common;
     cli_tree_args tree;
+    cli_table_args table;
     bool count, no_corners;
 } pairs_args;
 
@@ -24,6 +24,7 @@ static const cli_option options[] = {
 
 static const cli_part parts[] = {CLI_TREE_PART(pairs_args),
                                  {"Pairs", options, 0},
+                                 {"Answers", cli_table_options, offsetof(pairs_args, table)},
                                  CLI_TREE_BUILD_PARTS(pairs_args),
                                  {"Options", cli_common_options, 0},
                                  {0}};
@@ -31,7 +32,7 @@ static const cli_part parts[] = {CLI_TREE_PART(pairs_args),
 static const char *const kinds[] = {"cross", "touch", "overlap"};
 
 typedef struct writing {
-    cli_answers out;
+    cli_table table;
     cli_progress bar;
     double objects;
     uint64_t counts[3];
@@ -41,44 +42,53 @@ typedef struct writing {
 static bool put_pair(void *user, const froe_pair *pair) {
     writing *w = user;
     w->counts[pair->kind]++;
-    if (!w->mute) {
-        cli_answers_whole(&w->out, pair->a);
-        cli_answers_whole(&w->out, pair->b);
-        cli_answers_text(&w->out, kinds[pair->kind]);
-        cli_answers_end(&w->out);
-    }
+    if (!w->mute)
+        cli_table_put(
+            &w->table,
+            &(cli_answer){.object = pair->a, .other = pair->b, .group = FROE_NONE, .kind = kinds[pair->kind]});
     w->stopped = !cli_progress_step(&w->bar, pair->a / w->objects);
-    return !w->stopped;
+    return !w->stopped && !w->table.status;
+}
+
+static int report_pairs(const pairs_args *args, const writing *w) {
+    return cli_report(&args->common, NULL,
+                      json_pack("{s:o, s:I, s:I, s:I, s:o}", "tree", cli_name_json(args->tree.scene.path), kinds[0],
+                                (json_int_t)w->counts[0], kinds[1], (json_int_t)w->counts[1], kinds[2],
+                                (json_int_t)w->counts[2], "visited", cli_statistics_json(w->table.query)));
+}
+
+/* Finds the pairs, for the table that is open. */
+static int put_pairs(const pairs_args *args, writing *w) {
+    froe_diagnostic diag;
+    froe_batch_options o = froe_batch_defaults();
+    o.threads = (unsigned)args->common.threads;
+    w->objects = (double)froe_scene_object_count(w->table.scene);
+    w->mute = args->count || args->common.json;
+    w->bar = cli_progress_begin(&args->common, "searching");
+    froe_status status = froe_batch_pairs(w->table.query, !args->no_corners, &o, put_pair, w, &diag);
+    cli_progress_end(&w->bar);
+    for (int i = 0; i < 3 && args->count && !status; i++)
+        cli_table_put(&w->table, &(cli_answer){.kind = kinds[i], .count = w->counts[i]});
+    const int closed = cli_table_close(&w->table);
+    if (!status && w->table.status) status = support_fail_memory(&diag);
+    if (status) return cli_fail_status(CLI_WORKING, args->tree.scene.path, status, &diag);
+    const int reported = args->common.json ? report_pairs(args, w) : 0;
+    if (w->stopped) return cli_fail(CLI_CANCELLED, NULL, "Cancelled.");
+    return closed ? closed : reported;
 }
 
 static int ask(const pairs_args *args, const froe_tree *tree, writing *w) {
+    const cli_answer_kind kind = {"a,b,kind", "a,b,kind,a_group,a_name,a_id,b_group,b_name,b_id", CLI_SHAPE_PAIR},
+                          counts = {"kind,count", "kind,count", CLI_SHAPE_NONE};
     froe_query *query;
     froe_diagnostic diag;
-    froe_status status = froe_query_new(tree, &query, &diag);
+    const froe_status status = froe_query_new(tree, &query, &diag);
     if (status) return cli_fail_status(CLI_WORKING, args->tree.scene.path, status, &diag);
-    w->objects = (double)froe_scene_object_count(froe_tree_scene(tree));
-    w->mute = args->count || args->common.json;
-    w->bar = cli_progress_begin(&args->common, "searching");
-    if (!args->common.json) printf("%s\n", args->count ? "kind,count" : "a,b,kind");
-    froe_batch_options o = froe_batch_defaults();
-    o.threads = (unsigned)args->common.threads;
-    status = froe_batch_pairs(query, !args->no_corners, &o, put_pair, w, &diag);
-    cli_progress_end(&w->bar);
-    int code = 0;
-    if (status) {
-        code = cli_fail_status(CLI_WORKING, args->tree.scene.path, status, &diag);
-    } else if (args->common.json) {
-        code = cli_report(&args->common, NULL,
-                          json_pack("{s:o, s:I, s:I, s:I, s:o}", "tree", cli_name_json(args->tree.scene.path), kinds[0],
-                                    (json_int_t)w->counts[0], kinds[1], (json_int_t)w->counts[1], kinds[2],
-                                    (json_int_t)w->counts[2], "visited", cli_statistics_json(query)));
-    } else {
-        for (int i = 0; i < 3 && args->count; i++) printf("%s,%" PRIu64 "\n", kinds[i], w->counts[i]);
-        cli_answers_flush(&w->out);
-        code = cli_flush();
-    }
+    int code = cli_table_open(&args->common, &args->table, args->count ? &counts : &kind, NULL, froe_tree_scene(tree),
+                              query, &w->table);
+    if (!code) code = put_pairs(args, w);
     froe_query_free(query);
-    return w->stopped && !status ? cli_fail(CLI_CANCELLED, NULL, "Cancelled.") : code;
+    return code;
 }
 
 static int run_pairs(const void *given) {
@@ -101,10 +111,12 @@ const cli_command cli_command_pairs = {
     .about = "Prints one line a,b,kind for each pair of objects that have a point in common, a < b, by a, then b. "
              "They cross when their relative interiors meet in less than the dimension of either, overlap when they "
              "share a piece of the dimension of the lower one, and touch when they meet otherwise. All of it is "
-             "decided exactly.",
+             "decided exactly. With --columns, each line has what is named there: a, b, kind, and of the two objects "
+             "a_group, a_name, a_id, b_group, b_name and b_id.",
     .examples = "froe pairs floor.geojson --no-corners\nfroe pairs house.glb --count\n",
     .parts = parts,
-    .defaults = &(const pairs_args){.common = CLI_COMMON_DEFAULTS, .tree = CLI_TREE_DEFAULTS},
+    .defaults =
+        &(const pairs_args){.common = CLI_COMMON_DEFAULTS, .tree = CLI_TREE_DEFAULTS, .table = CLI_TABLE_DEFAULTS},
     .size = sizeof(pairs_args),
     .run = run_pairs,
 };

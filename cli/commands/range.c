@@ -51,12 +51,9 @@ static const cli_option options[] = {
     {0},
 };
 
-static const cli_part parts[] = {CLI_TREE_PART(range_args),
-                                 {"Range", options, 0},
-                                 {"Queries", cli_query_options, offsetof(range_args, query)},
-                                 CLI_TREE_BUILD_PARTS(range_args),
-                                 {"Options", cli_common_options, 0},
-                                 {0}};
+static const cli_part parts[] = {CLI_TREE_PART(range_args),          {"Range", options, 0},
+                                 CLI_QUERY_PARTS(range_args),        CLI_TREE_BUILD_PARTS(range_args),
+                                 {"Options", cli_common_options, 0}, {0}};
 
 /* Makes froe_ranges of a block. Returns how many can be asked about: the one behind them has not as many rows as it
  * must. normals, offsets: room for the halfspaces of all rows. */
@@ -86,7 +83,7 @@ static size_t lay_ranges(const range_args *args, size_t dim, const cli_block *bl
     return block->count;
 }
 
-static froe_status answer_range(const void *given, const cli_asked *asked, const cli_block *block, cli_answers *out,
+static froe_status answer_range(const void *given, const cli_asked *asked, const cli_block *block, cli_table *out,
                                 froe_diagnostic *diag) {
     const range_args *args = given;
     const size_t rows = block->starts[block->count];
@@ -103,7 +100,7 @@ static froe_status answer_range(const void *given, const cli_asked *asked, const
     } else {
         status = support_fail_memory(diag);
     }
-    if (!status) cli_answers_lists(out, block->ids, &answers, args->query.count);
+    if (!status) cli_table_put_lists(out, &answers, args->query.count);
     froe_answers_free(&answers);
     free(ranges), free(normals), free(offsets);
     return status;
@@ -112,13 +109,15 @@ static froe_status answer_range(const void *given, const cli_asked *asked, const
 static int run_range(const void *given) {
     const range_args *args = given;
     if (args->eps < 0) return cli_fail(CLI_USE, NULL, "--eps: '%g' is not a number >= 0.", args->eps);
-    const cli_queries queries = {.common = &args->common,
-                                 .tree = &args->tree,
-                                 .args = &args->query,
-                                 .columns = columns[args->shape],
-                                 .header = args->query.count ? "query,count" : "query,object",
-                                 .answer = answer_range,
-                                 .given = args};
+    const cli_queries queries = {
+        .common = &args->common,
+        .tree = &args->tree,
+        .args = &args->query,
+        .columns = columns[args->shape],
+        .kind = args->query.count ? CLI_COUNTS(CLI_SHAPE_NONE)
+                                  : (cli_answer_kind){"query,object", "query,object,group,name,id", CLI_SHAPE_OBJECT},
+        .answer = answer_range,
+        .given = args};
     return cli_queries_run(&queries);
 }
 
@@ -132,12 +131,15 @@ const cli_command cli_command_range = {
         "Columns of the CSV, where x,y is x,y,z in space: box lo_x,lo_y,hi_x,hi_y (inf and -inf are bounds, too); "
         "ball x,y,r; capsule ax,ay,bx,by,r; segment ax,ay,bx,by; ray ox,oy,dx,dy. Of simplex and hull, query,x,y, "
         "each row is a corner; of halfspaces, query,nx,ny,c, each row is a halfspace n . x <= c; rows of one query "
-        "follow each other.\n\n"
-        "With --json a summary takes the place of the answers: how many there are, and what was visited for them.",
+        "follow each other.\n\n" CLI_TABLE_ABOUT(
+            "query, object, group, name, id") "\n\n"
+                                              "With --json a summary takes the place of the answers: how many there "
+                                              "are, and what was visited for them.",
     .examples = "froe range floor.geojson --queries windows.csv\n"
                 "froe range floor.geojson --queries discs.csv --shape ball --count\n",
     .parts = parts,
-    .defaults = &(const range_args){.common = CLI_COMMON_DEFAULTS, .tree = CLI_TREE_DEFAULTS},
+    .defaults = &(
+        const range_args){.common = CLI_COMMON_DEFAULTS, .tree = CLI_TREE_DEFAULTS, .query.table = CLI_TABLE_DEFAULTS},
     .size = sizeof(range_args),
     .run = run_range,
 };

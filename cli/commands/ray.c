@@ -28,12 +28,12 @@ static const cli_option options[] = {
 
 static const cli_part parts[] = {CLI_TREE_PART(ray_args),
                                  {"Ray", options, 0},
-                                 {"Queries", cli_query_options, offsetof(ray_args, query)},
+                                 CLI_QUERY_PARTS(ray_args),
                                  CLI_TREE_BUILD_PARTS(ray_args),
                                  {"Options", cli_common_options, 0},
                                  {0}};
 
-static froe_status answer_ray(const void *given, const cli_asked *asked, const cli_block *block, cli_answers *out,
+static froe_status answer_ray(const void *given, const cli_asked *asked, const cli_block *block, cli_table *out,
                               froe_diagnostic *diag) {
     const ray_args *args = given;
     const size_t count = block->count, dim = asked->dim;
@@ -53,13 +53,12 @@ static froe_status answer_ray(const void *given, const cli_asked *asked, const c
     for (size_t i = 0; i < count && !status; i++) {
         const size_t begin = args->all ? all.starts[i] : 0;
         const size_t end = args->all ? all.starts[i + 1] : first[i].object != FROE_NONE;
-        if (args->query.count) cli_answers_pair(out, block->ids[i], end - begin);
-        for (size_t j = begin; j < end && !args->query.count; j++) {
-            cli_answers_whole(out, block->ids[i]);
-            cli_answers_whole(out, args->all ? all.ids[j] : first[i].object);
-            cli_answers_real(out, args->all ? all.values[j] : first[i].t);
-            cli_answers_end(out);
-        }
+        if (args->query.count) cli_table_put(out, &(cli_answer){.at = i, .object = FROE_NONE, .count = end - begin});
+        for (size_t j = begin; j < end && !args->query.count; j++)
+            cli_table_put(out, &(cli_answer){.at = i,
+                                             .object = args->all ? all.ids[j] : first[i].object,
+                                             .group = FROE_NONE,
+                                             .value = args->all ? all.values[j] : first[i].t});
     }
     froe_answers_free(&all);
     free(origins), free(directions), free(first);
@@ -73,7 +72,11 @@ static int run_ray(const void *given) {
                                  .tree = &args->tree,
                                  .args = &args->query,
                                  .columns = columns,
-                                 .header = args->query.count ? "query,count" : "query,object,t",
+                                 .kind = args->query.count
+                                             ? CLI_COUNTS(CLI_SHAPE_NONE)
+                                             : (cli_answer_kind){"query,object,t",
+                                                                 "query,object,group,name,id,t,distance,point,normal",
+                                                                 CLI_SHAPE_HIT},
                                  .answer = answer_ray,
                                  .given = args};
     return cli_queries_run(&queries);
@@ -85,11 +88,17 @@ const cli_command cli_command_ray = {
     .about = "Prints one line query,object,t for each ray that meets an object: the first one, met at origin + t "
              "direction; of several met at the same point, the one with the lowest number. With --all one line for "
              "each object met, by t, then object. Objects are closed, the order is decided exactly, and t is the "
-             "double nearest to the exact parameter. A query's number is that of its row, from 0.\n\n"
-             "With --json a summary takes the place of the answers: how many there are, and what was visited for them.",
+             "double nearest to the exact parameter. A query's number is that of its row, from 0.\n\n" CLI_TABLE_ABOUT(
+                 "query, object, group, name, id, t, distance, point (where it is met) and normal (of length 1, of the "
+                 "face that is met)") "\n\n"
+                                      "With --json a summary takes the place of the answers: how many there are, and "
+                                      "what was visited for them.",
     .examples = "froe ray house.glb --queries sight.csv\nfroe ray floor.geojson --queries beams.csv --all --t-max 1\n",
     .parts = parts,
-    .defaults = &(const ray_args){.common = CLI_COMMON_DEFAULTS, .tree = CLI_TREE_DEFAULTS, .t_max = INFINITY},
+    .defaults = &(const ray_args){.common = CLI_COMMON_DEFAULTS,
+                                  .tree = CLI_TREE_DEFAULTS,
+                                  .query.table = CLI_TABLE_DEFAULTS,
+                                  .t_max = INFINITY},
     .size = sizeof(ray_args),
     .run = run_ray,
 };

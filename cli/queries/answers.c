@@ -1,51 +1,21 @@
-/* answers.c: numbers as text, gathered in a buffer. */
+/* answers.c: cells as text, gathered in a buffer. */
 #include "queries/answers.h"
+#include "support/utf8.h"
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { CELL = 40 }; /* a number and what follows it */
 
-void cli_answers_flush(cli_answers *out) {
+static void flush_answers(cli_answers *out) {
     if (!out->mute) fwrite(out->text, 1, out->length, stdout);
     out->length = 0;
 }
 
 static char *room(cli_answers *out) {
-    if (out->length + CELL > sizeof out->text) cli_answers_flush(out);
+    if (out->length + CELL > sizeof out->text) flush_answers(out);
     return out->text + out->length;
-}
-
-/* Ends a cell of `length` bytes. */
-static void end_cell(cli_answers *out, size_t length) {
-    out->text[out->length + length] = ',';
-    out->length += length + 1;
-}
-
-void cli_answers_whole(cli_answers *out, uint64_t value) {
-    char digits[CELL], *to = room(out);
-    size_t count = 0;
-    do digits[count++] = (char)('0' + value % 10);
-    while (value /= 10);
-    for (size_t i = 0; i < count; i++) to[i] = digits[count - 1 - i];
-    end_cell(out, count);
-}
-
-void cli_answers_real(cli_answers *out, double value) {
-    char *to = room(out);
-    int length = 0;
-    for (int digits = 15; digits <= 17; digits++) { /* "%.15g" leaves out zeros at the end */
-        length = snprintf(to, CELL, "%.*g", digits, value);
-        if (strtod(to, NULL) == value) break;
-    }
-    end_cell(out, (size_t)length);
-}
-
-void cli_answers_text(cli_answers *out, const char *value) {
-    size_t length = strlen(value);
-    if (length >= CELL) length = CELL - 1;
-    memcpy(room(out), value, length);
-    end_cell(out, length);
 }
 
 static void put(cli_answers *out, char c) {
@@ -53,51 +23,166 @@ static void put(cli_answers *out, char c) {
     out->length++;
 }
 
-void cli_answers_name(cli_answers *out, const char *value) {
-    const bool quoted = strpbrk(value, ",\"\r\n");
-    if (quoted) put(out, '"');
-    for (const char *c = value; *c; c++) {
-        if (*c == '"') put(out, '"');
-        put(out, *c);
+static void put_bytes(cli_answers *out, const char *text, size_t length) {
+    while (length) {
+        const size_t part = length < CELL ? length : CELL - 1;
+        memcpy(room(out), text, part);
+        out->length += part;
+        text += part;
+        length -= part;
     }
-    if (quoted) put(out, '"');
-    cli_answers_none(out);
+}
+
+void cli_answers_put(cli_answers *out, const char *text) {
+    put_bytes(out, text, strlen(text));
+}
+
+/* -------------------------------------------------------------------- text -- */
+
+static void put_csv(cli_answers *out, const char *text) {
+    if (!strpbrk(text, ",\"\r\n")) return cli_answers_put(out, text);
+    put(out, '"');
+    for (; *text; text++) {
+        if (*text == '"') put(out, '"');
+        put(out, *text);
+    }
+    put(out, '"');
+}
+
+/* What is no UTF-8 becomes the character that stands for it, U+FFFD. */
+static void put_json(cli_answers *out, const char *text) {
+    put(out, '"');
+    while (*text) {
+        const size_t length = support_utf8_length(text);
+        if (!length || (unsigned char)*text < 0x20 || *text == 0x7f)
+            out->length += (size_t)snprintf(room(out), CELL, "\\u%04x", length ? (unsigned)*text : 0xfffdu);
+        else if (*text == '"' || *text == '\\')
+            put(out, '\\'), put(out, *text);
+        else
+            put_bytes(out, text, length);
+        text += length ? length : 1;
+    }
+    put(out, '"');
+}
+
+/* Is it a number as JSON has them? -1.5e-3 is, 007, .5 and +1 are not. */
+static bool is_json_number(const char *c) {
+    static const char digits[] = "0123456789";
+    size_t length;
+    c += *c == '-';
+    length = strspn(c, digits);
+    if (!length || (*c == '0' && length > 1)) return false;
+    c += length;
+    if (*c == '.') {
+        length = strspn(++c, digits);
+        if (!length) return false;
+        c += length;
+    }
+    if (*c == 'e' || *c == 'E') {
+        ++c;
+        c += *c == '+' || *c == '-';
+        length = strspn(c, digits);
+        if (!length) return false;
+        c += length;
+    }
+    return !*c;
+}
+
+/* ------------------------------------------------------------------- cells -- */
+
+/* What stands before a cell. */
+static inline void begin_cell(cli_answers *out) {
+    if (out->format == CLI_CSV) return;
+    put_json(out, out->names[out->column++]);
+    put(out, ':');
+}
+
+static inline void end_cell(cli_answers *out) {
+    put(out, ',');
+}
+
+void cli_answers_whole(cli_answers *out, uint64_t value) {
+    begin_cell(out);
+    char digits[CELL], *to = room(out);
+    size_t count = 0;
+    do digits[count++] = (char)('0' + value % 10);
+    while (value /= 10);
+    for (size_t i = 0; i < count; i++) to[i] = digits[count - 1 - i];
+    out->length += count;
+    end_cell(out);
+}
+
+void cli_answers_number(cli_answers *out, double value) {
+    char *to = room(out);
+    int length = 0;
+    for (int digits = 15; digits <= 17; digits++) { /* "%.15g" leaves out zeros at the end */
+        length = snprintf(to, CELL, "%.*g", digits, value);
+        if (strtod(to, NULL) == value) break;
+    }
+    out->length += (size_t)length;
+}
+
+void cli_answers_real(cli_answers *out, double value) {
+    begin_cell(out);
+    if (out->format != CLI_CSV && !isfinite(value))
+        cli_answers_put(out, "null");
+    else
+        cli_answers_number(out, value);
+    end_cell(out);
+}
+
+void cli_answers_text(cli_answers *out, const char *value) {
+    begin_cell(out);
+    (out->format == CLI_CSV ? put_csv : put_json)(out, value);
+    end_cell(out);
+}
+
+void cli_answers_own(cli_answers *out, const char *value, bool quoted) {
+    if (out->format == CLI_CSV || quoted || !is_json_number(value)) return cli_answers_text(out, value);
+    begin_cell(out);
+    cli_answers_put(out, value);
+    end_cell(out);
 }
 
 void cli_answers_none(cli_answers *out) {
-    room(out);
-    end_cell(out, 0);
+    begin_cell(out);
+    if (out->format != CLI_CSV) cli_answers_put(out, "null");
+    end_cell(out);
+}
+
+/* -------------------------------------------------------------------- rows -- */
+
+void cli_answers_open(cli_answers *out, cli_format format, bool mute, const char *const *names, size_t columns) {
+    out->format = format;
+    out->mute = mute;
+    out->names = names;
+    out->columns = columns;
+    out->length = out->column = 0;
+    out->rows = 0;
+    if (format == CLI_GEOJSON) cli_answers_put(out, "{\"type\":\"FeatureCollection\",\"features\":[\n");
+    for (size_t i = 0; i < columns && format == CLI_CSV; i++) {
+        put_csv(out, names[i]);
+        put(out, i + 1 < columns ? ',' : '\n');
+    }
+}
+
+void cli_answers_begin(cli_answers *out) {
+    out->column = 0;
+    if (out->format == CLI_JSONL) put(out, '{');
+    if (out->format == CLI_GEOJSON)
+        cli_answers_put(out,
+                        out->rows ? ",\n{\"type\":\"Feature\",\"geometry\":" : "{\"type\":\"Feature\",\"geometry\":");
 }
 
 void cli_answers_end(cli_answers *out) {
-    out->text[out->length - 1] = '\n';
+    static const char *const ends[] = {[CLI_CSV] = "\n", [CLI_JSONL] = "}\n", [CLI_GEOJSON] = "}}"};
+    out->length--; /* the last comma */
+    cli_answers_put(out, ends[out->format]);
     out->rows++;
     if (out->mute) out->length = 0;
 }
 
-void cli_answers_pair(cli_answers *out, uint64_t first, uint64_t second) {
-    cli_answers_whole(out, first);
-    cli_answers_whole(out, second);
-    cli_answers_end(out);
-}
-
-static int by_number(const void *a, const void *b) {
-    const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
-    return (x > y) - (x < y);
-}
-
-void cli_answers_sort(froe_answers *answers) {
-    for (size_t i = 0; i < answers->queries; i++) {
-        const size_t first = answers->starts[i], count = answers->starts[i + 1] - first;
-        if (count > 1) qsort(answers->ids + first, count, sizeof *answers->ids, by_number);
-    }
-}
-
-void cli_answers_lists(cli_answers *out, const uint64_t *ids, froe_answers *answers, bool count) {
-    if (!count) cli_answers_sort(answers);
-    for (size_t i = 0; i < answers->queries; i++) {
-        const size_t first = answers->starts[i], end = answers->starts[i + 1];
-        if (count) cli_answers_pair(out, ids[i], end - first);
-        for (size_t j = first; j < end && !count; j++) cli_answers_pair(out, ids[i], answers->ids[j]);
-    }
+void cli_answers_close(cli_answers *out) {
+    if (out->format == CLI_GEOJSON) cli_answers_put(out, out->rows ? "\n]}\n" : "]}\n");
+    flush_answers(out);
 }

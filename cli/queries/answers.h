@@ -1,31 +1,45 @@
-/* answers.h: rows of answers on standard output, millions of them. */
+/* answers.h: rows of answers on standard output, millions of them, as CSV, as lines of JSON, or as GeoJSON.
+ *
+ *     cli_answers_open(&out, CLI_CSV, names, count);
+ *     cli_answers_begin(&out);  cli_answers_whole(&out, 7);  ...  cli_answers_end(&out);     // a row: a cell a column
+ *     cli_answers_close(&out);
+ *
+ * In GeoJSON a row is a feature: its geometry is written between cli_answers_begin() and the first cell, by
+ * cli_answers_put(), and cells are its properties. */
 #ifndef FROE_CLI_ANSWERS_H
 #define FROE_CLI_ANSWERS_H
-#include <froe/query.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
+typedef enum cli_format { CLI_CSV, CLI_JSONL, CLI_GEOJSON } cli_format;
+
 typedef struct cli_answers {
-    uint64_t rows; /**< written so far */
+    cli_format format;
     bool mute;     /**< count them only */
+    uint64_t rows; /**< written so far */
+    const char *const *names;
+    size_t columns, column; /**< the next cell's */
     size_t length;
     char text[1 << 16];
 } cli_answers;
 
-/** Cells of a row, in order; cli_answers_end() ends it. */
-void cli_answers_whole(cli_answers *out, uint64_t value);
-void cli_answers_real(cli_answers *out, double value); /**< with the digits that reading it back needs */
-void cli_answers_text(cli_answers *out, const char *value);
-void cli_answers_name(cli_answers *out, const char *value); /**< any text, quoted where CSV needs it */
-void cli_answers_none(cli_answers *out);                    /**< an empty cell */
+/** What stands before the first row. The names must last. */
+void cli_answers_open(cli_answers *out, cli_format format, bool mute, const char *const *names, size_t columns);
+void cli_answers_begin(cli_answers *out);
 void cli_answers_end(cli_answers *out);
-/** A row "first,second". */
-void cli_answers_pair(cli_answers *out, uint64_t first, uint64_t second);
-/** Puts the ids of each query in ascending order. */
-void cli_answers_sort(froe_answers *answers);
-/** All answers of a batch, as "id,object" by id, then object, or as "id,count". */
-void cli_answers_lists(cli_answers *out, const uint64_t *ids, froe_answers *answers, bool count);
-/** Hands everything to standard output; cli_flush() says whether it arrived. */
-void cli_answers_flush(cli_answers *out);
+/** What stands behind the last row; hands everything to standard output. cli_flush() says whether it arrived. */
+void cli_answers_close(cli_answers *out);
+
+void cli_answers_whole(cli_answers *out, uint64_t value);
+/** With the digits that reading it back needs. JSON has no infinity: null. */
+void cli_answers_real(cli_answers *out, double value);
+void cli_answers_text(cli_answers *out, const char *value); /**< any; quoted where CSV needs it */
+void cli_answers_none(cli_answers *out);                    /**< empty, in JSON null */
+/** Text of a CSV as it stands there; what JSON takes for a number is one there, unless it was `quoted`. */
+void cli_answers_own(cli_answers *out, const char *value, bool quoted);
+
+/** Within geometries: text as it is, and numbers. */
+void cli_answers_put(cli_answers *out, const char *text);
+void cli_answers_number(cli_answers *out, double value);
 #endif

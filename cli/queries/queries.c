@@ -29,7 +29,10 @@ typedef struct query_run {
     double *numbers;
     size_t room; /* for rows */
     uint64_t answered;
-    cli_answers out;
+    size_t *own; /* [columns shown] of each query: where the text begins in `texts` */
+    char *texts;
+    size_t text_length, text_room;
+    cli_table table;
 } query_run;
 
 /* -------------------------------------------------------------------- bad -- */
@@ -69,6 +72,40 @@ static bool is_id(double x) {
     return x >= 0 && x < 0x1p53 && x == floor(x);
 }
 
+/* Keeps the text of the columns of the file that are shown, each behind a mark. */
+static bool keep_own(query_run *r) {
+    const cli_columns *columns = &r->table.columns;
+    for (size_t k = 0; k < columns->own_count; k++) {
+        const support_csv_field *field = &r->rows.fields[columns->own[k]];
+        const size_t length = strlen(field->text) + 2;
+        if (r->text_room - r->text_length < length) {
+            const size_t room = 2 * r->text_room + length + CLI_BLOCK;
+            char *texts = realloc(r->texts, room);
+            if (!texts) return false;
+            r->texts = texts;
+            r->text_room = room;
+        }
+        r->own[r->count * columns->own_count + k] = r->text_length;
+        r->texts[r->text_length] = field->quoted ? '"' : ' ';
+        memcpy(r->texts + r->text_length + 1, field->text, length - 1);
+        r->text_length += length;
+    }
+    return true;
+}
+
+/* The text of the query being gathered, if there is one, moves to the front. */
+static void move_own(query_run *r) {
+    const size_t each = r->table.columns.own_count;
+    if (!each || !r->gathered) {
+        r->text_length = 0;
+        return;
+    }
+    const size_t first = r->own[r->count * each];
+    r->text_length -= first;
+    memmove(r->texts, r->texts + first, r->text_length);
+    for (size_t k = 0; k < each; k++) r->own[k] = r->own[r->count * each + k] - first;
+}
+
 static void add_row(query_run *r, const double *values) {
     const size_t skip = r->grouped;
     if (r->grouped && !is_id(values[0])) {
@@ -86,6 +123,10 @@ static void add_row(query_run *r, const double *values) {
         }
         r->numbers = numbers;
         r->room = room;
+    }
+    if (!r->gathered && !keep_own(r)) {
+        r->code = cli_fail_memory();
+        return;
     }
     memcpy(r->numbers + rows_held(r) * r->width, values + skip, r->width * sizeof *values);
     r->gathered++;
@@ -121,10 +162,17 @@ static void read_block(query_run *r) {
 
 /* The queries first .. first + count of the block. */
 static froe_status answer_rows(query_run *r, size_t first, size_t count, froe_diagnostic *diag) {
-    const cli_block block = {
-        .count = count, .width = r->width, .starts = r->starts + first, .numbers = r->numbers, .ids = r->ids + first};
+    const cli_block block = {.count = count,
+                             .width = r->width,
+                             .starts = r->starts + first,
+                             .numbers = r->numbers,
+                             .ids = r->ids + first,
+                             .own = r->own ? r->own + first * r->table.columns.own_count : NULL,
+                             .texts = r->texts};
     if (!count) return FROE_OK;
-    const froe_status status = r->q->answer(r->q->given, r->asked, &block, &r->out, diag);
+    r->table.block = &block;
+    froe_status status = r->q->answer(r->q->given, r->asked, &block, &r->table, diag);
+    if (!status) status = r->table.status;
     if (!status) r->answered += count;
     return status;
 }
@@ -156,6 +204,7 @@ static void work(query_run *r) {
         if (!r->code) r->code = code;
         if (r->gathered) /* the query being gathered moves to the front */
             memmove(r->numbers, r->numbers + r->starts[count] * width, r->gathered * width * sizeof *r->numbers);
+        move_own(r);
         r->ids[0] = r->ids[count];
         r->lines[0] = r->lines[count];
         r->count = 0;
@@ -172,6 +221,34 @@ json_t *cli_statistics_json(froe_query *query) {
                      "steps", (json_int_t)s.steps);
 }
 
+static int report_batch(const query_run *r, double start) {
+    const cli_queries *q = r->q;
+    return cli_report(q->common, NULL,
+                      json_pack("{s:o, s:o, s:I, s:I, s:f, s:o}", "tree", cli_name_json(q->tree->scene.path), "queries",
+                                cli_name_json(r->rows.path), "answered", (json_int_t)r->answered, "rows",
+                                (json_int_t)r->table.out.rows, "seconds", cli_seconds() - start, "visited",
+                                cli_statistics_json(r->asked->query)));
+}
+
+/* Reads and answers all queries, once the file of queries is open. */
+static int ask_rows(query_run *r, double start) {
+    const cli_queries *q = r->q;
+    int code =
+        cli_table_open(q->common, &q->args->table, &q->kind, &r->rows, r->asked->scene, r->asked->query, &r->table);
+    if (code) return code;
+    r->width = r->rows.numbers - r->grouped;
+    const size_t each = r->table.columns.own_count;
+    if (each) r->own = calloc((CLI_BLOCK + 1) * each, sizeof *r->own);
+    if (each && !r->own)
+        code = cli_fail_memory();
+    else
+        work(r);
+    if (!code) code = r->code ? r->code : r->refused ? CLI_INPUT : 0;
+    const int closed = cli_table_close(&r->table);
+    const int reported = q->common->json && !r->code ? report_batch(r, start) : 0;
+    return closed ? closed : reported ? reported : code;
+}
+
 static int ask_batch(const cli_queries *queries, const cli_asked *asked) {
     query_run *r = calloc(1, sizeof *r);
     if (!r) return cli_fail_memory();
@@ -181,26 +258,12 @@ static int ask_batch(const cli_queries *queries, const cli_asked *asked) {
     const double start = cli_seconds();
     int code = cli_rows_open(queries->args->input, queries->columns, (int)asked->dim, &r->rows);
     if (!code) {
-        r->width = r->rows.numbers - r->grouped;
-        r->out.mute = queries->common->json;
-        if (!r->out.mute) printf("%s\n", queries->header);
-        work(r);
-        cli_answers_flush(&r->out);
-        code = r->code ? r->code : r->refused ? CLI_INPUT : 0;
-        if (queries->common->json && !r->code) {
-            const int written =
-                cli_report(queries->common, NULL,
-                           json_pack("{s:o, s:o, s:I, s:I, s:f, s:o}", "tree", cli_name_json(queries->tree->scene.path),
-                                     "queries", cli_name_json(r->rows.path), "answered", (json_int_t)r->answered,
-                                     "rows", (json_int_t)r->out.rows, "seconds", cli_seconds() - start, "visited",
-                                     cli_statistics_json(asked->query)));
-            if (written) code = written;
-        }
-        const int flushed = cli_flush();
-        if (flushed) code = flushed;
+        code = ask_rows(r, start);
         cli_rows_close(&r->rows);
     }
     free(r->numbers);
+    free(r->own);
+    free(r->texts);
     free(r);
     return code;
 }

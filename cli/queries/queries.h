@@ -1,6 +1,6 @@
 /* queries.h: the frame of the commands that ask a tree: rows of numbers come in, rows of answers go out.
  *
- *     CSV --rows.h--> block of queries --the command--> answers.h --> standard output
+ *     CSV --rows.h--> block of queries --the command--> table.h --> standard output
  *
  * A file may have any length; a block has a few thousand queries, so that a command can hand them to the
  * batch calls of the library. A malformed row or a bad query is named with its line. It ends the run, or with
@@ -8,33 +8,29 @@
 #ifndef FROE_CLI_QUERIES_H
 #define FROE_CLI_QUERIES_H
 #include "args/tree.h"
-#include "queries/answers.h"
-#include "queries/rows.h"
-#include <froe/query.h>
+#include "queries/table.h"
 #include <jansson.h>
 
 /** Shared by all query commands; their own tables name the operand and the input. */
 typedef struct cli_query_args {
     const char *input;
     bool keep_going, count;
+    cli_table_args table;
 } cli_query_args;
 extern const cli_option cli_query_options[];
+/** The parts of a command whose arguments are the struct T, with the cli_query_args `query`. They stand before those of
+ * reading the scene, where --format is another name of --input-format. */
+#define CLI_QUERY_PARTS(T)                                                                                             \
+    {"Queries", cli_query_options, offsetof(T, query)}, {                                                              \
+        "Answers", cli_table_options, offsetof(T, query.table)                                                         \
+    }
+/** The answers of all commands with --count. */
+#define CLI_COUNTS(SHAPE)                                                                                              \
+    (cli_answer_kind) {                                                                                                \
+        "query,count", "query,count", SHAPE                                                                            \
+    }
 
 enum { CLI_BLOCK = 4096 }; /**< queries at most */
-
-/** Queries in the order of the input. Query i has the rows starts[i] .. starts[i+1] of `numbers`, each `width`
- * numbers; without a column `query` one row each. */
-typedef struct cli_block {
-    size_t count, width;
-    const size_t *starts;
-    const double *numbers;
-    const uint64_t *ids; /**< what the column `query` of the answers says */
-} cli_block;
-
-/** The first number of a block whose queries have a row each. */
-static inline const double *cli_block_numbers(const cli_block *block) {
-    return block->numbers + block->starts[0] * block->width;
-}
 
 /** The tree that is asked, while a command runs. */
 typedef struct cli_asked {
@@ -46,7 +42,7 @@ typedef struct cli_asked {
 
 /** Answers a block. Either all of it, or FROE_E_INPUT with diag->object telling the position of the
  * first bad query and nothing written; other failures end the run. */
-typedef froe_status cli_answer_fn(const void *args, const cli_asked *asked, const cli_block *block, cli_answers *out,
+typedef froe_status cli_answer_fn(const void *args, const cli_asked *asked, const cli_block *block, cli_table *out,
                                   froe_diagnostic *diag);
 
 typedef struct cli_queries {
@@ -54,7 +50,7 @@ typedef struct cli_queries {
     const cli_tree_args *tree;
     const cli_query_args *args;
     const cli_column *columns; /**< if the first is "query", consecutive rows with the same number are one query */
-    const char *header;        /**< of the answers */
+    cli_answer_kind kind;      /**< of the answers */
     cli_answer_fn *answer;
     const void *given; /**< the arguments of the command */
 } cli_queries;
