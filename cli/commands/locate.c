@@ -111,16 +111,16 @@ static int run_locate(const void *given) {
 const cli_command cli_command_locate = {
     .name = "locate",
     .summary = "find the objects and groups that points lie in, or what lies above or below them",
-    .about = "Prints one line query,object,group for each object that contains a point, in the order of the points, "
-             "then of the objects; group is the one the object belongs to, empty if there is none. On maps, a line "
-             "with an empty object follows for each other group that the point lies in: a feature of closed rings, "
-             "holes left out. With --groups, only lines query,group,name: which country is this point in? A point on a "
-             "border is in all groups whose border it is; features that are lines contain only their own points. With "
-             "--above or --below, one line query,object for each point that has a segment there. Objects are closed, "
-             "and answers are exact. A query's number is that of its row, from 0.\n\n" CLI_TABLE_ABOUT(
-                 "query, object, group, name, id") "\n\n"
-                                                   "With --json a summary takes the place of the answers: how many "
-                                                   "there are, and what was visited for them.",
+    .about =
+        "Prints one line query,object,group for each object that contains a point, in the order of the points, then "
+        "of the objects; group is the one the object belongs to, empty if there is none. On maps, a line with an "
+        "empty object follows for each other group that the point lies in: a feature of closed rings, holes left "
+        "out. With --groups, only lines query,group,name: which country is this point in? A point on a border is in "
+        "all groups whose border it is; features that are lines contain only their own points. With --above or "
+        "--below, one line query,object for each point that has a segment there. Objects are closed, and answers are "
+        "exact. A query's number is that of its row, from 0.\n\n"
+        "With --columns, each line has what is named there: query, object, group, name, id, " CLI_COLUMNS_ABOUT
+        "With --json a summary takes the place of the answers: how many there are, and what was visited for them.",
     .examples =
         "froe locate countries.geojson --queries towns.csv --groups\nfroe locate house.glb --queries sensors.csv\n"
         "froe locate countries.geojson --queries towns.csv --groups --columns '*,name'\n"

@@ -85,14 +85,14 @@ static int run_ray(const void *given) {
 const cli_command cli_command_ray = {
     .name = "ray",
     .summary = "find what rays meet",
-    .about = "Prints one line query,object,t for each ray that meets an object: the first one, met at origin + t "
-             "direction; of several met at the same point, the one with the lowest number. With --all one line for "
-             "each object met, by t, then object. Objects are closed, the order is decided exactly, and t is the "
-             "double nearest to the exact parameter. A query's number is that of its row, from 0.\n\n" CLI_TABLE_ABOUT(
-                 "query, object, group, name, id, t, distance, point (where it is met) and normal (of length 1, of the "
-                 "face that is met)") "\n\n"
-                                      "With --json a summary takes the place of the answers: how many there are, and "
-                                      "what was visited for them.",
+    .about =
+        "Prints one line query,object,t for each ray that meets an object: the first one, met at origin + t "
+        "direction; of several met at the same point, the one with the lowest number. With --all one line for each "
+        "object met, by t, then object. Objects are closed, the order is decided exactly, and t is the double "
+        "nearest to the exact parameter. A query's number is that of its row, from 0.\n\n"
+        "With --columns, each line has what is named there: query, object, group, name, id, t, distance, point "
+        "(where it is met) and normal (of length 1, of the face that is met), " CLI_COLUMNS_ABOUT
+        "With --json a summary takes the place of the answers: how many there are, and what was visited for them.",
     .examples = "froe ray house.glb --queries sight.csv\nfroe ray floor.geojson --queries beams.csv --all --t-max 1\n",
     .parts = parts,
     .defaults = &(const ray_args){.common = CLI_COMMON_DEFAULTS,

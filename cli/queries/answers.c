@@ -1,6 +1,6 @@
 /* answers.c: cells as text, gathered in a buffer. */
 #include "queries/answers.h"
-#include "support/utf8.h"
+#include "support/escape.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -49,19 +49,10 @@ static void put_csv(cli_answers *out, const char *text) {
     put(out, '"');
 }
 
-/* What is no UTF-8 becomes the character that stands for it, U+FFFD. */
 static void put_json(cli_answers *out, const char *text) {
+    char escaped[8];
     put(out, '"');
-    while (*text) {
-        const size_t length = support_utf8_length(text);
-        if (!length || (unsigned char)*text < 0x20 || *text == 0x7f)
-            out->length += (size_t)snprintf(room(out), CELL, "\\u%04x", length ? (unsigned)*text : 0xfffdu);
-        else if (*text == '"' || *text == '\\')
-            put(out, '\\'), put(out, *text);
-        else
-            put_bytes(out, text, length);
-        text += length ? length : 1;
-    }
+    for (size_t length; (length = support_json_escape(&text, escaped)) > 0;) put_bytes(out, escaped, length);
     put(out, '"');
 }
 

@@ -33,11 +33,11 @@ typedef struct cli_table_args {
     int format;          /**< cli_format; -1: not given */
 } cli_table_args;
 extern const cli_option cli_table_options[];
-/** What --columns takes, for the `about` of a command with these COLUMNS. */
-#define CLI_TABLE_ABOUT(COLUMNS)                                                                                       \
-    "With --columns, each line has what is named there: " COLUMNS                                                      \
-    ", and columns of the CSV by their names, or behind query_ where the command has a column of that name. group is " \
-    "the group of the object, name its name, and id the number that the feature has in its file, or tag of a CSV."
+/** What --columns takes beside the columns of a command, for its `about`. */
+#define CLI_COLUMNS_ABOUT                                                                                              \
+    "and columns of the CSV by their names, or behind query_ where the command has a column of that name. group is "   \
+    "the group of the object, name its name, and id the number that the feature has in its file, or tag of a "         \
+    "CSV.\n\n"
 #define CLI_TABLE_DEFAULTS                                                                                             \
     { .format = -1 }
 
