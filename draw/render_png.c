@@ -23,6 +23,7 @@ static bool paint_path(void *user, const froe_render_path *path) {
         for (size_t k = 1; k < o->count; k++) cairo_line_to(cr, o->points[2 * k], o->points[2 * k + 1]);
         if (o->closed) cairo_close_path(cr);
     }
+    cairo_set_line_cap(cr, path->dots ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
     cairo_set_line_width(cr, path->width);
     cairo_set_dash(cr, dashes, path->dash > 0 ? 2 : 0, 0);
     if (path->lines || path->width > 0) cairo_stroke_preserve(cr);

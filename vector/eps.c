@@ -4,14 +4,15 @@
 #include "render.h"
 
 /* The operators of PDF that page.c writes. */
-static const char prolog[] = "%%BeginProlog\n"
-                             "16 dict begin\n"
-                             "/m{moveto}bind def/l{lineto}bind def/h{closepath}bind def\n"
-                             "/f{fill}bind def/S{stroke}bind def/B{gsave fill grestore stroke}bind def\n"
-                             "/w{setlinewidth}bind def/j{setlinejoin}bind def/d{setdash}bind def\n"
-                             "/rg{setrgbcolor}bind def/RG{setrgbcolor}bind def/cm{6 array astore concat}bind def\n"
-                             "/re{4 2 roll moveto 1 index 0 rlineto 0 exch rlineto neg 0 rlineto closepath}bind def\n"
-                             "%%EndProlog\n";
+static const char prolog[] =
+    "%%BeginProlog\n"
+    "16 dict begin\n"
+    "/m{moveto}bind def/l{lineto}bind def/h{closepath}bind def\n"
+    "/f{fill}bind def/S{stroke}bind def/B{gsave fill grestore stroke}bind def\n"
+    "/w{setlinewidth}bind def/j{setlinejoin}bind def/J{setlinecap}bind def/d{setdash}bind def\n"
+    "/rg{setrgbcolor}bind def/RG{setrgbcolor}bind def/cm{6 array astore concat}bind def\n"
+    "/re{4 2 roll moveto 1 index 0 rlineto 0 exch rlineto neg 0 rlineto closepath}bind def\n"
+    "%%EndProlog\n";
 
 void vector_eps(vector_render *render, vector_output *output) {
     const froe_camera *camera = &render->options->camera;

@@ -23,6 +23,7 @@ static bool put_path(void *user, const froe_render_path *path) {
     if (alpha != w->alpha) vector_print(w->output, "/a%u gs\n", alpha);
     w->alphas[w->alpha = alpha] = true;
     if (!path->lines) put_colour(w->output, path->colour, "rg");
+    if (path->dots) vector_print(w->output, "1 J\n");
     if (path->width > 0) {
         put_colour(w->output, path->colour, "RG");
         vector_print(w->output, "%s w\n", vector_real(6, grid * path->width).text);
@@ -46,6 +47,7 @@ static bool put_path(void *user, const froe_render_path *path) {
         if (outline->closed) vector_print(w->output, "h\n");
     }
     vector_print(w->output, "%s\n", path->lines ? "S" : path->width > 0 ? "B" : "f");
+    if (path->dots) vector_print(w->output, "0 J\n");
     return !w->output->status;
 }
 

@@ -41,6 +41,7 @@ bool vector_ring_shows(const vector_render *r, const froe_outline *ring) {
 }
 
 bool vector_stroke_shows(const vector_render *r, const froe_stroke *s) {
+    if (s->kind == FROE_LINE_POINT) return true;
     for (size_t i = 1; i < s->count; i++)
         for (int k = 0; k < 2; k++)
             if (vector_step(r, s->points[2 * i + k]) != vector_step(r, s->points[k])) return true;
@@ -72,6 +73,7 @@ froe_status vector_count_shown(vector_render *r) {
     for (size_t i = 0; i < strokes; i++) {
         const froe_stroke stroke = froe_picture_stroke(r->picture, i);
         ++*(vector_stroke_shows(r, &stroke) ? &r->report.strokes : &r->report.short_strokes);
+        r->report.dots += stroke.kind == FROE_LINE_POINT;
     }
     r->room = rings > strokes ? rings : strokes;
     r->outlines = support_calloc(&r->alloc, r->room, sizeof *r->outlines);
@@ -98,18 +100,27 @@ static void set_owner(const vector_render *r, const froe_stroke *s, froe_render_
     if (r->layer_of && group != FROE_NONE) path->layer = r->layer_of[group];
 }
 
-/* Strokes of one kind and owner that are due before the next shape. False: none of them shows. */
+/* Of wires and points that of their group, unless the style of their kind says it. */
+static uint32_t colour_of_stroke(const vector_render *r, const froe_stroke *s, const froe_line_style *style) {
+    if (style->colour != FROE_NONE) return style->colour;
+    if (s->kind != FROE_LINE_WIRE && s->kind != FROE_LINE_POINT) return VECTOR_INK;
+    return vector_line_colour(r, froe_scene_object(r->scene, s->objects[0]).group);
+}
+
+/* Strokes of one kind, colour and owner that are due before the next shape. False: none of them shows. */
 static bool take_strokes(const vector_render *r, vector_cursor *at, froe_render_path *path) {
     const froe_stroke first = vector_stroke(r, at->stroke);
     const froe_line_style style = vector_line_style(r->options, first.kind, first.hidden, 1);
     *path = (froe_render_path){.lines = true, .kind = first.kind, .hidden = first.hidden};
-    path->colour = 0xFF000000 | style.colour;
+    path->dots = first.kind == FROE_LINE_POINT;
+    path->colour = 0xFF000000 | colour_of_stroke(r, &first, &style);
     path->width = style.width, path->dash = style.dash, path->gap = style.gap;
     set_owner(r, &first, path);
     path->outlines = r->outlines;
     for (; place_of_stroke(r, at->stroke) <= at->shape; at->stroke++) {
         const froe_stroke next = vector_stroke(r, at->stroke);
         if (next.kind != first.kind || next.hidden != first.hidden || owner_of(r, &next) != owner_of(r, &first)) break;
+        if (path->colour != (0xFF000000 | colour_of_stroke(r, &next, &style))) break;
         if (vector_stroke_shows(r, &next))
             r->outlines[path->count++] = (froe_outline){next.points, next.count, next.closed};
     }

@@ -53,11 +53,13 @@ static froe_status find_picture(vector_render *r, froe_diagnostic *diag) {
     p.clear = r->clear;
     p.priorities = r->priorities;
     p.cull_back = o->cull_back;
-    p.lines = o->line_width > 0 ? o->lines : 0;
+    p.lines = o->line_width > 0 ? o->lines : o->lines & FROE_LINE_POINT;
+    if (!(o->point_width > 0)) p.lines &= ~(uint32_t)FROE_LINE_POINT;
     p.crease = o->crease;
     p.section = o->section;
     p.interleave = o->interleaved && p.lines ? vector_line_reach(o) : 0;
     p.chains = r->owners;
+    p.interleave_points = o->interleaved ? 0.5 * vector_line_style(o, FROE_LINE_POINT, false, 1).width : 0;
     p.hidden = o->hidden;
     p.halo = o->halo;
     p.alloc = &r->alloc;

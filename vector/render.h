@@ -44,6 +44,8 @@ double vector_grid(const froe_render_options *options, froe_render_format format
 
 /** Opacity of a group, 0 .. 1; of FROE_NONE 1. */
 double vector_opacity(const froe_scene *scene, const froe_render_options *options, uint32_t group);
+/** Colour of wires and points of a group, 0xRRGGBB; VECTOR_INK if it has none. */
+uint32_t vector_line_colour(const vector_render *render, uint32_t group);
 /** Fills style_of, styles, keys and layer_of. FROE_E_MEMORY. */
 froe_status vector_shade(vector_render *render);
 /** The group of an object, or FROE_NONE. */

@@ -52,6 +52,11 @@ double vector_opacity(const froe_scene *scene, const froe_render_options *o, uin
     return colour ? (colour & 255) / 255.0 : 1;
 }
 
+uint32_t vector_line_colour(const vector_render *r, uint32_t group) {
+    const uint32_t given = group == FROE_NONE ? 0 : given_colour(r->scene, r->options, group);
+    return given ? given >> 8 : VECTOR_INK;
+}
+
 /* 0xAARRGGBB. */
 static uint32_t style_of(const vector_render *r, uint32_t patch, const uint32_t *materials) {
     const froe_render_options *o = r->options;

@@ -17,6 +17,7 @@ static double usual_width(froe_line kind) {
         return 2;
     case FROE_LINE_BORDER:
     case FROE_LINE_SILHOUETTE:
+    case FROE_LINE_WIRE:
         return 1;
     case FROE_LINE_CROSSING:
         return 0.8;
@@ -26,8 +27,9 @@ static double usual_width(froe_line kind) {
 }
 
 froe_line_style vector_line_style(const froe_render_options *options, froe_line kind, bool hidden, double scale) {
-    const double width = scale * (usual_width(kind) * options->line_width);
-    froe_line_style out = {.width = hidden ? 0.6 * width : width, .colour = VECTOR_INK, .dash = NAN};
+    const bool point = kind == FROE_LINE_POINT;
+    const double width = scale * (point ? options->point_width : usual_width(kind) * options->line_width);
+    froe_line_style out = {.width = hidden ? 0.6 * width : width, .colour = FROE_NONE, .dash = NAN};
     for (size_t i = 0; i < options->line_style_count; i++) {
         const froe_line_style *s = options->line_styles + i;
         if (!((hidden ? s->hidden : s->visible) & (uint32_t)kind)) continue;
@@ -42,6 +44,7 @@ froe_line_style vector_line_style(const froe_render_options *options, froe_line 
 double vector_line_reach(const froe_render_options *options) {
     double widest = 0;
     for (uint32_t kind = 1; kind < FROE_LINE_END; kind <<= 1) {
+        if (kind == FROE_LINE_POINT) continue;
         const bool drawn = options->lines & kind && (kind != FROE_LINE_SECTION || options->section);
         if (drawn) widest = fmax(widest, vector_line_style(options, (froe_line)kind, false, 1).width);
     }

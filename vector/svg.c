@@ -100,12 +100,12 @@ static int compare_along_strips(const void *a, const void *b) {
     return p->outline->points < q->outline->points ? -1 : p->outline->points > q->outline->points;
 }
 
-/* Rings down one strip of the page and up the next, so that moves are short. */
-static void put_rings(svg_writer *w, const froe_render_path *path) {
+/* Puts rings, or points, into an order down one strip of the page and up the next, so that moves are short. */
+static bool sort_along_strips(svg_writer *w, const froe_render_path *path) {
     const double wide = w->render->options->camera.width / ceil(sqrt(0.5 * (double)path->count));
     if (!array_reserve(&w->render->alloc, &w->rings, path->count)) {
         w->output->status = FROE_E_MEMORY;
-        return;
+        return false;
     }
     for (size_t i = 0; i < path->count; i++) {
         const froe_outline *outline = path->outlines + i;
@@ -114,6 +114,11 @@ static void put_rings(svg_writer *w, const froe_render_path *path) {
         w->rings.data[i] = ring;
     }
     qsort(w->rings.data, path->count, sizeof *w->rings.data, compare_along_strips);
+    return true;
+}
+
+static void put_rings(svg_writer *w, const froe_render_path *path) {
+    if (!sort_along_strips(w, path)) return;
     for (size_t i = 0; i < path->count; i++) {
         const froe_outline *ring = w->rings.data[i].outline;
         if (!vector_ring_shows(w->render, ring)) continue;
@@ -126,6 +131,18 @@ static void put_rings(svg_writer *w, const froe_render_path *path) {
             if (far < least) least = far, nearest = k;
         }
         put_outline(w, ring, nearest);
+    }
+}
+
+/* Points of the scene; several that fall together on the grid are one. */
+static void put_points(svg_writer *w, const froe_render_path *path) {
+    if (!sort_along_strips(w, path)) return;
+    int64_t last[2] = {INT64_MIN, 0};
+    for (size_t i = 0; i < path->count; i++) {
+        const froe_outline *point = w->rings.data[i].outline;
+        const int64_t at[2] = {vector_step(w->render, point->points[0]), vector_step(w->render, point->points[1])};
+        if (at[0] != last[0] || at[1] != last[1]) put_outline(w, point, 0);
+        memcpy(last, at, sizeof last);
     }
 }
 
@@ -162,12 +179,13 @@ static void put_strokes(svg_writer *w, const froe_render_path *path) {
     /* Not from path->width: three digits depend on the order of rounding. */
     const froe_line_style style = vector_line_style(w->render->options, path->kind, path->hidden, w->render->grid);
     vector_print(w->output, "<path class=\"%s%s\"", froe_line_name(path->kind), path->hidden ? " hidden" : "");
-    if (style.colour != VECTOR_INK) {
+    if ((path->colour & 0xFFFFFF) != VECTOR_INK) {
         put_text(w, " stroke=\"");
-        put_colour(w->output, style.colour);
+        put_colour(w->output, path->colour);
         put_text(w, "\"");
     }
-    vector_print(w->output, " stroke-width=\"%s\"", vector_real(3, style.width).text);
+    vector_print(w->output, " stroke-width=\"%s\"", vector_real(path->dots ? 6 : 3, style.width).text);
+    if (path->dots) put_text(w, " stroke-linecap=\"round\"");
     if (style.dash > 0)
         vector_print(w->output, " stroke-dasharray=\"%s %s\"", vector_real(3, style.dash).text,
                      vector_real(3, style.gap).text);
@@ -176,7 +194,8 @@ static void put_strokes(svg_writer *w, const froe_render_path *path) {
     put_ids(w, path);
     put_text(w, " d=\"");
     begin_path(w);
-    for (size_t i = 0; i < path->count; i++) put_outline(w, path->outlines + i, 0);
+    if (path->dots) put_points(w, path);
+    for (size_t i = 0; i < path->count && !path->dots; i++) put_outline(w, path->outlines + i, 0);
     put_text(w, "\"/>\n");
 }
 

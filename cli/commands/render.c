@@ -95,14 +95,15 @@ static const cli_option line_options[] = {
     {"lines", 0, CLI_CHOICE, offsetof(render_args, over), "WHERE",
      .help = "top (default): over all faces; interleaved: under what is nearer", .choices = over},
     {"line-kinds", 0, CLI_TEXT, offsetof(render_args, lines), "KINDS",
-     .help =
-         "border, silhouette, object, material, crease, crossing, section, mesh, parted by commas; or none (default: "
-         "all but mesh)"},
+     .help = "border, silhouette, object, material, crease, crossing, section, mesh, and of the scene itself wire "
+             "(segments) and point, parted by commas; or none (default: all but mesh)"},
     {"line-width", 0, CLI_REAL, offsetof(render_args, line_width), "W",
-     .help = "of borders and silhouettes, by which other kinds go (default 1)"},
+     .help = "of borders, silhouettes and segments, by which other kinds go (default 1)"},
     {"line-style", 0, CLI_WORDS, offsetof(render_args, line_style), "LINES=STYLE,...",
      .help = "width, colour and dash by kind: crease=0.6, hidden=0.4:888888:4:2 (width, RRGGBB, dash, gap); LINES are "
              "a kind, hidden-KIND, visible or hidden, and later ones count"},
+    {"point-width", 0, CLI_REAL, offsetof(render_args, point_width), "W",
+     .help = "of the discs that points are (default 3)"},
     {"crease", 0, CLI_REAL, offsetof(render_args, crease), "DEGREES",
      .help = "angle that makes an edge a line (default 30)"},
     {"halo", 0, CLI_REAL, offsetof(render_args, halo), "G", .help = "gap in lines before nearer lines (default 0)"},
@@ -150,20 +151,14 @@ static json_t *report_json(const render_args *args, const froe_render_report *r)
         (json_int_t)v->edge_on, "culled_faces", (json_int_t)v->culled, "cut_away_faces", (json_int_t)v->cut_away,
         "flat_polygons", (json_int_t)v->flat, "segments", (json_int_t)v->segments, "points", (json_int_t)v->points,
         "thin_shapes", (json_int_t)r->thin_shapes, "short_lines", (json_int_t)r->short_strokes);
-    return json_pack("{s:o, s:o, s:s, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:f, s:o}", "tree",
+    return json_pack("{s:o, s:o, s:s, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:f, s:o}", "tree",
                      cli_name_json(args->tree.scene.path), "output", cli_name_json(args->output), "paint",
                      froe_paint_name(p->paint), "fragments", (json_int_t)v->pieces, "visible_fragments",
                      (json_int_t)v->visible_pieces, "visible_faces", (json_int_t)v->visible_patches, "arcs",
                      (json_int_t)p->arcs, "late_faces", (json_int_t)p->late, "shapes", (json_int_t)r->shapes, "lines",
-                     (json_int_t)r->strokes, "paths", (json_int_t)r->paths, "bytes", (json_int_t)r->bytes,
-                     "exact_calls", (json_int_t)v->predicates.exact, "left_out_faces", (json_int_t)p->left_out,
-                     "left_out_area", p->left_out_area, "not_drawn", not_drawn);
-}
-
-static void put_count(char *text, size_t room, uint64_t count, const char *one, const char *more) {
-    const size_t at = strlen(text);
-    if (count)
-        snprintf(text + at, room - at, "%s%llu %s", at ? ", " : "", (unsigned long long)count, count > 1 ? more : one);
+                     (json_int_t)(r->strokes - r->dots), "points", (json_int_t)r->dots, "paths", (json_int_t)r->paths,
+                     "bytes", (json_int_t)r->bytes, "exact_calls", (json_int_t)v->predicates.exact, "left_out_faces",
+                     (json_int_t)p->left_out, "left_out_area", p->left_out_area, "not_drawn", not_drawn);
 }
 
 static void warn(const render_args *args, const froe_render_options *o, const froe_render_report *r) {
@@ -173,12 +168,6 @@ static void warn(const render_args *args, const froe_render_options *o, const fr
     if (r->picture.paint != o->paint && o->shading != FROE_SHADE_NONE)
         (void)cli_fail(0, args->output,
                        "note: Too many faces overlap for an order of whole ones, and fragments were painted.");
-    char objects[160] = "";
-    put_count(objects, sizeof objects, r->picture.visibility.points, "point", "points");
-    put_count(objects, sizeof objects, r->picture.visibility.segments, "segment", "segments");
-    if (*objects)
-        (void)cli_fail(0, args->output, "note: Only faces are drawn, and these objects of the scene are not: %s.",
-                       objects);
     if (!r->shapes && !r->strokes) (void)cli_fail(0, args->output, "note: Nothing is visible from here.");
 }
 
@@ -250,7 +239,7 @@ static int cut_section(const render_args *args, froe_tree **tree) {
     froe_build_options o = froe_build_defaults();
     froe_diagnostic diag;
     froe_tree *whole = *tree;
-    if (!args->section.count || froe_scene_dim(froe_tree_scene(whole)) != 3) return 0;
+    if (!args->section.count) return 0;
     if (args->section.count != 4) return cli_fail_count("section", args->section.count, 4);
     cli_progress bar = cli_progress_begin(&args->common, "cutting");
     o.threads = (unsigned)args->common.threads;
@@ -267,17 +256,35 @@ static int cut_section(const render_args *args, froe_tree **tree) {
     return 0;
 }
 
+/* Has the scene hidden surfaces, or what they can hide, and nothing else? */
+static int check_scene(const render_args *args, const froe_scene *scene) {
+    const char *path = args->tree.scene.path;
+    const int dim = froe_scene_dim(scene);
+    if (dim == 2) return cli_fail(CLI_USE, path, "A scene in the plane has no hidden surfaces. froe draw draws it.");
+    if (dim > 3)
+        return cli_fail(
+            CLI_USE, path,
+            "froe render draws scenes in 3 dimensions, not in %d. froe export writes their parts as a table.", dim);
+    for (uint32_t i = 0; i < froe_scene_object_count(scene); i++) {
+        const froe_kind kind = froe_scene_object(scene, i).kind;
+        if (kind > FROE_POLYGON)
+            return cli_fail(CLI_USE, path,
+                            "object %u: It is a %s, and froe render draws polygons, segments and points. froe draw "
+                            "draws it.",
+                            i, froe_kind_name(kind));
+    }
+    return 0;
+}
+
 static int run_render(const void *given) {
     const render_args *args = given;
     froe_tree *tree;
     int code = cli_check_tree_outputs(&args->tree, args->output);
     if (!code) code = cli_open_tree(&args->common, &args->tree, "draw", &tree);
     if (code) return code;
-    code = cut_section(args, &tree);
+    code = check_scene(args, froe_tree_scene(tree));
+    if (!code) code = cut_section(args, &tree);
     const froe_scene *scene = froe_tree_scene(tree);
-    if (!code && froe_scene_dim(scene) != 3)
-        code = cli_fail(CLI_USE, args->tree.scene.path,
-                        "A scene in the plane has no hidden surfaces. froe draw draws it.");
     if (code) {
         froe_tree_free(tree);
         return code;
@@ -329,6 +336,7 @@ const cli_command cli_command_render = {
                                      .margin = NAN,
                                      .seam_width = NAN,
                                      .line_width = NAN,
+                                     .point_width = NAN,
                                      .crease = NAN,
                                      .pixels = NAN,
                                      .decimals = UINT64_MAX},

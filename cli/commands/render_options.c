@@ -8,6 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Of seams and lines, and so of points. */
+static void set_widths(froe_render_options *o, double width) {
+    o->seam_width = o->line_width = width;
+    o->point_width = 3 * width;
+}
+
 static int set_size(const char *text, froe_render_options *o) {
     char *end = NULL;
     if (!text) return 0;
@@ -18,7 +24,7 @@ static int set_size(const char *text, froe_render_options *o) {
     const bool mm = strcmp(end, "mm") == 0;
     if (!times || end == second || (*end && !mm))
         return cli_fail(CLI_USE, NULL, "--size: '%s' is not like 1000x800 or 160x120mm.", text);
-    if (mm && !o->millimetres) o->seam_width = o->line_width = 0.2;
+    if (mm && !o->millimetres) set_widths(o, 0.2);
     o->millimetres = mm;
     return 0;
 }
@@ -156,7 +162,7 @@ int render_set_options(const render_args *args, const froe_scene *scene, froe_re
     } else if (args->preset == PRINT) {
         o->millimetres = true;
         o->camera.width = 160, o->camera.height = 120;
-        o->seam_width = o->line_width = 0.2;
+        set_widths(o, 0.2);
         o->decimals = 3;
     }
     int code = set_size(args->size, o);
@@ -168,6 +174,7 @@ int render_set_options(const render_args *args, const froe_scene *scene, froe_re
     if (args->paint) o->paint = (froe_paint)args->paint;
     cli_set_number(args->seam_width, &o->seam_width);
     cli_set_number(args->line_width, &o->line_width);
+    cli_set_number(args->point_width, &o->point_width);
     cli_set_number(args->crease, &o->crease);
     cli_set_number(args->halo, &o->halo);
     cli_set_number(args->pixels, &o->pixels);

@@ -85,11 +85,14 @@ typedef struct froe_render_options {
     froe_seams seams;     /**< default UNDERLAP */
     double seam_width;    /**< in units of the page; default 1 */
     int section;          /**< see froe_visibility_options */
-    uint32_t lines;       /**< bits of froe_line; default all but mesh */
+    uint32_t lines;       /**< bits of froe_line; default all but mesh. Wires and points have the colours of their
+                               groups, if they have any and own_colours does not exclude it */
     double crease;        /**< degrees; default 30 */
-    double line_width;    /**< default 1; silhouettes and borders; sections twice, crossings 0.8, other kinds 0.6 of it;
+    double
+        line_width; /**< default 1; silhouettes, borders and wires; sections twice, crossings 0.8, other kinds 0.6 of it;
                             hidden lines 0.6 of visible ones, with dashes of 4 and gaps of 3 times their width. 0: there
                             are no lines, whatever their styles */
+    double point_width;                 /**< of the discs that points are; default 3 */
     const froe_line_style *line_styles; /**< of lines of one kind the last that is about them counts; NULL: none */
     size_t line_style_count;
     bool interleaved; /**< lines go below what is nearer, and so never cover half their width of it; default: on top */
@@ -117,6 +120,7 @@ typedef struct froe_render_report {
     froe_picture_report picture;
     froe_projection view;
     uint64_t shapes, strokes; /**< in the file */
+    uint64_t dots;            /**< of the strokes: points of the scene */
     uint64_t thin_shapes;     /**< left out, since nothing is left of them in the file's coordinates: */
     uint64_t short_strokes;   /**< in SVG `decimals` digits, otherwise 1/256 of a point or pixel */
     uint64_t paths, bytes;
@@ -135,9 +139,9 @@ typedef enum froe_render_format {
     FROE_RENDER_FORMAT_COUNT = 5
 } froe_render_format;
 
-/** The polygons of a tree in space as a picture with hidden surfaces removed, exactly: see froe_picture_new(). `path`
- * ends in .svg, .pdf, .eps, .csv or .geojson and appears whole or not at all. `options` NULL: the defaults; `report`
- * may be NULL.
+/** The polygons, segments and points of a tree in space as a picture with hidden surfaces removed, exactly: see
+ * froe_picture_new(). `path` ends in .svg, .pdf, .eps, .csv or .geojson and appears whole or not at all. `options` NULL:
+ * the defaults; `report` may be NULL.
  * FROE_E_OPTIONS: a value out of range, a title or description of a PDF that is not UTF-8, or EPS with an opacity below
  * 1, which EPS does not have. FROE_E_UNSUPPORTED: `path` ends in .png, which froe_render_png() of froe/draw.h makes.
  * FROE_E_IO: the directory or disk does not take it. Otherwise as froe_camera_place(), froe_picture_new(). */
@@ -169,6 +173,7 @@ typedef struct froe_outline {
 /** What is painted at once: faces of one colour, or lines of one kind. */
 typedef struct froe_render_path {
     bool lines;             /**< stroked, with round joins; otherwise filled by the nonzero rule */
+    bool dots;              /**< lines of one point each: discs, or strokes with round caps */
     uint32_t colour;        /**< 0xAARRGGBB, AA: opacity, 255 of lines */
     double width;           /**< of the stroke; of faces 0, but for FROE_SEAMS_STROKE */
     double dash, gap;       /**< lengths; 0: the line is solid */

@@ -1,4 +1,4 @@
-/* view.h: what an eye sees of a scene of polygons in space, exactly: in which order, which parts
+/* view.h: what an eye sees of a scene of polygons, segments and points in space, exactly: in which order, which parts
  * of it, and how to paint that. Part of the core library.
  *
  *     froe_eye eye = {.at = {3, -7, 2}};
@@ -76,8 +76,8 @@ FROE_API froe_status froe_tree_order_nodes(const froe_tree *tree, const froe_eye
 
 /** What belongs together in the polygons of a scene in space, for any eye. A patch is a maximal set of
  * polygons of one group that lie in one plane, exactly, and hang together by edges that just two of them use, from
- * their two sides. An edge is a pair of vertices between which at least one polygon has an edge. Polygons without
- * area, segments and points belong to neither. Immutable; the scene may neither grow nor be freed before it. */
+ * their two sides. An edge is a pair of vertices between which at least one polygon has an edge. A wire is a segment of
+ * the scene, and a point is a point of it, or a segment of length 0. Polygons without area are none of these. Immutable; the scene may neither grow nor be freed before it. */
 typedef struct froe_surface froe_surface;
 /** alloc NULL: malloc. FROE_E_UNSUPPORTED: the scene is not in space. O(corners) time. */
 FROE_API froe_status froe_surface_new(const froe_scene *scene, const froe_allocator *alloc, froe_surface **out,
@@ -106,6 +106,12 @@ FROE_API froe_edge froe_surface_edge(const froe_surface *surface, uint32_t edge)
 /** The edge that leaves a corner of an object, or FROE_NONE. */
 FROE_API uint32_t froe_surface_edge_of(const froe_surface *surface, uint32_t object, uint32_t corner);
 
+/** Wires and points are ordered by their objects, which these give; FROE_NONE: there is no such wire or point. */
+FROE_API size_t froe_surface_wire_count(const froe_surface *surface);
+FROE_API uint32_t froe_surface_wire(const froe_surface *surface, uint32_t wire);
+FROE_API size_t froe_surface_point_count(const froe_surface *surface);
+FROE_API uint32_t froe_surface_point(const froe_surface *surface, uint32_t point);
+
 /* -------------------------------------------------------------- visibility -- */
 
 #define FROE_WINDOW_MOST 64 /**< corners of a window */
@@ -121,6 +127,7 @@ typedef struct froe_visibility_options {
     const int32_t *priorities;   /**< per patch; where patches overlap in one plane, the one of higher priority is seen,
                                       of equal ones the later; NULL: all equal */
     const uint8_t *edges;        /**< per edge, not 0: its intervals are wanted; NULL: all */
+    bool faces_only;             /**< nothing is asked about segments and points */
     bool crossings;              /**< lines along which polygons pass through each other are wanted */
     bool hidden_crossings;       /**< and what is hidden of them, at the cost of all that is hidden */
     int section;                 /**< -1 or 1: only what lies on the negative or positive side of the root's cut, or in
@@ -135,18 +142,24 @@ FROE_API froe_visibility_options froe_visibility_defaults(void);
 /** What one eye sees. Immutable; belongs to tree and surface, which must outlive it. */
 typedef struct froe_visibility froe_visibility;
 
-/** Finds, exactly, which part of every polygon is visible, and which part of every edge.
+/** Finds, exactly, which part of every polygon is visible, which part of every edge and segment, and which points.
  *
  * The pieces of the tree come front to back; those of them that are open are kept and, unless they are transparent,
  * close the part of the picture that they take, which is a BSP of lines of sight (a beam tree). Each line is a plane
  * through the eye and an edge, or through the eye and a cut of the tree across a polygon, and every side is decided
  * from the input doubles. A part of an edge is visible where one of
- * its faces is visible beside it; edges whose faces are all seen edge-on have no visible part. Segments and points of
- * the scene are neither visible nor hide anything.
+ * its faces is visible beside it; edges whose faces are all seen edge-on have no visible part.
+ *
+ * A point, also one of a segment, is hidden where a polygon lies between it and the eye, border included, that is
+ * opaque, not culled, not cut away and not seen edge-on. So it is visible where it lies in a polygon or on its border,
+ * from both sides, if nothing else hides it. Intervals of segments pass over what is hidden as a single point, behind a
+ * corner. Segments and points hide nothing. A segment that the eye sees as a point,
+ * and a point at the eye, are not visible. What lies in the section is not cut away.
  *
  * FROE_E_ARG: the eye is none, the surface is not of the tree's scene. FROE_E_OPTIONS. FROE_E_INPUT: the window, as the
- * eye sees it, is not strictly convex. FROE_E_UNSUPPORTED: see froe_tree_order(). FROE_E_MEMORY, FROE_E_CANCELLED. Time
- * and memory O(pieces + visible pieces) times the depth of the beam tree, about 20 to 60 on real scenes. */
+ * eye sees it, is not strictly convex. FROE_E_UNSUPPORTED: see froe_tree_order(), but segments and points may
+ * share leaves, and a scene without polygons may have any tree. FROE_E_LIMIT: 2^31 - 1 objects or more. FROE_E_MEMORY,
+ * FROE_E_CANCELLED. Time and memory O(pieces + visible pieces) times the depth of the beam tree, about 20 to 60 on real scenes. */
 FROE_API froe_status froe_visibility_new(const froe_tree *tree, const froe_surface *surface,
                                          const froe_visibility_options *options, froe_visibility **out,
                                          froe_diagnostic *diag);
@@ -175,6 +188,11 @@ typedef struct froe_interval {
 /** The visible intervals of an edge, ascending and disjoint, touching ones joined; what is between them is hidden.
  * They were ordered and joined exactly; only these numbers are rounded. Live as long as the visibility. */
 FROE_API const froe_interval *froe_visibility_of_edge(const froe_visibility *visibility, uint32_t edge, size_t *count);
+
+/** The same of a segment, with t from its first corner (0) to its second (1). */
+FROE_API const froe_interval *froe_visibility_of_wire(const froe_visibility *visibility, uint32_t wire, size_t *count);
+/** Is it visible? */
+FROE_API bool froe_visibility_of_point(const froe_visibility *visibility, uint32_t point);
 
 /** A part of the line along which a patch passes through polygons of another plane, or through the section. */
 typedef struct froe_crossing {
@@ -205,8 +223,10 @@ typedef struct froe_visibility_report {
     uint64_t edge_on;          /**< the eye is in their plane */
     uint64_t culled;           /**< seen from behind, with cull_back */
     uint64_t hidden;           /**< by others, or away from the window */
-    uint64_t points, segments; /**< objects of the scene that are in no patch: nothing is seen of them */
-    uint64_t flat;             /**< the same: polygons without area */
+    uint64_t points, segments; /**< objects of the scene of which nothing is visible, or was asked for; points with
+                                    segments of length 0 */
+    uint64_t visible_points, visible_segments;
+    uint64_t flat; /**< polygons without area: nothing is seen of them */
     uint64_t intervals;
     uint64_t screen_nodes; /**< of the beam tree */
     uint64_t lines;
@@ -293,6 +313,7 @@ typedef struct froe_picture_options {
     double interleave;         /**< WHOLE: half the width of a line. Each visible line is then painted before what is
                                     nearer and visible within that reach, and after what is not; default 0: lines
                                     are painted after all shapes */
+    double interleave_points;  /**< the same of points: half their width */
     double min_area;           /**< patches of which less is visible, in square units of the page, are left out; the
                                     report says how many and how much; default 0 */
     uint64_t max_graph;        /**< WHOLE: most pairs to compare; 0 (default): 1,000 for each visible piece, 50 million
@@ -327,7 +348,7 @@ FROE_API const double *froe_picture_ring(const froe_picture *picture, size_t rin
 
 /** Kinds of lines, as bits. An edge gets the first that applies. Where lines of different kinds lie on each other on
  * the page, exactly or as far as it can tell, one is drawn: a visible one before a hidden one, then the first of
- * section, border, silhouette, crossing, object, material, crease and mesh. */
+ * section, wire, border, silhouette, crossing, object, material, crease and mesh. */
 typedef enum froe_line {
     FROE_LINE_BORDER = 1,     /**< used by one polygon, or by more than two */
     FROE_LINE_SILHOUETTE = 2, /**< between a polygon seen from the front and one seen from behind */
@@ -337,9 +358,11 @@ typedef enum froe_line {
     FROE_LINE_MESH = 32,      /**< any other edge between patches */
     FROE_LINE_CROSSING = 64,  /**< no edge: where polygons pass through each other; only visible parts */
     FROE_LINE_SECTION = 128,  /**< no edge: where the section cuts polygons; only visible parts */
-    FROE_LINE_END = 256       /**< no kind */
+    FROE_LINE_WIRE = 256,     /**< no edge: a segment of the scene */
+    FROE_LINE_POINT = 512,    /**< no line: a point of the scene; only visible ones */
+    FROE_LINE_END = 1024      /**< no kind */
 } froe_line;
-/** "border", "silhouette", "object", "material", "crease", "mesh", "crossing", "section"; NULL for anything else. */
+/** "border", "silhouette", "object", "material", "crease", "mesh", "crossing", "section", "wire", "point"; NULL for anything else. */
 FROE_API const char *froe_line_name(froe_line kind);
 
 typedef struct froe_stroke {
@@ -354,9 +377,9 @@ typedef struct froe_stroke {
      * A line where polygons pass through each other, or where a section cuts them, belongs to the first object of the
      * patch that is divided. Of lines that lie on each other, it is the object of the one that is drawn. */
     const uint32_t *objects;
-    size_t count; /**< 0: there is no such stroke */
+    size_t count; /**< POINT: 1; 0: there is no such stroke */
 } froe_stroke;
-/** Polylines, by place, then hidden ones first, then by kind. */
+/** Polylines, by place, then hidden ones first, then by kind, wires by group. Points come last, the farthest first. */
 FROE_API size_t froe_picture_stroke_count(const froe_picture *picture);
 FROE_API froe_stroke froe_picture_stroke(const froe_picture *picture, size_t i);
 
@@ -365,9 +388,10 @@ typedef struct froe_picture_report {
     froe_paint paint;      /**< what it is made of: FRAGMENTS although WHOLE was asked for when max_graph was reached */
     uint64_t arcs, tests;  /**< of the order, and pairs compared for them */
     uint64_t cyclic, late; /**< patches in circles, and those clipped (or divided) to break them */
-    uint64_t shapes, whole, points, strokes;
-    uint64_t left_out;    /**< patches, by min_area */
-    double left_out_area; /**< of all of them together */
+    uint64_t shapes, whole, points, strokes; /**< points: corners of shapes; strokes: with dots */
+    uint64_t dots;                           /**< points of the scene */
+    uint64_t left_out;                       /**< patches, by min_area */
+    double left_out_area;                    /**< of all of them together */
 } froe_picture_report;
 FROE_API froe_picture_report froe_picture_statistics(const froe_picture *picture);
 

@@ -15,7 +15,6 @@
 
 typedef struct line_sorter {
     view_painter *p;
-    double reach;
     print_ring points;               /* of all visible pieces */
     ARRAY(uint32_t) starts;          /* of each, and their end */
     uint32_t *stamps;                /* per visible piece: the segment + 1 that was compared with it last */
@@ -109,8 +108,9 @@ static bool add_interleaved_line(line_sorter *s, uint32_t i) {
     const view_segment *segment = p->segments.data + i;
     const uint32_t own = p->graph.count + (uint32_t)s->lines.count;
     if (segment->hidden) return true;
+    const double reach = segment->kind == FROE_LINE_POINT ? p->options->interleave_points : p->options->interleave;
     s->nearer.count = s->farther.count = 0;
-    view_grid_walk walk = view_grid_begin(&s->grid, view_grid_cells(&s->grid, segment->at, 2, s->reach));
+    view_grid_walk walk = view_grid_begin(&s->grid, view_grid_cells(&s->grid, segment->at, 2, reach));
     for (uint32_t visible; view_grid_next(&walk, &visible);) {
         size_t n;
         const print_point *ring = line_points(s, visible, &n);
@@ -119,10 +119,10 @@ static bool add_interleaved_line(line_sorter *s, uint32_t i) {
         s->stamps[visible] = i + 1;
         if (n < 3) continue;
         const near_place m = nearest(ring, n, segment->at[0], segment->at[1]);
-        if (m.square > s->reach * s->reach) continue;
+        if (m.square > reach * reach) continue;
         /* In front of the segment by more than a line is wide: less is what neighbours on a curved surface are. */
         const double near = segment->near[0] + m.share * (segment->near[1] - segment->near[0]);
-        const double wide = 2 * s->reach / view->scale * (view->eye.parallel ? 1 : near);
+        const double wide = 2 * reach / view->scale * (view->eye.parallel ? 1 : near);
         const bool nearer = near_at(p, p->v->pieces[visible].object, m.at) > near + wide;
         if (!(nearer ? array_push(alloc, &s->nearer, node) : array_push(alloc, &s->farther, node))) return false;
     }
@@ -166,7 +166,7 @@ static froe_status sort_lines(line_sorter *s, view_graph *g) {
 
 froe_status view_interleave(view_painter *p) {
     const froe_allocator *alloc = &p->picture->alloc;
-    line_sorter s = {.p = p, .reach = p->options->interleave};
+    line_sorter s = {.p = p};
     view_graph g = {0};
     const uint32_t pieces = p->v->piece_count;
     bool ok = array_reserve(alloc, &s.starts, (size_t)pieces + 1);

@@ -42,12 +42,14 @@ static froe_line kind_of_pair(view_sightlines *sights, uint32_t edge, uint32_t a
     return wanted & FROE_LINE_CREASE && c <= limit ? FROE_LINE_CREASE : FROE_LINE_MESH;
 }
 
-int view_strength(uint8_t kind, bool hidden) {
-    static const uint8_t kinds[] = {FROE_LINE_MESH,     FROE_LINE_CREASE,     FROE_LINE_MATERIAL, FROE_LINE_OBJECT,
-                                    FROE_LINE_CROSSING, FROE_LINE_SILHOUETTE, FROE_LINE_BORDER,   FROE_LINE_SECTION};
-    int i = sizeof kinds - 1;
+int view_strength(uint32_t kind, bool hidden) {
+    static const uint16_t kinds[] = {FROE_LINE_MESH,   FROE_LINE_CREASE,   FROE_LINE_MATERIAL,
+                                     FROE_LINE_OBJECT, FROE_LINE_CROSSING, FROE_LINE_SILHOUETTE,
+                                     FROE_LINE_BORDER, FROE_LINE_WIRE,     FROE_LINE_SECTION};
+    enum { COUNT = sizeof kinds / sizeof *kinds };
+    int i = COUNT - 1;
     while (i && kinds[i] != kind) i--;
-    return i + (hidden ? 0 : (int)sizeof kinds);
+    return i + (hidden ? 0 : COUNT);
 }
 
 void view_line_kinds(view_sightlines *sights, uint32_t wanted, double crease, uint8_t *kinds) {

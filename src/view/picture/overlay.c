@@ -20,7 +20,8 @@ typedef struct overlay_member {
     double near[2];
     const view_item *item;
     bool turned;
-    uint8_t kind, hidden;
+    uint16_t kind;
+    uint8_t hidden;
 } overlay_member;
 
 /* Where ends meet. */
@@ -32,7 +33,7 @@ typedef struct overlay_place {
 typedef struct overlayer {
     view_sightlines *sights;
     const froe_projection *view;
-    const uint32_t *chains;
+    const view_chains *chains;
     bool depths;
     ARRAY(overlay_line) lines;
     uint32_t line; /* the current one, and what is on it: */
@@ -172,7 +173,7 @@ static bool put_segments(overlayer *o, view_segments *out) {
             if (beyond == FROE_NONE || (o->depths && o->front.data[i] != o->front.data[i + 1])) break;
             const overlay_member *x = o->members.data + here, *y = o->members.data + beyond;
             if (x->kind != y->kind || x->hidden != y->hidden) break;
-            if (!view_runs_on(o->chains, x->item->object, y->item->object)) break;
+            if (!view_runs_on(o->chains, x->kind, x->item->object, y->item->object)) break;
         }
         const overlay_member *m = o->members.data + o->drawn.data[first],
                              *nearest = o->members.data + o->front.data[first];
@@ -196,7 +197,7 @@ static bool put_segments(overlayer *o, view_segments *out) {
 /* ---------------------------------------------------------------------- calling -- */
 
 froe_status view_overlay(view_sightlines *sights, const froe_projection *view, const view_items *items,
-                         const uint32_t *chains, bool depths, view_segments *out) {
+                         const view_chains *chains, bool depths, view_segments *out) {
     overlayer o = {.sights = sights, .view = view, .chains = chains, .depths = depths};
     overlay_ids lines = {0};
     if (items->count > INT32_MAX) return FROE_E_LIMIT;

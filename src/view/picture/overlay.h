@@ -17,13 +17,14 @@ typedef struct view_item {
     double near[2];    /**< as in view_segment */
     double space[2][3];
     uint32_t object; /**< that it is a line of */
-    uint8_t kind, hidden;
+    uint16_t kind;
+    uint8_t hidden;
 } view_item;
 typedef ARRAY(view_item) view_items;
 
 /** Appends their drawn parts as segments, which have at most points in common where they lie on one line.
- * `depths`: parts at which different items are nearest to the eye stay apart. `chains`: see froe_picture_options.
+ * `depths`: parts at which different items are nearest to the eye stay apart.
  * FROE_E_MEMORY, FROE_E_LIMIT. */
 froe_status view_overlay(view_sightlines *sights, const froe_projection *view, const view_items *items,
-                         const uint32_t *chains, bool depths, view_segments *out);
+                         const view_chains *chains, bool depths, view_segments *out);
 #endif

@@ -32,6 +32,10 @@ const char *froe_line_name(froe_line kind) {
         return "crossing";
     case FROE_LINE_SECTION:
         return "section";
+    case FROE_LINE_WIRE:
+        return "wire";
+    case FROE_LINE_POINT:
+        return "point";
     default:
         return NULL;
     }
@@ -53,6 +57,7 @@ static froe_status look_for_picture(view_painter *p, const froe_tree *tree, cons
     look.crossings = o->lines & (FROE_LINE_CROSSING | FROE_LINE_SECTION);
     look.hidden_crossings = look.crossings && o->hidden;
     look.section = o->section;
+    look.faces_only = !(o->lines & (FROE_LINE_WIRE | FROE_LINE_POINT));
     look.alloc = &p->picture->alloc;
     look.progress = o->progress;
     look.user = o->user;
@@ -146,6 +151,8 @@ static froe_status check_picture_options(const froe_picture_options *o, froe_dia
         return support_fail(diag, FROE_E_OPTIONS, "A halo of %g is none.", o->halo);
     if (!(o->interleave >= 0) || !isfinite(o->interleave))
         return support_fail(diag, FROE_E_OPTIONS, "Lines that reach %g cannot be interleaved.", o->interleave);
+    if (!(o->interleave_points >= 0) || !isfinite(o->interleave_points))
+        return support_fail(diag, FROE_E_OPTIONS, "Points that reach %g cannot be interleaved.", o->interleave_points);
     if (!(o->crease >= 0 && o->crease <= 180))
         return support_fail(diag, FROE_E_OPTIONS, "A crease angle of %g degrees is not in 0 .. 180.", o->crease);
     return FROE_OK;

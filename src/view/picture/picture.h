@@ -21,7 +21,8 @@ typedef struct picture_shape {
 typedef struct picture_stroke {
     uint32_t first, count; /**< in stroke_points */
     uint32_t place;        /**< shapes that are painted before it */
-    uint8_t kind, hidden, closed, butt[2];
+    uint16_t kind;
+    uint8_t hidden, closed, butt[2];
 } picture_stroke;
 
 struct froe_picture {
@@ -55,9 +56,10 @@ typedef struct view_painter {
     uint8_t *breaks;        /**< per place in `order`: lines come before it; NULL: all lines are on top */
     view_items items;       /**< stretches of lines, which may lie on each other */
     view_segments segments; /**< their drawn parts */
-    uint32_t *places;       /**< per piece of the tree, when something is clear */
-    uint8_t *left_out;      /**< per patch; NULL: none is */
-    uint32_t *runs;         /**< per patch, see view_outliner */
+    view_chains chains;
+    uint32_t *places;  /**< per piece of the tree, when something is clear */
+    uint8_t *left_out; /**< per patch; NULL: none is */
+    uint32_t *runs;    /**< per patch, see view_outliner */
 } view_painter;
 
 /** Finds an order of whole patches, of which some may be late or split. FROE_E_BUDGET. */
@@ -77,7 +79,7 @@ bool view_begin_shape(froe_picture *picture, uint32_t patch, bool whole);
 /** Ends it; a shape without rings is dropped. */
 void view_end_shape(froe_picture *picture);
 
-/** Which edges are lines, and of which kind: 0 none. One byte an edge. */
+/** Which edges are lines, and of which kind: 0 none. One byte an edge: kinds of edges are below 256. */
 void view_line_kinds(view_sightlines *sights, uint32_t wanted, double crease, uint8_t *kinds);
 /** Makes segments of all visible (and hidden) intervals, cut as wished. FROE_E_MEMORY. */
 froe_status view_make_segments(view_painter *painter, const uint8_t *kinds);

@@ -74,5 +74,6 @@ froe_status view_plan_whole(view_painter *p) {
     if (status) return status;
     p->order = support_calloc(&p->picture->alloc, p->parts.nodes.count + 1, sizeof *p->order);
     if (!p->order) return FROE_E_MEMORY;
-    return p->options->interleave > 0 ? view_interleave(p) : view_sort_nodes(p, &p->graph, p->order);
+    const bool among = p->options->interleave > 0 || p->options->interleave_points > 0;
+    return among ? view_interleave(p) : view_sort_nodes(p, &p->graph, p->order);
 }

@@ -1,6 +1,5 @@
-/* segments.c: intervals of edges, and crossings, become segments on the page. */
+/* segments.c: intervals of edges and wires, crossings, and points become segments on the page. */
 #include "base/radix.h"
-#include "geom/predicates.h"
 #include "view/picture/picture.h"
 #include <math.h>
 #include <string.h>
@@ -28,40 +27,30 @@ static bool add_view_item(view_painter *p, view_item *item, const double *a, con
 
 /* The object that an edge is a line of: of those that use it the first that faces the eye, or the first. */
 static uint32_t owner_of_edge(view_sightlines *s, uint32_t edge) {
+    if (edge >= s->surface->edge_count) return s->surface->wires[edge - s->surface->edge_count];
     const uint32_t first = s->surface->edge_starts[edge], end = s->surface->edge_starts[edge + 1];
     for (uint32_t i = first; i < end; i++)
         if (view_facing(s, s->surface->uses[i]) > 0) return s->surface->uses[i];
     return s->surface->uses[first];
 }
 
-static bool add_stretch(view_painter *p, uint32_t edge, uint8_t kind, bool hidden, const view_mark mark[2]) {
+static bool add_stretch(view_painter *p, uint32_t edge, uint32_t kind, bool hidden, const view_mark mark[2]) {
     view_sightlines *s = p->sights;
     const uint32_t *v = s->surface->vertices + 2 * (size_t)edge;
-    view_item item = {.run = {view_line_of_edge(s, edge), {mark[0], mark[1]}}, .kind = kind, .hidden = hidden};
+    view_item item = {
+        .run = {view_line_of_edge(s, edge), {mark[0], mark[1]}}, .kind = (uint16_t)kind, .hidden = hidden};
     item.object = owner_of_edge(s, edge);
     return add_view_item(p, &item, view_vertex(s, v[0]), view_vertex(s, v[1]), view_share_of(s, edge, mark[0]),
                          view_share_of(s, edge, mark[1]));
 }
 
-/* Adds all of an edge on the page as hidden: its visible parts are drawn over that. */
-static froe_status add_hidden(view_painter *p, uint32_t edge, uint8_t kind) {
-    view_sightlines *s = p->sights;
-    const uint32_t *v = s->surface->vertices + 2 * (size_t)edge;
-    view_mark mark[2] = {{.vertex = v[0]}, {.vertex = v[1]}};
-    if (view_is_point(s, edge)) return FROE_OK;
-    const uint32_t line = view_line_of_edge(s, edge);
-    if (line == FROE_NONE) return FROE_E_MEMORY;
-    if (p->v->section) { /* what the section leaves of it */
-        const geom_plane plane = tree_plane_at(s->tree, 0);
-        int side[2];
-        for (int e = 0; e < 2; e++)
-            side[e] = p->v->section * geom_side_vertex(&s->context, &plane, view_vertex(s, v[e]));
-        if (side[0] <= 0 && side[1] <= 0 && (side[0] || side[1])) return FROE_OK;
-        if (side[0] * side[1] < 0 && view_stop_edge(s, edge, line, &mark[side[1] < 0])) return FROE_E_MEMORY;
-    }
-    view_stretch part = {edge, {view_end_at(s, line, mark[0]), view_end_at(s, line, mark[1])}};
-    if (!view_cut_to_window(s, line, &part)) return FROE_OK;
-    for (int e = 0; e < 2; e++) mark[e] = view_mark_of(&part.end[e]);
+/* Adds all of a line on the page as hidden: its visible parts are drawn over that. */
+static froe_status add_hidden(view_painter *p, uint32_t edge, uint32_t kind) {
+    view_stretch part;
+    bool there;
+    const froe_status status = view_rest_of_edge(p->v, edge, &part, &there);
+    if (status || !there) return status;
+    const view_mark mark[2] = {view_mark_of(&part.end[0]), view_mark_of(&part.end[1])};
     return add_stretch(p, edge, kind, true, mark) ? FROE_OK : FROE_E_MEMORY;
 }
 
@@ -78,7 +67,7 @@ static bool number_crossings(view_painter *p) {
         const print_point at = p->segments.data[i / 2].at[i % 2];
         const uint64_t x = (uint64_t)(int64_t)floor(at.x * fine + 0.5) & UINT32_MAX,
                        y = (uint64_t)(int64_t)floor(at.y * fine + 0.5) & UINT32_MAX;
-        const uint8_t kind = p->segments.data[i / 2].kind;
+        const uint16_t kind = p->segments.data[i / 2].kind;
         if (kind == FROE_LINE_CROSSING || kind == FROE_LINE_SECTION) pairs[n++] = (base_pair){x << 32 | y, i};
     }
     if (pairs) base_radix_sort(pairs, pairs + n, n);
@@ -90,26 +79,55 @@ static bool number_crossings(view_painter *p) {
     return pairs != NULL;
 }
 
+/* Adds visible points, as segments of length 0. */
+static bool add_points(view_painter *p) {
+    const froe_projection *view = p->options->view;
+    const froe_surface *surface = p->sights->surface;
+    bool ok = true;
+    for (uint32_t i = 0; i < surface->point_count && ok; i++) {
+        const double *x = scene_point(surface->scene, surface->points[i], 0);
+        view_segment s = {.vertex = {FROE_NONE, FROE_NONE}, .object = surface->points[i], .kind = FROE_LINE_POINT};
+        double at[3], page[2];
+        if (!p->v->points_seen[i]) continue;
+        view_camera_point(view, x, at);
+        if (!view->eye.parallel && at[2] < view->near) continue;
+        view_camera_page(view, at, page);
+        s.place = FROE_NONE;
+        for (int e = 0; e < 2; e++) {
+            s.at[e] = (print_point){page[0], page[1]};
+            s.near[e] = view->eye.parallel ? -at[2] : 1 / at[2];
+            memcpy(s.space[e], x, sizeof s.space[e]);
+        }
+        ok = array_push(&p->picture->alloc, &p->segments, s);
+    }
+    return ok;
+}
+
 froe_status view_make_segments(view_painter *p, const uint8_t *kinds) {
     const froe_picture_options *o = p->options;
     const uint32_t *starts = p->v->edge_starts;
     froe_status status = FROE_OK;
-    for (uint32_t e = 0; !status && e < p->sights->surface->edge_count; e++) {
-        for (uint32_t i = starts[e]; !status && kinds[e] && i < starts[e + 1]; i++)
-            if (!add_stretch(p, e, kinds[e], false, p->v->interval_marks + 2 * (size_t)i)) status = FROE_E_MEMORY;
-        if (!status && kinds[e] && o->hidden) status = add_hidden(p, e, kinds[e]);
+    const froe_surface *surface = p->sights->surface;
+    p->chains = (view_chains){o->chains, surface->scene->groups};
+    for (uint32_t e = 0; !status && e < surface_line_count(surface); e++) {
+        const uint32_t kind = e < surface->edge_count ? kinds[e] : o->lines & FROE_LINE_WIRE;
+        for (uint32_t i = starts[e]; !status && kind && i < starts[e + 1]; i++)
+            if (!add_stretch(p, e, kind, false, p->v->interval_marks + 2 * (size_t)i)) status = FROE_E_MEMORY;
+        if (!status && kind && o->hidden) status = add_hidden(p, e, kind);
     }
     size_t count;
     const froe_crossing *x = froe_visibility_crossings(p->v, &count);
     for (size_t i = 0; !status && i < count; i++) {
         const uint32_t kind = x[i].section ? FROE_LINE_SECTION : FROE_LINE_CROSSING;
-        view_item item = {.run = p->v->crossing_runs.data[i], .kind = (uint8_t)kind, .hidden = x[i].hidden};
+        view_item item = {.run = p->v->crossing_runs.data[i], .kind = (uint16_t)kind, .hidden = x[i].hidden};
         item.object = surface_first(p->sights->surface, x[i].patch);
         if (o->lines & kind && !add_view_item(p, &item, x[i].from, x[i].to, 0, 1)) status = FROE_E_MEMORY;
     }
     if (!status)
-        status = view_overlay(p->sights, o->view, &p->items, o->chains, o->halo > 0 || o->interleave > 0, &p->segments);
+        status =
+            view_overlay(p->sights, o->view, &p->items, &p->chains, o->halo > 0 || o->interleave > 0, &p->segments);
     if (!status && !number_crossings(p)) status = FROE_E_MEMORY;
     if (!status) status = view_cut_segments(&p->picture->alloc, o->view, o->halo, &p->segments);
+    if (!status && o->lines & FROE_LINE_POINT && !add_points(p)) status = FROE_E_MEMORY;
     return status;
 }

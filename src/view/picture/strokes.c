@@ -1,4 +1,4 @@
-/* strokes.c: segments of one kind that meet at a vertex become polylines.
+/* strokes.c: segments of one kind that meet at a vertex become polylines, wires of one group. Points stay alone.
  *
  * At a vertex where several could go on, the straightest does. Where a line ends because something begins to hide it, a
  * round cap would stick out over the hiding face: such ends are marked. */
@@ -16,6 +16,18 @@ typedef struct chainer {
 
 static uint32_t class_of(const view_segment *s) {
     return (s->hidden ? 0u : (uint32_t)FROE_LINE_END) + s->kind;
+}
+
+/* The order of painting, before places: hidden lines first, then by kind, those of groups together; points by depth. */
+static uint64_t rank_of(const chainer *c, const view_segment *s) {
+    const uint32_t *groups = c->p->chains.groups;
+    const uint64_t kind = s->kind < FROE_LINE_WIRE ? (uint64_t)FROE_LINE_WIRE / s->kind : (uint64_t)s->kind * 2;
+    uint64_t within = s->kind == FROE_LINE_WIRE && groups ? groups[s->object] : 0;
+    if (s->kind == FROE_LINE_POINT) { /* the upper bits of doubles are in their order, when negative ones are turned */
+        memcpy(&within, &s->near[0], sizeof within);
+        within = (within >> 63 ? ~within : within | UINT64_C(1) << 63) >> 12;
+    }
+    return (uint64_t)!s->hidden << 63 | kind << 52 | within;
 }
 
 /* -------------------------------------------------------------------- polylines -- */
@@ -39,7 +51,7 @@ static uint32_t continuation(const chainer *c, uint32_t i, uint32_t e) {
     for (size_t k = lo; k < c->end_count && c->ends.data[k].key == key; k++) {
         const uint32_t other = c->ends.data[k].value >> 1, end = c->ends.data[k].value & 1;
         const view_segment *t = c->p->segments.data + other;
-        if (t->used || t->place != s->place || !view_runs_on(c->p->options->chains, s->object, t->object)) continue;
+        if (t->used || t->place != s->place || !view_runs_on(&c->p->chains, s->kind, s->object, t->object)) continue;
         const double x = t->at[!end].x - t->at[end].x, y = t->at[!end].y - t->at[end].y, length = sqrt(x * x + y * y);
         const double along = length > 0 ? (dx * x + dy * y) / length : 0;
         if (along > best) best = along, found = 2 * other + end;
@@ -76,19 +88,21 @@ static bool put_stroke(chainer *c, uint32_t i) {
     uint32_t start, end;
     s->used = 1;
     if (!follow_chain(c, i, 1, &c->forth, &end) || !follow_chain(c, i, 0, &c->back, &start)) return false;
-    const size_t forth = c->forth.count, count = c->back.count + 2 + forth;
+    const bool point = s->kind == FROE_LINE_POINT;
+    const size_t forth = c->forth.count, count = c->back.count + (point ? 1 : 2) + forth;
     picture_stroke stroke = {
         .first = (uint32_t)picture->stroke_points.count, .kind = s->kind, .hidden = s->hidden, .place = s->place};
     stroke.butt[0] = start == FROE_NONE, stroke.butt[1] = end == FROE_NONE;
     stroke.closed = start != FROE_NONE && start == end && count > 3; /* the last point is the first */
     stroke.count = (uint32_t)count - stroke.closed;
+    if (point) stroke.closed = 1, picture->report.dots++;
     if (!array_reserve(c->alloc, &picture->stroke_points, count) ||
         !array_reserve(c->alloc, &picture->stroke_space, 3 * count) ||
         !array_reserve(c->alloc, &picture->stroke_objects, count))
         return false;
     for (size_t k = c->back.count; k-- > 0;) put_point(c, c->back.data[k], c->back.data[k]);
     put_point(c, 2 * i, 2 * i);
-    for (size_t k = 0; k + stroke.closed <= forth; k++) /* the far ends of it and of what follows */
+    for (size_t k = 0; k + stroke.closed <= forth && !point; k++) /* the far ends of it and of what follows */
         put_point(c, k ? c->forth.data[k - 1] : 2 * i + 1,
                   k < forth ? c->forth.data[k]
                   : k       ? c->forth.data[k - 1]
@@ -116,6 +130,18 @@ static bool sort_strokes(chainer *c) {
     return true;
 }
 
+static bool put_strokes(chainer *c) {
+    const size_t n = c->p->segments.count;
+    base_pair *pairs = support_calloc(c->alloc, 2 * n + 1, sizeof *pairs);
+    bool ok = pairs != NULL;
+    for (uint32_t i = 0; ok && i < n; i++) pairs[i] = (base_pair){rank_of(c, c->p->segments.data + i), i};
+    if (ok) base_radix_sort(pairs, pairs + n, n);
+    for (size_t k = 0; ok && k < n; k++)
+        if (!c->p->segments.data[pairs[k].value].used) ok = put_stroke(c, pairs[k].value);
+    support_free(c->alloc, pairs, (2 * n + 1) * sizeof *pairs);
+    return ok;
+}
+
 froe_status view_make_strokes(view_painter *painter) {
     chainer c = {.p = painter, .alloc = &painter->picture->alloc};
     const size_t n = painter->segments.count;
@@ -127,12 +153,7 @@ froe_status view_make_strokes(view_painter *painter) {
                 c.ends.data[c.end_count++] = (base_pair){(uint64_t)class_of(s) << 32 | s->vertex[e], 2 * i + e};
     }
     if (ok) base_radix_sort(c.ends.data, c.ends.data + c.end_count, c.end_count);
-    for (int hidden = 1; hidden >= 0; hidden--) /* hidden lines first, then by kind */
-        for (uint32_t kind = FROE_LINE_END >> 1; kind; kind >>= 1)
-            for (uint32_t i = 0; ok && i < n; i++) {
-                const view_segment *s = painter->segments.data + i;
-                if (!s->used && s->kind == kind && s->hidden == hidden) ok = put_stroke(&c, i);
-            }
+    ok = ok && put_strokes(&c);
     ok = ok && sort_strokes(&c);
     array_free(c.alloc, &c.ends);
     array_free(c.alloc, &c.forth);

@@ -118,7 +118,8 @@ froe_status view_look_along_section(froe_visibility *v, uint32_t object) {
         const uint32_t before = s->surface->edge_of[scene->starts[object] + (i ? i - 1 : n - 1)];
         reached |= side > 0 ? 2 : side < 0 ? 1 : 0;
         if (!side && count < 2) mark[count++] = (view_mark){.vertex = scene_corner(scene, object, i)};
-        if (side * last < 0 && count < 2 && view_stop_edge(s, before, line, &mark[count++])) return FROE_E_MEMORY;
+        if (side * last < 0 && count < 2 && view_stop_edge(s, before, FROE_NONE, line, &mark[count++]))
+            return FROE_E_MEMORY;
         last = side;
     }
     if (reached != 3 || count < 2) return FROE_OK; /* the section only touches it */

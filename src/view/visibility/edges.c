@@ -1,4 +1,4 @@
-/* edges.c: equal pairs of vertices are found by sorting them. */
+/* edges.c: equal pairs of vertices are found by sorting them; segments and points are listed. */
 #include "base/radix.h"
 #include "view/visibility/surface.h"
 
@@ -6,6 +6,27 @@ static uint32_t *take_numbers(const froe_allocator *alloc, size_t count, bool *o
     uint32_t *out = support_calloc(alloc, count ? count : 1, sizeof *out);
     *ok = *ok && out;
     return out;
+}
+
+/* Is it a segment, or a point, that was added as one of both? A polygon without area is neither. */
+static bool is_wire(const froe_scene *s, uint32_t object) {
+    return s->kinds[object] == FROE_SEGMENT && scene_form(s, object) == FROE_SEGMENT;
+}
+
+static bool is_point(const froe_scene *s, uint32_t object) {
+    return s->kinds[object] <= FROE_SEGMENT && scene_form(s, object) == FROE_POINT;
+}
+
+static void list_wires_and_points(froe_surface *out) {
+    const froe_scene *s = out->scene;
+    uint32_t wires = 0, points = 0;
+    for (uint32_t o = 0; o < s->object_count; o++) {
+        if (is_point(s, o)) out->points[points++] = o;
+        if (!is_wire(s, o)) continue;
+        for (uint32_t i = 0; i < 2; i++)
+            out->vertices[2 * (size_t)(out->edge_count + wires) + i] = scene_corner(s, o, i);
+        out->wires[wires++] = o;
+    }
 }
 
 froe_status surface_find_edges(froe_surface *out) {
@@ -28,7 +49,13 @@ froe_status surface_find_edges(froe_surface *out) {
         base_radix_sort(pairs, pairs + most, out->use_count);
         for (uint32_t i = 0; i < out->use_count; i++) out->edge_count += !i || pairs[i].key != pairs[i - 1].key;
     }
-    out->vertices = take_numbers(alloc, 2 * (size_t)out->edge_count, &ok);
+    for (uint32_t o = 0; o < s->object_count; o++) {
+        out->wire_count += is_wire(s, o);
+        out->point_count += is_point(s, o);
+    }
+    out->vertices = take_numbers(alloc, 2 * surface_line_count(out), &ok);
+    out->wires = take_numbers(alloc, out->wire_count, &ok);
+    out->points = take_numbers(alloc, out->point_count, &ok);
     out->edge_starts = take_numbers(alloc, (size_t)out->edge_count + 1, &ok);
     out->uses = take_numbers(alloc, out->use_count, &ok);
     if (ok) {
@@ -47,6 +74,7 @@ froe_status surface_find_edges(froe_surface *out) {
             out->uses[i] = object_of[pairs[i].value];
         }
         out->edge_starts[out->edge_count] = out->use_count;
+        list_wires_and_points(out);
     }
     support_free(alloc, object_of, most * sizeof *object_of);
     support_free(alloc, pairs, 2 * (size_t)most * sizeof *pairs);

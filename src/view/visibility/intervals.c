@@ -1,8 +1,9 @@
-/* intervals.c: the visible stretches of an edge, in exact order, joined where they touch or overlap.
+/* intervals.c: the visible stretches of an edge or wire, in exact order, joined where they touch or overlap.
  *
  * The end X = l x m of a stretch of the edge with line l lies before Y = l x n, seen along the edge, when
  * det(l, m, n) > 0, that is when X is on the positive side of n. */
 #include "base/sort.h"
+#include "geom/predicates.h"
 #include "view/visibility/visibility.h"
 #include <string.h>
 
@@ -21,6 +22,27 @@ int view_compare_ends(view_sightlines *s, uint32_t line, const view_end *a, cons
 view_end view_end_at(view_sightlines *s, uint32_t line, view_mark mark) {
     if (mark.vertex != FROE_NONE) return (view_end){.ray = s->rays[mark.vertex], .vertex = mark.vertex};
     return (view_end){view_meeting(s, 2 * line, mark.way), FROE_NONE, mark.way};
+}
+
+froe_status view_rest_of_edge(froe_visibility *v, uint32_t edge, view_stretch *out, bool *there) {
+    view_sightlines *s = &v->sights;
+    const uint32_t *vertices = s->surface->vertices + 2 * (size_t)edge;
+    view_mark mark[2] = {{.vertex = vertices[0]}, {.vertex = vertices[1]}};
+    *there = false;
+    if (view_is_point(s, edge)) return FROE_OK;
+    const uint32_t line = view_line_of_edge(s, edge);
+    if (line == FROE_NONE) return FROE_E_MEMORY;
+    if (v->section) {
+        const geom_plane plane = view_plane_at(s, FROE_NONE);
+        int side[2];
+        for (int e = 0; e < 2; e++)
+            side[e] = v->section * geom_side_vertex(&s->context, &plane, view_vertex(s, vertices[e]));
+        if (side[0] <= 0 && side[1] <= 0 && (side[0] || side[1])) return FROE_OK;
+        if (side[0] * side[1] < 0 && view_stop_edge(s, edge, FROE_NONE, line, &mark[side[1] < 0])) return FROE_E_MEMORY;
+    }
+    *out = (view_stretch){edge, {view_end_at(s, line, mark[0]), view_end_at(s, line, mark[1])}};
+    *there = view_cut_to_window(s, line, out);
+    return FROE_OK;
 }
 
 /* ------------------------------------------------------------------- parameters -- */
@@ -51,10 +73,10 @@ static int by_interval_start(void *user, uint32_t a, uint32_t b) {
 
 froe_status view_join_intervals(froe_visibility *v, const view_stretches *stretches) {
     const froe_allocator *alloc = &v->alloc;
-    const uint32_t edges = v->surface->edge_count;
+    const size_t edges = surface_line_count(v->surface);
     const size_t n = stretches->count;
     if (n > INT32_MAX) return FROE_E_LIMIT;
-    v->edge_starts = support_calloc(alloc, (size_t)edges + 1, sizeof *v->edge_starts);
+    v->edge_starts = support_calloc(alloc, edges + 1, sizeof *v->edge_starts);
     v->interval_room = n + 1;
     v->intervals = support_calloc(alloc, n + 1, sizeof *v->intervals);
     v->interval_marks = support_calloc(alloc, 2 * (n + 1), sizeof *v->interval_marks);

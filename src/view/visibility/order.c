@@ -134,32 +134,37 @@ froe_status view_eye_of(const froe_tree *tree, const froe_eye *eye, geom_eye *ou
     return FROE_OK;
 }
 
-/* Do all these pieces lie in the hyperplane of the first that has one? */
-static bool in_one_plane(num_context *context, const froe_scene *scene, const tree_objects *list) {
+/* Do all these pieces lie in the hyperplane of the first that has one? `faces`: those of polygons. */
+static bool in_one_plane(num_context *context, const froe_scene *scene, const tree_objects *list, bool faces) {
     geom_plane plane;
     const froe_kind full = scene->dim == 2 ? FROE_SEGMENT : FROE_POLYGON;
     uint32_t base = 0;
     while (base < list->count && scene_form(scene, tree_object(list, base)) != full) base++;
-    if (base == list->count) return false;
+    if (base == list->count) return faces;
     scene_support(scene, tree_object(list, base), &plane);
     for (uint32_t i = 0; i < list->count; i++) {
         const uint32_t object = tree_object(list, i);
+        if (faces && scene_form(scene, object) != FROE_POLYGON) continue;
         for (uint32_t k = 0; k < scene_corners(scene, object); k++)
             if (geom_side_vertex(context, &plane, scene_point(scene, object, k)) != 0) return false;
     }
     return true;
 }
 
-froe_status view_order_check(const froe_tree *tree, froe_diagnostic *diag) {
+froe_status view_order_check(const froe_tree *tree, bool faces, froe_diagnostic *diag) {
     const froe_scene *scene = tree->scene;
     num_context context;
     froe_status status = FROE_OK;
-    for (uint32_t i = 0; i < scene->object_count; i++)
+    bool ordered = !faces;
+    for (uint32_t i = 0; i < scene->object_count; i++) {
+        ordered = ordered || scene_form(scene, i) == FROE_POLYGON;
         if (scene_form(scene, i) > FROE_POLYGON)
             return support_fail_at(
                 diag, FROE_E_UNSUPPORTED, i, FROE_NONE, FROE_NONE,
                 "object %u: It is a %s, which no cut divides, and has no certain place in a depth order.", i,
                 froe_kind_name(scene_form(scene, i)));
+    }
+    if (!ordered) return FROE_OK;
     if (tree_is_space(tree))
         return support_fail(
             diag, FROE_E_UNSUPPORTED,
@@ -170,7 +175,7 @@ froe_status view_order_check(const froe_tree *tree, froe_diagnostic *diag) {
     for (uint32_t node = 0; node < tree->node_count && !status; node++) {
         if (!tree_is_leaf(tree->nodes + node)) continue;
         const tree_objects list = tree_list(tree, node);
-        if (list.count > 1 && !in_one_plane(&context, tree->scene, &list))
+        if (list.count > 1 && !in_one_plane(&context, tree->scene, &list, faces))
             status = support_fail_at(diag, FROE_E_UNSUPPORTED, tree_object(&list, 0), FROE_NONE, FROE_NONE,
                                      "A leaf holds %u pieces (one of object %u) without a cut between them. A leaf "
                                      "capacity of 1 or 0 leaves none.",

@@ -43,8 +43,8 @@ typedef struct view_order {
 froe_status view_eye_of(const froe_tree *tree, const froe_eye *eye, geom_eye *out, froe_diagnostic *diag);
 /** Side of a node's cut on which the eye is. */
 int view_side_of_eye(num_context *context, const froe_tree *tree, uint32_t node, const geom_eye *eye);
-/** Can the pieces of this tree be ordered? FROE_E_UNSUPPORTED. */
-froe_status view_order_check(const froe_tree *tree, froe_diagnostic *diag);
+/** Can the pieces of this tree be ordered, or (faces) those of its polygons, if it has any? FROE_E_UNSUPPORTED. */
+froe_status view_order_check(const froe_tree *tree, bool faces, froe_diagnostic *diag);
 
 froe_status view_order_begin(view_order *order, const froe_tree *tree, const geom_eye *eye, bool front_to_back,
                              const uint32_t *ranks);

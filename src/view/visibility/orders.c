@@ -32,7 +32,7 @@ froe_status froe_tree_order(const froe_tree *tree, const froe_eye *eye, const fr
     uint32_t piece;
     if (!eye || !fn) return support_fail_null(diag, __func__);
     froe_status status = check_orders(tree, &options, &standard, diag);
-    if (!status) status = view_order_check(tree, diag);
+    if (!status) status = view_order_check(tree, false, diag);
     if (!status) status = view_eye_of(tree, eye, &from, diag);
     if (status) return status;
     status = view_order_begin(&order, tree, &from, options->front_to_back, options->ranks);
@@ -124,7 +124,7 @@ froe_status froe_tree_orders(const froe_tree *tree, const froe_eye *eyes, size_t
     const froe_order_options standard = froe_order_defaults();
     if (count && (!eyes || !pieces)) return support_fail_null(diag, __func__);
     froe_status status = check_orders(tree, &options, &standard, diag);
-    if (!status) status = view_order_check(tree, diag);
+    if (!status) status = view_order_check(tree, false, diag);
     if (status) return status;
     froe_status bad = FROE_OK; /* of an eye */
     base_task task;

@@ -15,7 +15,7 @@ static void set_child(view_screen *s, uint32_t slot, uint32_t child) {
 static uint32_t put_node(view_screen *s, uint32_t slot, view_way way, uint32_t inner, uint32_t outer) {
     const uint32_t node = (uint32_t)s->nodes.count, inside = !(way & 1);
     view_screen_node n = {.line = way >> 1};
-    if (node >= VIEW_COVERED) return FROE_NONE;
+    if (node >= VIEW_OPEN) return FROE_NONE;
     n.child[inside] = inner;
     n.child[!inside] = outer;
     if (!array_push(&s->sights->alloc, &s->nodes, n)) return FROE_NONE;
@@ -42,7 +42,7 @@ froe_status view_screen_new(view_screen *s, view_sightlines *sights) {
         }
     for (uint32_t i = 0; i < n; i++) {
         sights->window_ways[i] = 2 * lines[i] + (turn < 0);
-        slot = put_node(s, slot, sights->window_ways[i], VIEW_OPEN, VIEW_COVERED);
+        slot = put_node(s, slot, sights->window_ways[i], VIEW_OPEN, VIEW_OUTSIDE);
         if (slot == FROE_NONE) return FROE_E_MEMORY;
     }
     return FROE_OK;
@@ -106,13 +106,13 @@ static bool divide_beam(view_screen *s, uint32_t node, size_t first, uint32_t co
 }
 
 /* Follows the topmost beam down until it ends or is divided. */
-static bool send(view_screen *s, bool covers, view_beam_fn *fn, void *user) {
+static bool send(view_screen *s, uint32_t cover, view_beam_fn *fn, void *user) {
     const view_pending top = s->beams.data[--s->beams.count];
     uint32_t node = top.node, slot = top.slot;
     const uint32_t count = top.count;
     if (s->sides.capacity < count && !array_reserve(&s->sights->alloc, &s->sides, count)) return false;
     view_corner *ring = s->corners.data + top.first;
-    while (node < VIEW_COVERED) {
+    while (node < VIEW_OPEN) {
         const view_screen_node *n = s->nodes.data + node;
         unsigned reached = 0; /* bit 0: some corners are on the negative side, bit 1: some on the positive */
         view_way before = ring[count - 1].way;
@@ -129,23 +129,23 @@ static bool send(view_screen *s, bool covers, view_beam_fn *fn, void *user) {
         node = n->child[reached == 2];
     }
     s->corners.count = top.first;
-    if (node == VIEW_COVERED) return true;
+    if (node != VIEW_OPEN) return true;
     if (!fn(user, ring, count)) return false;
-    if (!covers) return true;
+    if (cover == FROE_NONE) return true;
     /* Covers the open leaf: a chain of those sides of the beam that the tree does not have yet. */
     s->open--;
-    set_child(s, slot, VIEW_COVERED);
+    set_child(s, slot, VIEW_COVERED + cover);
     for (uint32_t i = 0; i < count; i++) {
         if (ring[i].bound) continue;
-        slot = put_node(s, slot, ring[i].way, VIEW_COVERED, VIEW_OPEN);
+        slot = put_node(s, slot, ring[i].way, VIEW_COVERED + cover, VIEW_OPEN);
         if (slot == FROE_NONE) return false;
         s->open++;
     }
     return true;
 }
 
-froe_status view_screen_insert(view_screen *s, const view_corner *ring, uint32_t count, bool covers, view_beam_fn *fn,
-                               void *user) {
+froe_status view_screen_insert(view_screen *s, const view_corner *ring, uint32_t count, uint32_t cover,
+                               view_beam_fn *fn, void *user) {
     const froe_allocator *alloc = &s->sights->alloc;
     s->beams.count = s->corners.count = 0;
     if (!array_reserve(alloc, &s->corners, count) || !array_reserve(alloc, &s->beams, 1)) return FROE_E_MEMORY;
@@ -153,7 +153,7 @@ froe_status view_screen_insert(view_screen *s, const view_corner *ring, uint32_t
     s->corners.count = count;
     s->beams.data[s->beams.count++] = (view_pending){s->root, ROOT_SLOT, 0, count};
     while (s->beams.count)
-        if (!send(s, covers, fn, user)) return FROE_E_MEMORY;
+        if (!send(s, cover, fn, user)) return FROE_E_MEMORY;
     return FROE_OK;
 }
 
@@ -194,7 +194,7 @@ froe_status view_screen_classify(view_screen *s, const view_stretch *stretch, ui
     while (ok && s->stretches.count) {
         const view_pending_stretch top = s->stretches.data[--s->stretches.count];
         if (top.node == VIEW_OPEN) ok = fn(user, &top.part);
-        if (top.node >= VIEW_COVERED) continue;
+        if (top.node >= VIEW_OPEN) continue;
         const view_screen_node n = s->nodes.data[top.node];
         const view_end *ends = top.part.end;
         const int from = side_of_end(s->sights, n.line, &ends[0], own),

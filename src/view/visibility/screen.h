@@ -20,7 +20,10 @@ typedef struct view_corner {
     uint32_t bound;  /**< this side lies on a line of the tree above: no cut is needed there */
 } view_corner;
 
-enum { VIEW_OPEN = INT32_MAX, VIEW_COVERED = INT32_MAX - 1 }; /* leaves, where children have no number */
+/** Leaves, where children have no number. */
+#define VIEW_OPEN ((uint32_t)INT32_MAX)
+#define VIEW_COVERED (VIEW_OPEN + 1) /**< + the object whose part of it is visible there */
+#define VIEW_OUTSIDE UINT32_MAX      /**< of the window */
 
 typedef struct view_screen_node {
     uint32_t line, child[2]; /**< child 0: negative side */
@@ -71,8 +74,9 @@ void view_screen_free(view_screen *screen);
 
 /** Receives a visible beam, `count` corners that live until it returns; false: without memory. */
 typedef bool view_beam_fn(void *user, const view_corner *ring, uint32_t count);
-/** Sends a beam down the tree; `cover`: it then covers what it reached. FROE_E_MEMORY, FROE_E_LIMIT. */
-froe_status view_screen_insert(view_screen *screen, const view_corner *ring, uint32_t count, bool cover,
+/** Sends a beam down the tree; then an object covers what it reached, below 2^31 - 1, or (FROE_NONE) none does.
+ * FROE_E_MEMORY, FROE_E_LIMIT. */
+froe_status view_screen_insert(view_screen *screen, const view_corner *ring, uint32_t count, uint32_t cover,
                                view_beam_fn *fn, void *user);
 /** Cuts a stretch of a line to the positive side of a way, or to the window; false: nothing is left, or it runs along
  * the way. */

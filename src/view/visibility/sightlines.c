@@ -27,7 +27,7 @@ froe_status view_sightlines_new(view_sightlines *s, const froe_tree *tree, const
     const uint32_t objects = tree->scene->object_count, points = sightline_point_count(s);
     s->rays = support_calloc(alloc, (size_t)points + 1, sizeof *s->rays);
     s->eye_sides = support_calloc(alloc, (size_t)objects + 1, sizeof *s->eye_sides);
-    s->of_edge = support_calloc(alloc, (size_t)surface->edge_count + 1, sizeof *s->of_edge);
+    s->of_edge = support_calloc(alloc, surface_line_count(surface) + 1, sizeof *s->of_edge);
     if (!s->rays || !s->eye_sides || !s->of_edge) return FROE_E_MEMORY;
     memset(s->eye_sides, 2, objects);
     for (uint32_t i = 0; i < points; i++) s->rays[i] = geom_ray_image(eye, view_vertex(s, i));
@@ -37,7 +37,7 @@ froe_status view_sightlines_new(view_sightlines *s, const froe_tree *tree, const
 void view_sightlines_free(view_sightlines *s) {
     if (s->rays) support_free(&s->alloc, s->rays, ((size_t)sightline_point_count(s) + 1) * sizeof *s->rays);
     if (s->eye_sides) support_free(&s->alloc, s->eye_sides, (size_t)s->tree->scene->object_count + 1);
-    if (s->of_edge) support_free(&s->alloc, s->of_edge, ((size_t)s->surface->edge_count + 1) * sizeof *s->of_edge);
+    if (s->of_edge) support_free(&s->alloc, s->of_edge, (surface_line_count(s->surface) + 1) * sizeof *s->of_edge);
     array_free(&s->alloc, &s->lines);
     scene_table_free(&s->alloc, &s->made);
     num_context_free(&s->context);
@@ -54,6 +54,13 @@ int view_facing(view_sightlines *s, uint32_t object) {
 
 /* ----------------------------------------------------------------------- lines -- */
 
+geom_plane view_plane_at(const view_sightlines *s, uint32_t object) {
+    if (object == FROE_NONE) return tree_plane_at(s->tree, 0);
+    geom_plane plane;
+    scene_support(s->tree->scene, object, &plane);
+    return plane;
+}
+
 /* The line as a geom_line; `planes` receives the planes that it refers to. */
 static geom_line resolve(view_sightlines *s, uint32_t line, geom_plane planes[2]) {
     const view_line *l = s->lines.data + line;
@@ -61,7 +68,7 @@ static geom_line resolve(view_sightlines *s, uint32_t line, geom_plane planes[2]
         return (geom_line){.kind = GEOM_SIGHT_EDGE, .u = view_vertex(s, l->a), .v = view_vertex(s, l->b)};
     if (l->kind == VIEW_STOP) {
         const uint32_t *v = s->surface->vertices + 2 * (size_t)l->a;
-        planes[1] = tree_plane_at(s->tree, 0);
+        planes[1] = view_plane_at(s, l->c);
         return (geom_line){.kind = GEOM_SIGHT_STOP,
                            .u = view_vertex(s, v[0]),
                            .v = view_vertex(s, v[1]),
@@ -73,10 +80,10 @@ static geom_line resolve(view_sightlines *s, uint32_t line, geom_plane planes[2]
     return (geom_line){.kind = GEOM_SIGHT_CUT, .s = &planes[0], .a = &planes[1]};
 }
 
-static uint32_t add_sight_line(view_sightlines *s, uint32_t kind, uint32_t a, uint32_t b) {
+static uint32_t add_sight_line(view_sightlines *s, uint32_t kind, uint32_t a, uint32_t b, uint32_t c) {
     const uint32_t line = (uint32_t)s->lines.count;
     geom_plane planes[2];
-    if (line >= INT32_MAX || !array_push(&s->alloc, &s->lines, (view_line){.kind = kind, .a = a, .b = b}))
+    if (line >= INT32_MAX || !array_push(&s->alloc, &s->lines, (view_line){.kind = kind, .a = a, .b = b, .c = c}))
         return FROE_NONE;
     const geom_line exact = resolve(s, line, planes);
     /* The image is from the rays of its ends, if that is fine enough; else by balls; else from exact numbers, which
@@ -97,13 +104,13 @@ static uint32_t add_sight_line(view_sightlines *s, uint32_t kind, uint32_t a, ui
 
 uint32_t view_line_of_edge(view_sightlines *s, uint32_t edge) {
     const uint32_t *v = s->surface->vertices + 2 * (size_t)edge;
-    if (!s->of_edge[edge]) s->of_edge[edge] = add_sight_line(s, VIEW_EDGE, v[0], v[1]) + 1;
+    if (!s->of_edge[edge]) s->of_edge[edge] = add_sight_line(s, VIEW_EDGE, v[0], v[1], FROE_NONE) + 1;
     return s->of_edge[edge] - 1;
 }
 
 uint32_t view_line_of_window(view_sightlines *s, uint32_t side) {
     const uint32_t first = s->tree->scene->vertex_count;
-    return add_sight_line(s, VIEW_EDGE, first + side, first + (side + 1) % s->window_count);
+    return add_sight_line(s, VIEW_EDGE, first + side, first + (side + 1) % s->window_count, FROE_NONE);
 }
 
 uint32_t view_line_of_cut(view_sightlines *s, uint32_t patch, uint32_t node) {
@@ -115,7 +122,7 @@ uint32_t view_line_of_cut(view_sightlines *s, uint32_t patch, uint32_t node) {
         const view_line *l = s->lines.data + id;
         if (l->a == patch && l->b == node) return id;
     }
-    const uint32_t line = add_sight_line(s, VIEW_CUT, patch, node);
+    const uint32_t line = add_sight_line(s, VIEW_CUT, patch, node, FROE_NONE);
     if (line != FROE_NONE) scene_table_put(&s->made, at, tag, line);
     return line;
 }
@@ -152,13 +159,13 @@ int view_compare_lines(view_sightlines *s, uint32_t a, uint32_t b, const double 
 
 /* The point X = a(v) r(u) - a(u) r(v) (or its opposite, with a(v) < 0) and the axis e make the line X x e, and
  * l x (X x e) = X (l . e). */
-froe_status view_stop_edge(view_sightlines *s, uint32_t edge, uint32_t line, view_mark *out) {
+froe_status view_stop_edge(view_sightlines *s, uint32_t edge, uint32_t object, uint32_t line, view_mark *out) {
     const uint32_t v = s->surface->vertices[2 * (size_t)edge + 1];
-    const geom_plane plane = tree_plane_at(s->tree, 0);
+    const geom_plane plane = view_plane_at(s, object);
     double key[3];
     bool turned;
     (void)view_line_key(s, line, key, &turned);
-    const uint32_t stop = add_sight_line(s, VIEW_STOP, edge, (uint32_t)axis_of(key));
+    const uint32_t stop = add_sight_line(s, VIEW_STOP, edge, (uint32_t)axis_of(key), object);
     const bool behind = geom_side_vertex(&s->context, &plane, view_vertex(s, v)) < 0;
     *out = (view_mark){FROE_NONE, 2 * stop + (turned != behind)};
     return stop == FROE_NONE ? FROE_E_MEMORY : FROE_OK;

@@ -2,7 +2,8 @@
  *
  *     EDGE    through an edge of the surface, or a side of the window
  *     CUT     where the cut of a node divides a patch
- *     STOP    through the point of an edge that lies in the section, across another line
+ *     STOP    through the point of an edge or wire that lies in the section, or in the plane of a polygon, across
+ *             another line
  *
  * A way is a line with a direction: 2 * line, + 1 for its other side. Corners of the picture are vertices, or the
  * meeting a x b of two ways (geom/eye.h); images of them decide most questions, and exact signs the rest. */
@@ -20,7 +21,8 @@ enum { VIEW_EDGE, VIEW_CUT, VIEW_STOP };
 typedef struct view_line {
     filter_vector image;
     uint32_t kind;
-    uint32_t a, b; /**< EDGE: vertices | CUT: patch, node | STOP: edge, axis */
+    uint32_t a, b; /**< EDGE: vertices | CUT: patch, node | STOP: edge or wire, axis */
+    uint32_t c;    /**< STOP: the polygon; FROE_NONE: the section, which is the cut of the root */
 } view_line;
 
 /** An end of a stretch of a line: a vertex, or its meeting with a way. */
@@ -40,7 +42,7 @@ typedef struct view_sightlines {
     view_way window_ways[FROE_WINDOW_MOST]; /**< along its sides, the inside on their positive sides */
     filter_vector *rays;                    /**< per vertex */
     int8_t *eye_sides;                      /**< per object: side of its plane the eye is on; 2: not known yet */
-    uint32_t *of_edge;                      /**< per edge: its line + 1; 0: not made yet */
+    uint32_t *of_edge;                      /**< per edge and wire: its line + 1; 0: not made yet */
     ARRAY(view_line) lines;
     scene_table made; /**< CUT lines */
 } view_sightlines;
@@ -61,9 +63,11 @@ int view_facing(view_sightlines *sights, uint32_t object);
 uint32_t view_line_of_edge(view_sightlines *sights, uint32_t edge);
 uint32_t view_line_of_window(view_sightlines *sights, uint32_t side);
 uint32_t view_line_of_cut(view_sightlines *sights, uint32_t patch, uint32_t node);
-/** Where the root's cut, which parts its vertices, stops an edge: the mark of that point on a line through it.
+/** The plane of an object, or (FROE_NONE) that of the section, the root's cut. */
+geom_plane view_plane_at(const view_sightlines *sights, uint32_t object);
+/** Where such a plane, which parts its vertices, stops an edge: the mark of that point on a line through it.
  * FROE_E_MEMORY. */
-froe_status view_stop_edge(view_sightlines *sights, uint32_t edge, uint32_t line, view_mark *out);
+froe_status view_stop_edge(view_sightlines *sights, uint32_t edge, uint32_t object, uint32_t line, view_mark *out);
 /** What is the same for equal lines, whatever their directions, and hardly ever for others; *turned: a line of the
  * opposite direction has the same. False: an edge that the eye sees as a point makes no line. */
 bool view_line_key(view_sightlines *sights, uint32_t line, double key[3], bool *turned);

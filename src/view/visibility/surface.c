@@ -1,4 +1,4 @@
-/* surface.c: the public calls for patches and edges. */
+/* surface.c: the public calls for patches, edges, wires and points. */
 #include "view/visibility/surface.h"
 #include "base/floats.h"
 #include "geom/selftest.h"
@@ -13,7 +13,9 @@ void froe_surface_free(froe_surface *s) {
     const froe_allocator alloc = s->alloc;
     const size_t n = s->scene->object_count, corners = n ? s->scene->starts[n] : 0;
     free_words(s, s->edge_of, corners);
-    free_words(s, s->vertices, 2 * (size_t)s->edge_count);
+    free_words(s, s->vertices, 2 * surface_line_count(s));
+    free_words(s, s->wires, s->wire_count);
+    free_words(s, s->points, s->point_count);
     free_words(s, s->edge_starts, (size_t)s->edge_count + 1);
     free_words(s, s->uses, s->use_count);
     support_free(&alloc, s->inside, (size_t)s->edge_count + 1);
@@ -83,6 +85,22 @@ uint32_t froe_surface_edge_of(const froe_surface *s, uint32_t object, uint32_t c
         corner >= scene_corners(scene, object))
         return FROE_NONE;
     return s->edge_of[scene->starts[object] + corner];
+}
+
+size_t froe_surface_wire_count(const froe_surface *s) {
+    return s->wire_count;
+}
+
+uint32_t froe_surface_wire(const froe_surface *s, uint32_t wire) {
+    return wire < s->wire_count ? s->wires[wire] : FROE_NONE;
+}
+
+size_t froe_surface_point_count(const froe_surface *s) {
+    return s->point_count;
+}
+
+uint32_t froe_surface_point(const froe_surface *s, uint32_t point) {
+    return point < s->point_count ? s->points[point] : FROE_NONE;
 }
 
 bool surface_ascends(const froe_surface *s, uint32_t object, uint32_t edge) {

@@ -23,9 +23,11 @@ void view_tally(froe_visibility *v, bool cull_back) {
         if (v->surface->patch_of[o] != FROE_NONE) continue;
         const froe_kind kind = froe_scene_object(s, o).kind;
         v->report.flat += kind == FROE_POLYGON;
-        v->report.segments += kind == FROE_SEGMENT;
-        v->report.points += kind == FROE_POINT;
     }
+    for (uint32_t i = 0, line = v->surface->edge_count; i < v->surface->wire_count; i++, line++)
+        ++*(v->edge_starts[line] < v->edge_starts[line + 1] ? &v->report.visible_segments : &v->report.segments);
+    for (uint32_t i = 0; i < v->surface->point_count; i++)
+        ++*(v->points_seen[i] ? &v->report.visible_points : &v->report.points);
     for (uint32_t p = 0; p < v->surface->patch_count; p++) {
         const int facing = view_facing(&v->sights, surface_first(v->surface, p));
         if (v->patch_starts[p] < v->patch_starts[p + 1])

@@ -3,6 +3,7 @@
 #include "support/fail.h"
 #include "view/visibility/crossings.h"
 #include "view/visibility/order.h"
+#include "view/visibility/wires.h"
 #include <math.h>
 #include <string.h>
 
@@ -63,8 +64,8 @@ static froe_status look_at(visibility_search *k, uint32_t piece, uint32_t place)
     if (!status && o->crossings) status = view_look_at_crossings(&k->crosser, piece, &k->ring);
     if (status) return status;
     k->now = (view_piece){.patch = patch, .object = object, .piece = piece, .place = place};
-    const bool opaque = !o->clear || !o->clear[patch];
-    return view_screen_insert(&k->screen, k->ring.data, corners, opaque, keep_beam, k);
+    const uint32_t cover = !o->clear || !o->clear[patch] ? object : FROE_NONE;
+    return view_screen_insert(&k->screen, k->ring.data, corners, cover, keep_beam, k);
 }
 
 static froe_status look_at_all(visibility_search *k) {
@@ -112,7 +113,8 @@ static froe_status look_from_eye(visibility_search *k, const geom_eye *eye) {
     k->crosser = (view_crosser){
         .sights = &v->sights, .screen = &k->screen, .section = v->section != 0, .hidden = k->options->hidden_crossings};
     if (!status) status = view_rank_objects(&v->alloc, v->surface, k->options->priorities, &k->ranks);
-    if (!status) status = look_at_all(k);
+    if (!status && v->surface->patch_count) status = look_at_all(k);
+    if (!status && !k->options->faces_only) status = view_look_at_wires(v, &k->screen, &k->task, &k->stretches);
     /* Polygons seen edge-on show where the section cuts them, if nothing can be in front of that. */
     const bool along = !status && v->section && k->options->crossings &&
                        view_side_of_eye(&v->sights.context, v->tree, 0, &v->sights.eye) == -v->section;
@@ -158,7 +160,9 @@ static froe_status check_visibility_options(const froe_tree *tree, const froe_su
         if (!isfinite(o->window[i]))
             return support_fail_at(diag, FROE_E_OPTIONS, FROE_NONE, (uint32_t)(i / 3), (uint32_t)(i % 3),
                                    "Corner %zu of the window is not a finite point.", i / 3);
-    return view_order_check(tree, diag);
+    if (surface->scene->object_count >= INT32_MAX)
+        return support_fail(diag, FROE_E_LIMIT, "The scene has more than 2^31 - 2 objects.");
+    return view_order_check(tree, true, diag);
 }
 
 froe_status froe_visibility_new(const froe_tree *tree, const froe_surface *surface,
@@ -176,9 +180,10 @@ froe_status froe_visibility_new(const froe_tree *tree, const froe_surface *surfa
     v->tree = tree;
     v->surface = surface;
     v->section = options->section;
+    v->points_seen = support_calloc(&alloc, (size_t)surface->point_count + 1, 1);
     visibility_search k = {.v = v, .options = options};
     base_task_init(&k.task, 1, options->progress, options->user);
-    status = look_from_eye(&k, &eye);
+    status = v->points_seen ? look_from_eye(&k, &eye) : FROE_E_MEMORY;
     if (!status) {
         *out = v;
         return FROE_OK;
@@ -207,7 +212,8 @@ void froe_visibility_free(froe_visibility *v) {
     support_free(&alloc, v->interval_marks, 2 * v->interval_room * sizeof *v->interval_marks);
     array_free(&alloc, &v->crossings);
     array_free(&alloc, &v->crossing_runs);
-    support_free(&alloc, v->edge_starts, ((size_t)v->surface->edge_count + 1) * sizeof *v->edge_starts);
+    support_free(&alloc, v->edge_starts, (surface_line_count(v->surface) + 1) * sizeof *v->edge_starts);
+    support_free(&alloc, v->points_seen, (size_t)v->surface->point_count + 1);
     support_free(&alloc, v, sizeof *v);
 }
 
@@ -243,6 +249,17 @@ const froe_interval *froe_visibility_of_edge(const froe_visibility *v, uint32_t 
     const bool there = edge < v->surface->edge_count;
     *count = there ? v->edge_starts[edge + 1] - v->edge_starts[edge] : 0;
     return v->intervals + (there ? v->edge_starts[edge] : 0);
+}
+
+const froe_interval *froe_visibility_of_wire(const froe_visibility *v, uint32_t wire, size_t *count) {
+    const bool there = wire < v->surface->wire_count;
+    const uint32_t *starts = v->edge_starts + v->surface->edge_count + (there ? wire : 0);
+    *count = there ? starts[1] - starts[0] : 0;
+    return v->intervals + (there ? starts[0] : 0);
+}
+
+bool froe_visibility_of_point(const froe_visibility *v, uint32_t point) {
+    return point < v->surface->point_count && v->points_seen[point];
 }
 
 const froe_crossing *froe_visibility_crossings(const froe_visibility *v, size_t *count) {
