@@ -40,7 +40,7 @@ static void take_picture(const view *v) {
     for (size_t i = 0; i < 256; i++) clear[i] = bits & 4 && i % 3 == 0;
     o.view = &projection;
     o.paint = (froe_paint)(fuzz_byte(v->bytes) % FROE_PAINT_COUNT);
-    o.lines = 31, o.hidden = true, o.underlap = 1;
+    o.lines = 31 | FROE_LINE_WIRE | FROE_LINE_POINT, o.hidden = true, o.underlap = 1;
     if (froe_surface_patch_count(v->surface) <= 256) o.clear = clear;
     if (froe_picture_new(v->tree, v->surface, &o, &picture, &why) == FROE_OK)
         for (size_t i = 0; i < froe_picture_shape_count(picture); i++) {
@@ -51,14 +51,19 @@ static void take_picture(const view *v) {
     froe_picture_free(picture);
 }
 
-static void look_at_edges(const view *v, const froe_visibility *seen) {
+static void look_at_lines(const view *v, const froe_visibility *seen) {
     const froe_diagnostic why = {0};
-    for (uint32_t e = 0; e < froe_surface_edge_count(v->surface); e++) {
+    const size_t edges = froe_surface_edge_count(v->surface), lines = edges + froe_surface_wire_count(v->surface);
+    for (size_t l = 0; l < lines; l++) {
         size_t count;
-        const froe_interval *x = froe_visibility_of_edge(seen, e, &count);
+        const froe_interval *x = l < edges ? froe_visibility_of_edge(seen, (uint32_t)l, &count)
+                                           : froe_visibility_of_wire(seen, (uint32_t)(l - edges), &count);
         for (size_t i = 0; i < count; i++)
             expect(v, x[i].from <= x[i].to && (!i || x[i - 1].to <= x[i].from), "intervals", &why);
     }
+    size_t points = 0;
+    for (uint32_t i = 0; i < froe_surface_point_count(v->surface); i++) points += froe_visibility_of_point(seen, i);
+    expect(v, points == froe_visibility_statistics(seen).visible_points, "points", &why);
 }
 
 /* What an eye sees of a scene in space, all around or through a window, read to the last interval. */
@@ -74,7 +79,7 @@ static void see(const view *v, const froe_eye *eye) {
     if (froe_visibility_new(v->tree, v->surface, &o, &seen, &why) == FROE_OK) {
         for (size_t i = 0; i < froe_visibility_piece_count(seen); i++)
             expect(v, froe_visibility_corners(seen, i, corners, 20) >= 3, "piece without area", &why);
-        look_at_edges(v, seen);
+        look_at_lines(v, seen);
         expect(v, froe_visibility_regions(seen, 0, UINT32_MAX, look_at_region, NULL, &why) == FROE_OK, "regions", &why);
     }
     froe_visibility_free(seen);

@@ -13,9 +13,10 @@ typedef struct render_args {
     const char *output, *lines, *background, *title, *description, *opacity, *priority, *size, *shading, *scale;
     char *line_style;
     int direction, up_axis, paint, preset, seams, ids, layers, hidden, colours, over;
-    double halo, fov, unit, min_area, seconds, margin, seam_width, line_width, point_width, crease, pixels; /**< NaN: not given */
-    uint64_t decimals;  /**< UINT64_MAX: not given */
-    uint64_t turntable; /**< frames; 0: none */
+    double halo, fov, unit, min_area, seconds, margin, crease, pixels; /**< NaN: not given */
+    double seam_width, line_width, point_width;                        /**< the same */
+    uint64_t decimals;                                                 /**< UINT64_MAX: not given */
+    uint64_t turntable;                                                /**< frames; 0: none */
     cli_reals eye, target, section;
     bool parallel, cull_back, animate;
 } render_args;

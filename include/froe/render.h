@@ -88,11 +88,10 @@ typedef struct froe_render_options {
     uint32_t lines;       /**< bits of froe_line; default all but mesh. Wires and points have the colours of their
                                groups, if they have any and own_colours does not exclude it */
     double crease;        /**< degrees; default 30 */
-    double
-        line_width; /**< default 1; silhouettes, borders and wires; sections twice, crossings 0.8, other kinds 0.6 of it;
-                            hidden lines 0.6 of visible ones, with dashes of 4 and gaps of 3 times their width. 0: there
-                            are no lines, whatever their styles */
-    double point_width;                 /**< of the discs that points are; default 3 */
+    double line_width;    /**< default 1; silhouettes, borders and wires; sections twice, crossings 0.8, other kinds
+                            0.6 of it; hidden lines 0.6 of visible ones, with dashes of 4 and gaps of 3 times their
+                            width. 0: there are no lines, whatever their styles */
+    double point_width;   /**< of the discs that points are; default 3 */
     const froe_line_style *line_styles; /**< of lines of one kind the last that is about them counts; NULL: none */
     size_t line_style_count;
     bool interleaved; /**< lines go below what is nearer, and so never cover half their width of it; default: on top */
@@ -141,9 +140,8 @@ typedef enum froe_render_format {
 
 /** The polygons, segments and points of a tree in space as a picture with hidden surfaces removed, exactly: see
  * froe_picture_new(). `path` ends in .svg, .pdf, .eps, .csv or .geojson and appears whole or not at all. `options` NULL:
- * the defaults; `report` may be NULL.
- * FROE_E_OPTIONS: a value out of range, a title or description of a PDF that is not UTF-8, or EPS with an opacity below
- * 1, which EPS does not have. FROE_E_UNSUPPORTED: `path` ends in .png, which froe_render_png() of froe/draw.h makes.
+ * the defaults; `report` may be NULL. FROE_E_OPTIONS: a value out of range, a title or description of a PDF that is not
+ * UTF-8, or EPS with an opacity below 1, which EPS does not have. FROE_E_UNSUPPORTED: `path` ends in .png, which froe_render_png() of froe/draw.h makes.
  * FROE_E_IO: the directory or disk does not take it. Otherwise as froe_camera_place(), froe_picture_new(). */
 FROE_API froe_status froe_render(const froe_tree *tree, const char *path, const froe_render_options *options,
                                  froe_render_report *report, froe_diagnostic *diag);

@@ -77,7 +77,8 @@ FROE_API froe_status froe_tree_order_nodes(const froe_tree *tree, const froe_eye
 /** What belongs together in the polygons of a scene in space, for any eye. A patch is a maximal set of
  * polygons of one group that lie in one plane, exactly, and hang together by edges that just two of them use, from
  * their two sides. An edge is a pair of vertices between which at least one polygon has an edge. A wire is a segment of
- * the scene, and a point is a point of it, or a segment of length 0. Polygons without area are none of these. Immutable; the scene may neither grow nor be freed before it. */
+ * the scene, and a point is a point of it, or a segment of length 0. Polygons without area are none of these.
+ * Immutable; the scene may neither grow nor be freed before it. */
 typedef struct froe_surface froe_surface;
 /** alloc NULL: malloc. FROE_E_UNSUPPORTED: the scene is not in space. O(corners) time. */
 FROE_API froe_status froe_surface_new(const froe_scene *scene, const froe_allocator *alloc, froe_surface **out,
@@ -157,9 +158,10 @@ typedef struct froe_visibility froe_visibility;
  * and a point at the eye, are not visible. What lies in the section is not cut away.
  *
  * FROE_E_ARG: the eye is none, the surface is not of the tree's scene. FROE_E_OPTIONS. FROE_E_INPUT: the window, as the
- * eye sees it, is not strictly convex. FROE_E_UNSUPPORTED: see froe_tree_order(), but segments and points may
- * share leaves, and a scene without polygons may have any tree. FROE_E_LIMIT: 2^31 - 1 objects or more. FROE_E_MEMORY,
- * FROE_E_CANCELLED. Time and memory O(pieces + visible pieces) times the depth of the beam tree, about 20 to 60 on real scenes. */
+ * eye sees it, is not strictly convex. FROE_E_UNSUPPORTED: see froe_tree_order(), but segments and points may share
+ * leaves, and a scene without polygons may have any tree. FROE_E_LIMIT: 2^31 - 1 objects or more. FROE_E_MEMORY,
+ * FROE_E_CANCELLED. Time and memory O(pieces + visible pieces) times the depth of the beam tree, about 20 to 60 on real
+ * scenes. */
 FROE_API froe_status froe_visibility_new(const froe_tree *tree, const froe_surface *surface,
                                          const froe_visibility_options *options, froe_visibility **out,
                                          froe_diagnostic *diag);
@@ -362,7 +364,8 @@ typedef enum froe_line {
     FROE_LINE_POINT = 512,    /**< no line: a point of the scene; only visible ones */
     FROE_LINE_END = 1024      /**< no kind */
 } froe_line;
-/** "border", "silhouette", "object", "material", "crease", "mesh", "crossing", "section", "wire", "point"; NULL for anything else. */
+/** "border", "silhouette", "object", "material", "crease", "mesh", "crossing", "section", "wire", "point"; NULL for
+ * anything else. */
 FROE_API const char *froe_line_name(froe_line kind);
 
 typedef struct froe_stroke {

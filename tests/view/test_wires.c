@@ -1,9 +1,9 @@
 /* test_wires.c: segments and points among polygons, against exact rays.
  *
  * A point, also one of a segment, is hidden if and only if a polygon lies between it and the eye, border included, that
- * is not seen edge-on: the oracle asks every polygon, in rationals. Intervals leave out what is hidden at single points,
- * where a corner touches the line of sight. So points of segments are asked for within intervals and gaps, at places
- * that no lattice has; points of the scene are asked for anywhere. */
+ * is not seen edge-on: the oracle asks every polygon, in rationals. Intervals leave out what is hidden at single
+ * points, where a corner touches the line of sight. So points of segments are asked for within intervals and gaps, at
+ * places that no lattice has; points of the scene are asked for anywhere. */
 #include "rays.h"
 #include "view/visibility/visibility.h"
 #include <math.h>

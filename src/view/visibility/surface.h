@@ -1,5 +1,5 @@
-/* surface.h: patches and edges, the parts of the polygons of a scene that pictures are made of, and what else they show:
- * wires and points.
+/* surface.h: patches and edges, the parts of the polygons of a scene that pictures are made of, and what else these
+ * show: wires and points.
  *
  *      +-----------+-----------+         one patch of three triangles; edges inside it (dotted) are no
  *      |         . |  other    |         lines of any picture

@@ -1,7 +1,8 @@
 /* visibility.h: what one eye sees: the internal type.
  *
  * It speaks for visibility.c (pieces front to back, each sent down the beam tree), intervals.c (visible stretches of an
- * edge), wires.c (segments and points), ranks.c (the order within one plane) and tally.c (counts of what is visible and what is not). */
+ * edge), wires.c (segments and points), ranks.c (the order within one plane) and tally.c (counts of what is visible and
+ * what is not). */
 #ifndef FROE_VIEW_VISIBILITY_VISIBILITY_H
 #define FROE_VIEW_VISIBILITY_VISIBILITY_H
 #include "base/task.h"
@@ -49,8 +50,8 @@ froe_status view_rank_objects(const froe_allocator *alloc, const froe_surface *s
 froe_status view_find_places(const froe_visibility *v, const int32_t *priorities, uint32_t *places);
 /** Counts, for the report, what is visible and what is not, and why. */
 void view_tally(froe_visibility *v, bool cull_back);
-/** A whole edge or wire, as far as it lies in the window and is not cut away. *there: something is left, and the eye does
- * not see it as a point. FROE_E_MEMORY. */
+/** A whole edge or wire, as far as it lies in the window and is not cut away. *there: something is left, and the eye
+ * does not see it as a point. FROE_E_MEMORY. */
 froe_status view_rest_of_edge(froe_visibility *v, uint32_t edge, view_stretch *out, bool *there);
 /** Joins the visible stretches of each edge and wire to intervals. FROE_E_MEMORY, FROE_E_LIMIT. */
 froe_status view_join_intervals(froe_visibility *v, const view_stretches *stretches);

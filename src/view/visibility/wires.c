@@ -52,7 +52,7 @@ static froe_status cut_to_front(wire_tracer *t, uint32_t object, uint32_t own, v
     return FROE_OK;
 }
 
-static bool push_part(wire_tracer *t, wire_task at, const view_stretch *part) {
+static bool push_pending_wire(wire_tracer *t, wire_task at, const view_stretch *part) {
     return array_push(&t->sights->alloc, &t->pending, ((pending_wire){at, *part}));
 }
 
@@ -65,7 +65,7 @@ static froe_status end_in_leaf(wire_tracer *t, uint32_t own, pending_wire *at) {
         if (status || !left) return status;
     }
     const uint32_t next = at->at.next;
-    const bool ok = next != FROE_NONE ? push_part(t, t->tasks.data[next], &at->part)
+    const bool ok = next != FROE_NONE ? push_pending_wire(t, t->tasks.data[next], &at->part)
                                       : array_push(&t->sights->alloc, t->out, at->part);
     return ok ? FROE_OK : FROE_E_MEMORY;
 }
@@ -73,7 +73,7 @@ static froe_status end_in_leaf(wire_tracer *t, uint32_t own, pending_wire *at) {
 static froe_status trace(wire_tracer *t, const view_stretch *whole, uint32_t own) {
     view_sightlines *s = t->sights;
     t->pending.count = t->tasks.count = 0;
-    froe_status status = push_part(t, (wire_task){t->screen->root, FROE_NONE}, whole) ? FROE_OK : FROE_E_MEMORY;
+    froe_status status = push_pending_wire(t, (wire_task){t->screen->root, FROE_NONE}, whole) ? FROE_OK : FROE_E_MEMORY;
     while (!status && t->pending.count) {
         pending_wire top = t->pending.data[--t->pending.count];
         const view_end *ends = top.part.end;
@@ -90,14 +90,14 @@ static froe_status trace(wire_tracer *t, const view_stretch *whole, uint32_t own
             view_end middle = {.vertex = FROE_NONE, .way = 2 * n.line + (from < 0)}; /* leaving: wire x line */
             middle.ray = view_meeting(s, 2 * own, middle.way);
             const view_stretch first = {top.part.edge, {ends[0], middle}}, last = {top.part.edge, {middle, ends[1]}};
-            ok = push_part(t, (wire_task){n.child[from > 0], at.next}, &first) &&
-                 push_part(t, (wire_task){n.child[to > 0], at.next}, &last);
+            ok = push_pending_wire(t, (wire_task){n.child[from > 0], at.next}, &first) &&
+                 push_pending_wire(t, (wire_task){n.child[to > 0], at.next}, &last);
         } else {
             if (!from && !to) { /* along the line: first one side, then what is left on the other */
                 if (!array_push(&s->alloc, &t->tasks, ((wire_task){n.child[1], at.next}))) return FROE_E_MEMORY;
                 at.next = (uint32_t)t->tasks.count - 1;
             }
-            ok = push_part(t, at, &top.part);
+            ok = push_pending_wire(t, at, &top.part);
         }
         if (!ok) status = FROE_E_MEMORY;
     }
