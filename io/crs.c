@@ -96,6 +96,12 @@ froe_status io_crs_take(io_crs *crs, formats_sink *sink, OGRLayerH layer) {
         crs->any = true;
         crs->system = system ? OSRClone(system) : NULL;
         snprintf(crs->layer, sizeof crs->layer, "%s", OGR_L_GetName(layer));
+        if (system && crs->wrap && kind_of_system(system) != FROE_CRS_GEOGRAPHIC)
+            return support_fail(
+                sink->diag, FROE_E_OPTIONS,
+                "%s: Coordinates in '%.60s' are no longitudes and latitudes in degrees, and nothing can "
+                "be cut at the antimeridian.",
+                support_short(sink->path), name_of(system));
         if (system) status = describe(sink, system);
         sink->guessed = made != NULL;
         sink->promised = crs->promise == IO_CRS_DEGREES && system && OSRIsGeographic(system);

@@ -17,6 +17,7 @@ typedef enum io_crs_promise {
 
 /** The layers so far. */
 typedef struct io_crs {
+    bool wrap; /**< set by the owner: only longitudes and latitudes will do */
     io_crs_promise promise;
     bool any;                    /**< a layer was there */
     OGRSpatialReferenceH system; /**< NULL: none */
@@ -25,7 +26,8 @@ typedef struct io_crs {
 void io_crs_free(io_crs *crs);
 
 io_crs_promise io_crs_promise_of(GDALDatasetH data);
-/** A layer of which features are read. FROE_E_OPTIONS: its system is another than that of the layers before. */
+/** A layer of which features are read. FROE_E_OPTIONS: its system is another than that of the layers before,
+ * or will not do. */
 froe_status io_crs_take(io_crs *crs, formats_sink *sink, OGRLayerH layer);
 
 #endif

@@ -5,6 +5,7 @@
 void io_shapes_free(const froe_allocator *alloc, io_shapes *shapes) {
     array_free(alloc, &shapes->stack);
     array_free(alloc, &shapes->points);
+    array_free(alloc, &shapes->cuts);
 }
 
 /* The vertices of a line or ring as xy pairs. */
@@ -55,9 +56,9 @@ static froe_status part_sides(void *user, formats_sink *sink, io_shapes *shapes,
         froe_status status = load_points(sink, shapes, OGR_G_GetGeometryRef(part, i), &count);
         if (status) return status;
         if (!count) continue;
-        const double *xy = shapes->points.data;
+        double *xy = shapes->points.data;
         while (count > 1 && xy[0] == xy[2 * count - 2] && xy[1] == xy[2 * count - 1]) --count;
-        int side = formats_ring_side(xy, count);
+        int side = shapes->wrap ? io_wrap_ring_side(xy, count) : formats_ring_side(xy, count);
         if (i) side = -side; /* a hole has the interior outside */
         sides->polygons = true;
         sides->left = sides->left && side > 0;
@@ -87,25 +88,39 @@ static froe_status add_line(formats_sink *sink, io_shapes *shapes, OGRGeometryH 
         ++count;
         ++sink->report.closed;
     }
+    if (shapes->wrap) return io_wrap_line(sink, xy, count, &shapes->cuts);
     for (size_t i = 0; i + 1 < count && !status; ++i) status = formats_sink_segment(sink, xy + 2 * i, xy + 2 * i + 2);
     return status;
 }
 
+static froe_status add_point(formats_sink *sink, const io_shapes *shapes, OGRGeometryH point) {
+    double at[2] = {OGR_G_GetX(point, 0), OGR_G_GetY(point, 0)};
+    const froe_status status = shapes->wrap ? io_wrap_point(sink, at, at) : FROE_OK;
+    return status ? status : formats_sink_point(sink, at);
+}
+
 static froe_status add_part(void *user, formats_sink *sink, io_shapes *shapes, OGRGeometryH part,
                             OGRwkbGeometryType type) {
-    (void)user;
-    if (OGR_G_IsEmpty(part)) return ++sink->report.skipped, FROE_OK;
-    if (type == wkbPoint) return formats_sink_point(sink, (const double[]){OGR_G_GetX(part, 0), OGR_G_GetY(part, 0)});
-    if (type == wkbLineString) return add_line(sink, shapes, part, false);
-    if (type != wkbPolygon && type != wkbTriangle) return ++sink->report.skipped, FROE_OK;
-    const int rings = OGR_G_GetGeometryCount(part);
+    const io_sides *sides = user;
+    const bool area = type == wkbPolygon || type == wkbTriangle;
     froe_status status = FROE_OK;
-    formats_sink_new_face(sink);
+    if (OGR_G_IsEmpty(part)) return ++sink->report.skipped, FROE_OK;
+    if (type == wkbPoint) return add_point(sink, shapes, part);
+    if (type != wkbLineString && !area) return ++sink->report.skipped, FROE_OK;
+    const int rings = area ? OGR_G_GetGeometryCount(part) : 0;
+    if (area) formats_sink_new_face(sink);
+    if (!area) status = add_line(sink, shapes, part, false);
     for (int i = 0; i < rings && !status; ++i) status = add_line(sink, shapes, OGR_G_GetGeometryRef(part, i), true);
+    shapes->wrapped |= shapes->cuts.count > 0;
+    if (!status && area) status = io_wrap_close(sink, &shapes->cuts, sides->right);
+    shapes->cuts.count = 0;
     sink->face = FROE_NONE;
     return status;
 }
 
-froe_status io_shapes_add(formats_sink *sink, io_shapes *shapes, OGRGeometryH geometry) {
-    return each_part(sink, shapes, geometry, add_part, NULL);
+froe_status io_shapes_add(formats_sink *sink, io_shapes *shapes, OGRGeometryH geometry, const io_sides *sides) {
+    shapes->wrapped = false;
+    const froe_status status = each_part(sink, shapes, geometry, add_part, (void *)sides);
+    sink->report.wrapped += shapes->wrapped;
+    return status;
 }

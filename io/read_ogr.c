@@ -128,7 +128,7 @@ static froe_status add_feature(map *m, OGRFeatureH feature) {
         group.right = sides.right ? name : NULL;
         status = formats_sink_group(sink, &group);
     }
-    if (!status) status = io_shapes_add(sink, &m->shapes, geometry);
+    if (!status) status = io_shapes_add(sink, &m->shapes, geometry, &sides);
     if (curved) OGR_G_DestroyGeometry(geometry);
     return status;
 }
@@ -232,7 +232,11 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
     support_extension extension;
     const char *name = gdal_name(source, &extension);
     const bool is_csv = !strcmp(extension.text, "csv") || !strcmp(extension.text, "tsv");
-    map m = {.source = source, .sink = sink, .heard.path = source->file};
+    map m = {.source = source,
+             .sink = sink,
+             .heard.path = source->file,
+             .shapes.wrap = source->options->wrap,
+             .crs.wrap = source->options->wrap};
     m.container = source->beyond ? strncmp(name, "/vsi", 4) != 0 : strcmp(name, source->file) != 0;
     sink->unit = "feature";
     froe_status status = formats_sink_open(sink, 2);

@@ -5,6 +5,7 @@
 #include "exit.h"
 #include "library.h"
 #include "progress.h"
+#include <stdio.h>
 
 static const char *const faces[] = {[FROE_FACES_TRIANGLES] = "triangles", [FROE_FACES_POLYGONS] = "polygons", NULL};
 
@@ -21,8 +22,25 @@ const cli_option cli_scene_options[] = {
      .help = "models: triangles (default), or polygons: exactly planar, convex faces stay whole", .choices = faces},
     {"boxes", 0, CLI_FLAG, offsetof(cli_scene_args, boxes),
      .help = "take the bounding box of every feature instead of its shape"},
+    {"wrap", 0, CLI_FLAG, offsetof(cli_scene_args, wrap),
+     .help = "maps in degrees: cut borders that cross the antimeridian at 180 and -180"},
     {0},
 };
+
+void cli_warn_scene(const cli_common *common, const char *path, const froe_scene *scene) {
+    uint32_t first;
+    const size_t features = common->quiet ? 0 : froe_scene_across(scene, &first);
+    if (!features) return;
+    const froe_object object = froe_scene_object(scene, first);
+    const char *name = object.group == FROE_NONE ? "" : froe_scene_group(scene, object.group).name;
+    char number[32];
+    snprintf(number, sizeof number, "%llu", (unsigned long long)object.tag);
+    (void)cli_fail(
+        0, path,
+        "warning: Edges of %zu feature%s, first of '%.60s', cross the antimeridian, and run around the whole "
+        "Earth instead. Reading the map with --wrap cuts them there.",
+        features, features > 1 ? "s" : "", *name ? name : number);
+}
 
 int cli_read_scene(const cli_common *common, const cli_scene_args *args, froe_scene **scene, froe_read_report *report) {
     cli_spool spool;
@@ -39,6 +57,7 @@ int cli_read_scene(const cli_common *common, const cli_scene_args *args, froe_sc
         options.where = args->where;
         if (args->faces >= 0) options.faces = (froe_faces)args->faces;
         options.boxes = args->boxes;
+        options.wrap = args->wrap;
         options.alloc = args->alloc;
         options.progress = cli_progress_step;
         options.user = &bar;
@@ -54,6 +73,7 @@ int cli_read_scene(const cli_common *common, const cli_scene_args *args, froe_sc
                 "warning: Coordinates of a %s are degrees, and these cannot be any: the coordinate system is "
                 "unknown. A member \"crs\" of the file that is null says that, too.",
                 report->format);
+        if (!status) cli_warn_scene(common, spool.name, *scene);
     }
     cli_spool_free(&spool);
     return code;

@@ -8,7 +8,7 @@
 typedef struct cli_scene_args {
     const char *path, *format, *layer, *where;
     int faces; /**< -1: not given */
-    bool boxes;
+    bool boxes, wrap;
     const froe_allocator *alloc; /**< of the scene; NULL: malloc */
 } cli_scene_args;
 extern const cli_option cli_scene_options[]; /**< the first is SCENE itself */
@@ -19,7 +19,9 @@ extern const cli_option cli_scene_options[]; /**< the first is SCENE itself */
     "assimp reads (glTF, OBJ, STL, PLY, OFF, IFC, FBX, ...). CSV: points (x,y[,z...]), boxes "                         \
     "(lo_x,lo_y[,...],hi_x,...) or balls (x,y[,...],r)."
 
+/** Says on stderr, unless --quiet, when edges of a scene run the wrong way around the Earth. */
+void cli_warn_scene(const cli_common *common, const char *path, const froe_scene *scene);
 /** Reads the scene with a progress bar. Says on stderr, unless --quiet, when its format promises degrees that it does
- * not have. Returns 0, or an exit code after saying why. */
+ * not have, and what cli_warn_scene() has to say. Returns 0, or an exit code after saying why. */
 int cli_read_scene(const cli_common *common, const cli_scene_args *args, froe_scene **scene, froe_read_report *report);
 #endif

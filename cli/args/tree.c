@@ -33,7 +33,7 @@ static bool is_tree(const char *path) {
 }
 
 /* The options that only a scene that is read and built can obey. */
-static int open_saved(const cli_tree_args *args, froe_tree **tree) {
+static int open_saved(const cli_common *common, const cli_tree_args *args, froe_tree **tree) {
     const struct {
         bool given;
         const char *name;
@@ -42,6 +42,7 @@ static int open_saved(const cli_tree_args *args, froe_tree **tree) {
                    {args->scene.where, "where"},
                    {args->scene.faces >= 0, "faces"},
                    {args->scene.boxes, "boxes"},
+                   {args->scene.wrap, "wrap"},
                    {args->method, "method"},
                    {args->save, "save-tree"}};
     for (size_t i = 0; i < sizeof options / sizeof *options; i++)
@@ -51,7 +52,9 @@ static int open_saved(const cli_tree_args *args, froe_tree **tree) {
                             options[i].name);
     froe_diagnostic diag;
     const froe_status status = froe_tree_open(args->scene.path, NULL, tree, &diag);
-    return status ? cli_fail_status(CLI_READING, args->scene.path, status, &diag) : 0;
+    if (status) return cli_fail_status(CLI_READING, args->scene.path, status, &diag);
+    cli_warn_scene(common, args->scene.path, froe_tree_scene(*tree));
+    return 0;
 }
 
 int cli_build_tree(const cli_common *common, const char *path, uint64_t max_fragments, froe_scene *scene,
@@ -77,7 +80,7 @@ int cli_save_tree(const froe_tree *tree, const char *path) {
 int cli_open_tree(const cli_common *common, const cli_tree_args *args, const char *purpose, froe_tree **tree) {
     froe_scene *scene;
     froe_read_report reader;
-    if (is_tree(args->scene.path)) return open_saved(args, tree);
+    if (is_tree(args->scene.path)) return open_saved(common, args, tree);
     int code = args->method ? cli_check_method(args->method, true) : 0;
     if (!code) code = cli_read_scene(common, &args->scene, &scene, &reader);
     if (code) return code;

@@ -55,11 +55,11 @@ static json_t *info_json(const info_args *args, const froe_scene *scene, const f
                   (json_int_t)d->overlaps, "first_crossing", pair_json(d->first_crossing), "first_t_junction",
                   pair_json(d->first_t_junction), "first_overlap", pair_json(d->first_overlap));
     json_t *reader =
-        json_pack("{s:s, s:s, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:f}", "format", r->format, "precision",
+        json_pack("{s:s, s:s, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:f}", "format", r->format, "precision",
                   r->precision, "layers", (json_int_t)r->layers, "features", (json_int_t)r->features, "linearised",
                   (json_int_t)r->linearised, "flattened", (json_int_t)r->flattened, "triangulated",
                   (json_int_t)r->triangulated, "closed", (json_int_t)r->closed, "skipped", (json_int_t)r->skipped,
-                  "no_geometry", (json_int_t)r->no_geometry, "seconds", r->seconds);
+                  "no_geometry", (json_int_t)r->no_geometry, "wrapped", (json_int_t)r->wrapped, "seconds", r->seconds);
     static const char *const axes[] = {"x", "y", "z"};
     json_t *up = dim == 3 ? json_string(axes[froe_scene_up(scene)]) : NULL;
     json_t *crs = dim == 2 ? crs_json(scene, args->common.json) : NULL;

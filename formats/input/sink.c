@@ -141,14 +141,25 @@ froe_status formats_sink_feature(formats_sink *sink, uint64_t number) {
     return status;
 }
 
-froe_status formats_sink_end_feature(formats_sink *sink) {
-    if (!sink->bounded) return FROE_OK;
+static froe_status put_bounds(formats_sink *sink, formats_bounds *bounds) {
     double corners[2 * FROE_MAX_DIM];
-    memcpy(corners, sink->lo, (size_t)sink->dim * sizeof(double));
-    memcpy(corners + sink->dim, sink->hi, (size_t)sink->dim * sizeof(double));
-    sink->bounded = false;
+    if (!bounds->any) return FROE_OK;
+    memcpy(corners, bounds->lo, (size_t)sink->dim * sizeof(double));
+    memcpy(corners + sink->dim, bounds->hi, (size_t)sink->dim * sizeof(double));
+    bounds->any = false;
     sink->face = FROE_NONE;
     return put_in_sink(sink, FROE_BOX, corners, 2);
+}
+
+froe_status formats_sink_end_feature(formats_sink *sink) {
+    formats_bounds *all = &sink->bounds, *half = sink->half;
+    if (!sink->halves || !(all->hi[0] - all->lo[0] > 180)) {
+        half[0].any = half[1].any = false;
+        return put_bounds(sink, all);
+    }
+    all->any = false;
+    const froe_status status = put_bounds(sink, half);
+    return status ? status : put_bounds(sink, half + 1);
 }
 
 froe_status formats_sink_group(formats_sink *sink, const froe_group *group) {
@@ -186,18 +197,33 @@ static froe_status finite(formats_sink *sink, const double *coords, size_t corne
     return FROE_OK;
 }
 
+static void widen(const formats_sink *sink, formats_bounds *bounds, const double *lo, const double *hi) {
+    for (int k = 0; k < sink->dim; k++) {
+        if (!bounds->any || lo[k] < bounds->lo[k]) bounds->lo[k] = lo[k];
+        if (!bounds->any || hi[k] > bounds->hi[k]) bounds->hi[k] = hi[k];
+    }
+    bounds->any = true;
+}
+
 /* Checks; then adds the object, or with `boxes` only widens the feature's box. */
 static froe_status add_to_sink(formats_sink *sink, froe_kind kind, const double *coords, size_t corners) {
     froe_status status = finite(sink, coords, corners);
     if (status) return status;
     if (!sink->boxes) return put_in_sink(sink, kind, coords, corners);
+    if (!corners) return FROE_OK;
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
     for (size_t i = 0; i < corners * (size_t)sink->dim; ++i) {
         const size_t k = i % (size_t)sink->dim;
-        const bool first = !sink->bounded && i < (size_t)sink->dim;
-        if (first || coords[i] < sink->lo[k]) sink->lo[k] = coords[i];
-        if (first || coords[i] > sink->hi[k]) sink->hi[k] = coords[i];
+        const bool first = i < (size_t)sink->dim;
+        if (first || coords[i] < lo[k]) lo[k] = coords[i];
+        if (first || coords[i] > hi[k]) hi[k] = coords[i];
     }
-    sink->bounded = sink->bounded || corners;
+    widen(sink, &sink->bounds, lo, hi);
+    const double west = lo[0], east = hi[0];
+    hi[0] = fmin(east, 0);
+    if (sink->halves && west <= 0) widen(sink, sink->half, lo, hi);
+    lo[0] = fmax(west, 0), hi[0] = east;
+    if (sink->halves && east >= 0) widen(sink, sink->half + 1, lo, hi);
     return FROE_OK;
 }
 

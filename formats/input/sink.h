@@ -7,6 +7,11 @@
 #include "support/fail.h"
 #include <froe/formats.h>
 
+typedef struct formats_bounds {
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    bool any; /**< they hold something */
+} formats_bounds;
+
 typedef struct formats_sink {
     /* set by the owner before formats_sink_open() */
     froe_allocator alloc;
@@ -14,6 +19,7 @@ typedef struct formats_sink {
     const char *path;           /**< for messages */
     froe_faces faces;           /**< what formats_sink_face() does */
     bool boxes;                 /**< one bounding box per feature instead of the objects */
+    bool halves;                /**< two, of x <= 0 and of x >= 0, where one would be wider than 180 */
     froe_progress_fn *progress; /**< may be NULL */
     void *user;
     froe_read_report report; /**< counts */
@@ -39,8 +45,7 @@ typedef struct formats_sink {
     ARRAY(size_t) starts;
     ARRAY(uint32_t) object_faces, groups;
     ARRAY(uint64_t) tags;
-    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
-    bool bounded; /**< lo and hi hold something */
+    formats_bounds bounds, half[2]; /**< of the feature, and of its parts */
 } formats_sink;
 
 /** Makes the scene. FROE_E_MEMORY. */

@@ -113,9 +113,11 @@ static froe_status fill_scene(formats_choose_fn *choose, formats_reader *maps, c
     formats_reader *reader = source->beyond ? maps : choose(source);
     if (!reader)
         return support_fail(sink->diag, FROE_E_UNSUPPORTED, "%s: The file is neither CSV nor OFF, OBJ or PLY.", name);
-    if (reader != maps && (o->layer || o->where))
+    if (reader != maps && (o->layer || o->where || o->wrap))
         return support_fail(sink->diag, FROE_E_OPTIONS, "%s: The file is not a map, and has no %s.", name,
-                            o->layer ? "layers" : "attributes to filter by");
+                            o->layer   ? "layers"
+                            : o->where ? "attributes to filter by"
+                                       : "antimeridian to be cut at");
     froe_status status = reader(source, sink);
     if (!status) status = formats_sink_end_feature(sink);
     if (!status && !sink->total)
@@ -145,6 +147,7 @@ froe_status formats_read(formats_choose_fn *choose, formats_reader *maps, const 
                          .path = o->name ? o->name : path,
                          .faces = o->faces,
                          .boxes = o->boxes,
+                         .halves = o->boxes && o->wrap,
                          .progress = o->progress,
                          .user = o->user};
     support_locale locale;

@@ -30,6 +30,8 @@ typedef struct froe_read_options {
     const char *where;           /**< OGR: attribute filter, as in SQL's WHERE; NULL: none */
     froe_faces faces;            /**< solid models: default FROE_FACES_TRIANGLES */
     bool boxes;                  /**< the bounding box of every feature (or row, or node) instead of its shape */
+    bool wrap;                   /**< OGR: cut borders that cross the antimeridian there, see io/wrap.h; with `boxes`
+                                      features wider than 180 degrees give two, one on each side of Greenwich */
     froe_progress_fn *progress;  /**< may be NULL; false cancels */
     void *user;                  /**< for progress */
     const froe_allocator *alloc; /**< of the scene and of the reader's own arrays; NULL: malloc */
@@ -50,6 +52,7 @@ typedef struct froe_read_report {
     uint64_t closed;       /**< polygon rings without their last edge, which was added */
     uint64_t skipped;      /**< geometries without extent to read: of no known sort, empty, lines of one point */
     uint64_t no_geometry;  /**< features that have none */
+    uint64_t wrapped;      /**< features that were cut at the antimeridian */
     bool no_degrees;       /**< the format promises longitudes and latitudes in degrees, and the coordinates cannot be
                                 any (beyond 180 or 90): the scene has no coordinate system */
     double seconds;        /**< from call to return, by the wall clock */
@@ -72,7 +75,7 @@ typedef struct froe_read_report {
  *
  * FROE_E_IO: missing, unreadable, a directory. FROE_E_FORMAT: empty, truncated or broken. FROE_E_INPUT: NaN or infinite
  * coordinates, or no objects at all; the message names the feature. FROE_E_UNSUPPORTED: another format, moving
- * features, more than 8 axes. FROE_E_OPTIONS: a layer or a filter, which only maps have. FROE_E_ARG, FROE_E_MEMORY,
+ * features, more than 8 axes. FROE_E_OPTIONS: a layer, a filter or `wrap`, which are for maps. FROE_E_ARG, FROE_E_MEMORY,
  * FROE_E_CANCELLED, FROE_E_LIMIT. */
 FROE_API froe_status froe_read_own(const char *path, const froe_read_options *options, froe_scene **out,
                                    froe_read_report *report, froe_diagnostic *diag);
