@@ -14,9 +14,11 @@ int main(void) {
     froe_query *query = NULL;
     froe_answers groups;
     froe_diagnostic why = {0};
+    froe_read_options reading = froe_read_defaults();
     froe_build_options options = froe_build_defaults();
+    reading.wrap = true; /* borders of Fiji, Russia and Antarctica cross the antimeridian */
     options.purpose = "query";
-    if (froe_read("data/countries-110m.json", NULL, &map, NULL, &why) || froe_build(map, &options, &tree, &why) ||
+    if (froe_read("data/countries-110m.json", &reading, &map, NULL, &why) || froe_build(map, &options, &tree, &why) ||
         froe_query_new(tree, &query, &why) || froe_batch_groups(query, places, 4, NULL, &groups, &why))
         return fail(&why);
     for (size_t i = 0; i < groups.queries; i++) {

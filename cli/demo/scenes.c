@@ -72,7 +72,7 @@ const demo_scene demo_scenes[] = {
                  "a cut on.",
                  "A floor plan with cells coloured by depth"},
                 {"export floor.froe -o floor-pieces.geojson", NULL},
-                {"build countries-110m.json -o countries.froe", NULL},
+                {"build countries-110m.json --wrap -o countries.froe", NULL},
                 {"check countries.froe", NULL},
                 {"draw countries.froe -o countries.svg --width 1200", "The countries of the world.",
                  "A map of the world with the cells of its partition"},
