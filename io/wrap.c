@@ -9,8 +9,9 @@ static const double half = 180, whole = 360, pole = 90;
 froe_status io_wrap_point(formats_sink *sink, const double *point, double *out) {
     const double x = point[0], y = point[1];
     if (fabs(x) > whole || fabs(y) > pole)
-        return formats_sink_fail(sink, FROE_E_INPUT,
-                                 "%.9g and %.9g are no longitude and latitude, and nothing can be cut at 180.", x, y);
+        return formats_sink_fail(
+            sink, FROE_E_INPUT,
+            "The numbers %.9g and %.9g are no longitude and latitude, and nothing can be cut at 180.", x, y);
     out[0] = x > half ? x - whole : x < -half ? x + whole : x;
     out[1] = y;
     return FROE_OK;

@@ -75,7 +75,7 @@ typedef struct froe_read_report {
  *
  * FROE_E_IO: missing, unreadable, a directory. FROE_E_FORMAT: empty, truncated or broken. FROE_E_INPUT: NaN or infinite
  * coordinates, or no objects at all; the message names the feature. FROE_E_UNSUPPORTED: another format, moving
- * features, more than 8 axes. FROE_E_OPTIONS: a layer, a filter or `wrap`, which are for maps. FROE_E_ARG, FROE_E_MEMORY,
+ * features, more than 8 axes. FROE_E_OPTIONS: layer, filter or `wrap`, which are for maps. FROE_E_ARG, FROE_E_MEMORY,
  * FROE_E_CANCELLED, FROE_E_LIMIT. */
 FROE_API froe_status froe_read_own(const char *path, const froe_read_options *options, froe_scene **out,
                                    froe_read_report *report, froe_diagnostic *diag);

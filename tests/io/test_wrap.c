@@ -367,9 +367,10 @@ static void what_has_no_antimeridian_is_refused(void **state) {
     (void)state;
     const char *beyond = "LINESTRING (0 0,361 0)", *above = "POINT (0 90.5)";
     write_map("wrap.csv", &beyond, 1);
-    assert_refused("wrap.csv", FROE_E_INPUT, "wrap.csv: feature 1 of 'wrap': 361 and 0 are no longitude and latitude");
+    assert_refused("wrap.csv", FROE_E_INPUT,
+                   "wrap.csv: feature 1 of 'wrap': The numbers 361 and 0 are no longitude and latitude");
     write_map("wrap.csv", &above, 1);
-    assert_refused("wrap.csv", FROE_E_INPUT, "0 and 90.5 are no longitude and latitude");
+    assert_refused("wrap.csv", FROE_E_INPUT, "numbers 0 and 90.5 are no longitude and latitude");
     FILE *file = fopen("wrap.geojson", "w");
     assert_non_null(file);
     fputs("{\"type\":\"FeatureCollection\",\"crs\":{\"type\":\"name\",\"properties\":{\"name\":\"EPSG:25832\"}},"
