@@ -78,21 +78,10 @@ coverage: deps-coverage ## which lines do the tests run? build/coverage/report/i
 bare: deps-bare ## README.md word for word on a bare Debian 12, made for it and removed again; as root
 	@scripts/bare
 
-docs: build ## tables, outputs and the picture in the documents, as they come out now
+docs: build ## tables, outputs and pictures in the documents, as they come out now
 	@scripts/file-table --write
 	@cmake --install $(BUILD) --prefix $(BUILD)/stage >/dev/null
 	@scripts/check-docs --accept $(BUILD)/stage *.md docs/*.md docs/*/*.md docs/*/*/*.md
-	@$(BUILD)/bin/froe build data/freedoom-e1m1.geojson -o $(BUILD)/floor.froe --quiet
-	@$(BUILD)/bin/froe draw $(BUILD)/floor.froe -o docs/pictures/floor-plan.png --no-legend --quiet
-	@$(BUILD)/bin/froe generate mixed -n 14 --seed 4 -o $(BUILD)/trapezoids.geojson --quiet
-	@$(BUILD)/bin/froe build $(BUILD)/trapezoids.geojson --method cylindrical --leaf 0 -o $(BUILD)/trapezoids.froe --quiet
-	@$(BUILD)/bin/froe draw $(BUILD)/trapezoids.froe -o docs/pictures/trapezoids.png --width 500 --no-legend --quiet
-	@$(BUILD)/bin/froe generate points -n 150 --seed 5 -o $(BUILD)/fat.csv --quiet
-	@$(BUILD)/bin/froe build $(BUILD)/fat.csv --method bar -o $(BUILD)/fat.froe --quiet
-	@$(BUILD)/bin/froe draw $(BUILD)/fat.froe -o docs/pictures/bar.png --width 500 --no-legend --quiet
-	@$(BUILD)/bin/froe generate moving-polygons -n 36 --seed 6 -o $(BUILD)/polygons.mfjson --quiet
-	@$(BUILD)/bin/froe simulate $(BUILD)/polygons.mfjson --at 20 -o $(BUILD)/polygons.froe --quiet
-	@$(BUILD)/bin/froe draw $(BUILD)/polygons.froe -o docs/pictures/partition.png --width 500 --no-legend --quiet
 
 site: build deps-site ## the documents with search, and the functions: build/site/index.html
 	@scripts/site/build $(BUILD)
