@@ -7,12 +7,13 @@
 
 /** Exit codes. */
 enum {
-    CLI_YES = 0,        /**< done; the answer is yes */
-    CLI_NO = 1,         /**< the answer is no (an audit failed) */
-    CLI_USE = 2,        /**< bad use: command, option, method */
-    CLI_INPUT = 3,      /**< bad input: a file or an object in it */
-    CLI_RESOURCES = 4,  /**< out of memory, over a budget or a limit, or no room to write */
-    CLI_CANCELLED = 130 /**< Ctrl-C, as shells report it */
+    CLI_YES = 0,         /**< done; the answer is yes */
+    CLI_NO = 1,          /**< the answer is no (an audit failed) */
+    CLI_USE = 2,         /**< bad use: command, option, method */
+    CLI_INPUT = 3,       /**< bad input: a file or an object in it */
+    CLI_RESOURCES = 4,   /**< out of memory, over a budget or a limit, or no room to write */
+    CLI_CANCELLED = 130, /**< Ctrl-C, as shells report it */
+    CLI_PIPE = 141       /**< what was to be read has no reader any more, as shells report it */
 };
 
 /** What was being done when a call failed: the cause of the same status can be the input,

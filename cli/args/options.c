@@ -1,6 +1,7 @@
 /* options.c: the parser of command lines. Numbers are read whole or refused;
  * for an unknown name the message names the nearest known one. */
 #include "args/options.h"
+#include "args/output.h"
 #include "exit.h"
 #include <errno.h>
 #include <inttypes.h>
@@ -179,6 +180,12 @@ static int set_value(place found, const char *text) {
     switch (found.option->type) {
     case CLI_TEXT:
         return set_text(found.option, field, text);
+    case CLI_OUTPUT: {
+        cli_output *output = field;
+        const int code = set_text(found.option, &output->name, text);
+        output->path = output->name;
+        return code;
+    }
     case CLI_TEXTS: {
         cli_texts *list = field;
         const size_t most = sizeof list->at / sizeof *list->at;
@@ -226,6 +233,8 @@ static bool is_set(const cli_option *option, const char *base) {
     switch (option->type) {
     case CLI_TEXT:
         return *(const char *const *)field != NULL;
+    case CLI_OUTPUT:
+        return ((const cli_output *)field)->name != NULL;
     case CLI_WORDS:
         return *(char *const *)field != NULL;
     case CLI_WHOLE:

@@ -26,6 +26,7 @@ typedef enum cli_type {
     CLI_CHOICE = 6, /**< one of `choices`; int, its position */
     CLI_REALS = 7,  /**< finite numbers parted by commas; cli_reals */
     CLI_TEXTS = 8,  /**< operands only: all that are left; cli_texts */
+    CLI_OUTPUT = 9, /**< a file that is written; cli_output (output.h) */
 } cli_type;
 
 /** The value of a CLI_REALS option. */
@@ -51,6 +52,7 @@ typedef struct cli_option {
     uint64_t min, max;          /**< CLI_WHOLE; max 0: no limit */
     const char *const *choices; /**< CLI_CHOICE; ended by NULL */
     const char *alias;          /**< another long name, or NULL */
+    const char *ending;         /**< CLI_OUTPUT: of standard output, where no format is named; or NULL */
     const char *sentence;       /**< CLI_CHOICE: behind the refusal of another value, or NULL */
 } cli_option;
 

@@ -2,6 +2,7 @@
 #include "args/budget.h"
 #include "args/method.h"
 #include "args/order.h"
+#include "args/output.h"
 #include "args/tree.h"
 #include "command.h"
 #include "exit.h"
@@ -14,7 +15,8 @@
 typedef struct build_args {
     cli_common common;
     cli_scene_args scene;
-    const char *output, *method, *order;
+    cli_output output;
+    const char *method, *order;
     char *settings;
     uint64_t leaf, max_fragments;
     int purpose;
@@ -24,8 +26,8 @@ typedef struct build_args {
 static const char *const purposes[] = {"pieces", "query", "draw", NULL};
 
 static const cli_option options[] = {
-    {"output", 'o', CLI_TEXT, offsetof(build_args, output), "TREE",
-     .help = "save the tree here (default: report only)"},
+    {"output", 'o', CLI_OUTPUT, offsetof(build_args, output), "TREE",
+     .help = "save the tree here (default: report only); - for standard output", .ending = "froe"},
     {"method", 'm', CLI_TEXT, offsetof(build_args, method), "M",
      .help = "a builder that froe methods lists, or auto (default), which takes the one that serves the scene best"},
     {"for", 0, CLI_CHOICE, offsetof(build_args, purpose), "USE",
@@ -85,14 +87,14 @@ static int run_build(const void *given) {
     froe_tree *tree = NULL;
     froe_read_report reader;
     int code = cli_check_method(args->method, true);
-    if (!code) code = cli_check_outputs((const char *[]){args->scene.path, args->order}, 2, &args->output, 1);
+    if (!code) code = cli_check_outputs((const char *[]){args->scene.path, args->order}, 2, &args->output.path, 1);
     if (!code) code = cli_read_scene(&args->common, &args->scene, &scene, &reader);
     if (code) return code;
     const double start = cli_seconds();
     code = build(args, scene, &tree);
     const cli_build_seconds seconds = {.read = reader.seconds, .build = cli_seconds() - start};
-    if (!code && args->output) code = cli_save_tree(tree, args->output);
-    if (!code) code = cli_report_build(&args->common, args->scene.path, args->output, tree, seconds);
+    if (!code && args->output.name) code = cli_save_tree(tree, args->output.path);
+    if (!code) code = cli_report_build(&args->common, args->scene.path, args->output.name, tree, seconds);
     froe_tree_free(tree);
     froe_scene_free(scene);
     return code;

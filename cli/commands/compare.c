@@ -1,5 +1,6 @@
 /* compare.c: froe compare, every method on every scene, side by side. */
 #include "args/method.h"
+#include "args/output.h"
 #include "args/scene.h"
 #include "command.h"
 #include "compare/contest.h"
@@ -20,7 +21,8 @@ typedef struct compare_args {
     cli_common common;
     cli_texts scenes;
     cli_scene_args scene; /* but its path */
-    const char *page, *csv, *methods;
+    cli_output page;
+    const char *csv, *methods;
     uint64_t leaf, queries, halvings;
     double seconds, pieces;
     bool no_times;
@@ -29,8 +31,8 @@ typedef struct compare_args {
 static const cli_option what[] = {
     {NULL, 0, CLI_TEXTS, offsetof(compare_args, scenes), "SCENE", .help = "maps, models or CSV files",
      .required = true},
-    {"output", 'o', CLI_TEXT, offsetof(compare_args, page), "FILE",
-     .help = "write a page with figures and pictures here (HTML, one file)"},
+    {"output", 'o', CLI_OUTPUT, offsetof(compare_args, page), "FILE",
+     .help = "write a page with figures and pictures here (HTML, one file); - for standard output", .ending = "html"},
     {"csv", 0, CLI_TEXT, offsetof(compare_args, csv), "FILE", .help = "write all numbers here, one row a method"},
     {0},
 };
@@ -124,7 +126,7 @@ static json_t *compare(const compare_args *args, froe_scene *const *scenes, mete
                                .queries = args->queries,
                                .halvings = args->halvings,
                                .times = !args->no_times,
-                               .pictures = args->page != NULL};
+                               .pictures = args->page.name != NULL};
     json_t *list = json_array();
     for (size_t i = 0; i < args->scenes.count; i++)
         if (json_array_append_new(list, scene_json(args, &plan, args->scenes.at[i], scenes[i], &meters[i])) != 0) {
@@ -138,7 +140,7 @@ static json_t *compare(const compare_args *args, froe_scene *const *scenes, mete
 /* ------------------------------------------------------------------- writing -- */
 
 static int write(const compare_args *args, json_t *comparison) {
-    int code = args->page ? cli_write_text(args->page, page_put, comparison) : 0;
+    int code = args->page.name ? cli_write_text(args->page.path, page_put, comparison) : 0;
     if (!code && args->csv) code = cli_write_text(args->csv, table_put_csv, comparison);
     size_t i, j;
     json_t *scene, *row;
@@ -166,7 +168,7 @@ static int run_compare(const void *given) {
         at += length + (at[length] == ',');
     }
     if (!code)
-        code = cli_check_outputs(args->scenes.at, args->scenes.count, (const char *[]){args->page, args->csv}, 2);
+        code = cli_check_outputs(args->scenes.at, args->scenes.count, (const char *[]){args->page.path, args->csv}, 2);
     for (size_t i = 0; i < args->scenes.count && !code; i++) { /* all, before hours of work */
         cli_scene_args scene = args->scene;
         const froe_allocator alloc = meter_allocator(&meters[i]);

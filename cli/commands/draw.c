@@ -1,4 +1,5 @@
 /* draw.c: froe draw, a partition as a picture. */
+#include "args/output.h"
 #include "args/picture.h"
 #include "args/tree.h"
 #include "command.h"
@@ -14,7 +15,8 @@
 typedef struct draw_args {
     cli_common common;
     cli_tree_args tree;
-    const char *output, *show, *background, *title, *section;
+    cli_output output;
+    const char *show, *background, *title, *section;
     int style, up;
     double width, height, margin, scale, detail, explode; /**< NaN: the library's default */
     uint64_t max_depth, explode_depth;                    /**< UINT64_MAX: the library's default */
@@ -26,7 +28,7 @@ static const char *const styles[] = {"auto", "flat", "sections", "exploded", NUL
 static const char *const axes[] = {"x", "y", "z", NULL};
 
 static const cli_option what[] = {
-    {"output", 'o', CLI_TEXT, offsetof(draw_args, output), "FILE", .help = ".svg, .pdf or .png", .required = true},
+    CLI_OUTPUT_OPTIONS(draw_args, "FILE", ".svg, .pdf or .png", .required = true),
     {"show", 0, CLI_TEXT, offsetof(draw_args, show), "LAYERS",
      .help = "cells, cuts, fragments, objects, parted by commas (default: what suits the style)"},
     {"style", 0, CLI_CHOICE, offsetof(draw_args, style), "STYLE",
@@ -140,10 +142,10 @@ static int run_draw(const void *given) {
     cli_draw library;
     int code = cli_open_draw(&library);
     if (code) return code;
-    if (!library.format_of(args->output, &format))
-        return cli_fail(CLI_USE, args->output, "The ending of pictures is .svg, .pdf or .png.");
+    if (!library.format_of(args->output.path, &format))
+        return cli_fail(CLI_USE, args->output.name, "The ending of pictures is .svg, .pdf or .png.");
     froe_tree *tree;
-    code = cli_check_tree_outputs(&args->tree, args->output);
+    code = cli_check_tree_outputs(&args->tree, args->output.path);
     if (!code) code = cli_open_tree(&args->common, &args->tree, NULL, &tree);
     if (code) return code;
     froe_draw_options o = library.defaults();
@@ -153,14 +155,14 @@ static int run_draw(const void *given) {
         froe_diagnostic diag;
         o.progress = cli_progress_step;
         o.user = &bar;
-        const froe_status status = library.draw(tree, args->output, &o, &diag);
+        const froe_status status = library.draw(tree, args->output.path, &o, &diag);
         cli_progress_end(&bar);
-        if (status) code = cli_fail_status(CLI_WRITING, args->output, status, &diag);
+        if (status) code = cli_output_fail(&args->output, status, &diag);
     }
     if (!code)
         code = cli_report(&args->common, NULL,
                           json_pack("{s:o, s:o}", "tree", cli_name_json(args->tree.scene.path), "output",
-                                    cli_name_json(args->output)));
+                                    cli_name_json(args->output.name)));
     froe_tree_free(tree);
     return code;
 }

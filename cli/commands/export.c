@@ -1,4 +1,5 @@
 /* export.c: froe export, parts of a tree for other programs. */
+#include "args/output.h"
 #include "args/tree.h"
 #include "command.h"
 #include "exit.h"
@@ -10,7 +11,7 @@
 typedef struct export_args {
     cli_common common;
     cli_tree_args tree;
-    const char *output;
+    cli_output output;
     int what;
     cli_reals window;
 } export_args;
@@ -19,8 +20,7 @@ static const char *const whats[] = {
     [FROE_EXPORT_FRAGMENTS] = "fragments", [FROE_EXPORT_CELLS] = "cells", [FROE_EXPORT_CUTS] = "cuts", NULL};
 
 static const cli_option options[] = {
-    {"output", 'o', CLI_TEXT, offsetof(export_args, output), "FILE",
-     .help = ".geojson (plane), .obj (space) or .csv (any dimension)", .required = true},
+    CLI_OUTPUT_OPTIONS(export_args, "FILE", ".geojson (plane), .obj (space) or .csv (any dimension)", .required = true),
     {"what", 0, CLI_CHOICE, offsetof(export_args, what), "PART", .help = "fragments (default), cells or cuts",
      .choices = whats},
     {"window", 0, CLI_REALS, offsetof(export_args, window), "LO,HI",
@@ -37,7 +37,7 @@ static const cli_part parts[] = {CLI_TREE_PART(export_args),
 static int run_export(const void *given) {
     const export_args *args = given;
     froe_tree *tree;
-    int code = cli_check_tree_outputs(&args->tree, args->output);
+    int code = cli_check_tree_outputs(&args->tree, args->output.path);
     if (!code) code = cli_open_tree(&args->common, &args->tree, NULL, &tree);
     if (code) return code;
     const size_t numbers = 2 * (size_t)froe_scene_dim(froe_tree_scene(tree));
@@ -51,14 +51,14 @@ static int run_export(const void *given) {
         froe_diagnostic diag;
         o.progress = cli_progress_step;
         o.user = &bar;
-        const froe_status status = froe_export(tree, args->output, (froe_export_what)args->what, &o, &diag);
+        const froe_status status = froe_export(tree, args->output.path, (froe_export_what)args->what, &o, &diag);
         cli_progress_end(&bar);
-        if (status) code = cli_fail_status(CLI_WRITING, args->output, status, &diag);
+        if (status) code = cli_output_fail(&args->output, status, &diag);
     }
     if (!code)
         code = cli_report(&args->common, NULL,
                           json_pack("{s:o, s:s, s:o}", "tree", cli_name_json(args->tree.scene.path), "what",
-                                    whats[args->what], "output", cli_name_json(args->output)));
+                                    whats[args->what], "output", cli_name_json(args->output.name)));
     froe_tree_free(tree);
     return code;
 }

@@ -43,7 +43,7 @@ static int snapshot(walk *w, json_t *report) {
     w->bar.what = "rounding";
     const int code = finish_following(w, froe_kinetic_snapshot(w->kinetic, &o, &s, &diag), &diag);
     if (code) return code;
-    const char *path = w->asked->tree;
+    const char *path = w->asked->tree.path;
     froe_status status = froe_tree_save(s.tree, path, &diag);
     if (!status && w->asked->places) status = froe_write_places(s.places, path = w->asked->places, &diag);
     froe_tree_free(s.tree);
@@ -74,7 +74,7 @@ int cli_follow_motion(const cli_common *common, const cli_follow *asked, const c
     froe_diagnostic diag;
     walk w = {.asked = asked, .file = file, .bar = cli_progress_begin(common, "following")};
     *report = json_null();
-    if (!asked->events && !asked->tree) return 0;
+    if (!asked->events && !asked->tree.name) return 0;
     froe_status status = asked->events ? froe_event_writer_new(asked->events, NULL, &w.writer, &diag) : FROE_OK;
     if (status) return cli_fail_status(CLI_WRITING, asked->events, status, &diag);
     *report = json_object();
@@ -85,8 +85,8 @@ int cli_follow_motion(const cli_common *common, const cli_follow *asked, const c
     o.user = &w.bar;
     w.bar.what = "building";
     int code = finish_following(&w, froe_kinetic_new(motion, &o, NULL, &w.kinetic, &diag), &diag);
-    if (!code && asked->tree) code = advance(&w, asked->at);
-    if (!code && asked->tree && !w.stuck) code = snapshot(&w, *report);
+    if (!code && asked->tree.name) code = advance(&w, asked->at);
+    if (!code && asked->tree.name && !w.stuck) code = snapshot(&w, *report);
     if (!code && w.writer && !w.stuck) code = advance(&w, froe_motion_window(motion).end);
     if (!code) count_events(&w, *report);
     status = froe_event_writer_close(w.writer, code ? FROE_E_CANCELLED : FROE_OK, &diag);

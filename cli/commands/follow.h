@@ -1,15 +1,17 @@
 /* follow.h: a motion followed event by event, for froe simulate. */
 #ifndef FROE_CLI_FOLLOW_H
 #define FROE_CLI_FOLLOW_H
+#include "args/output.h"
 #include "command.h"
 #include <froe/io.h>
 #include <jansson.h>
 
 typedef struct cli_follow {
-    const char *events, *tree, *places; /**< files to write, or NULL */
-    double at;                          /**< when the tree is taken; NaN: never */
-    bool unrounded;                     /**< rather no tree than one with rounded coordinates */
-    bool augmented;                     /**< segments turn upright for nothing */
+    const char *events, *places; /**< files to write, or NULL */
+    cli_output tree;
+    double at;      /**< when the tree is taken; NaN: never */
+    bool unrounded; /**< rather no tree than one with rounded coordinates */
+    bool augmented; /**< segments turn upright for nothing */
 } cli_follow;
 
 /** Goes through the window of a motion from a file, if anything is asked for; events are written as they happen.

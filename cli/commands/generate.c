@@ -1,4 +1,5 @@
 /* generate.c: froe generate, scenes for tests and benches. */
+#include "args/output.h"
 #include "command.h"
 #include "exit.h"
 #include "progress.h"
@@ -9,7 +10,8 @@
 
 typedef struct generate_args {
     cli_common common;
-    const char *kind, *output;
+    const char *kind;
+    cli_output output;
     uint64_t n;
     bool list;
 } generate_args;
@@ -18,8 +20,9 @@ static const cli_option options[] = {
     {NULL, 0, CLI_TEXT, offsetof(generate_args, kind), "KIND", .help = "what to make; --list tells what there is"},
     {"number", 'n', CLI_WHOLE, offsetof(generate_args, n), "N", .help = "how many objects, about (default 1000)",
      .min = 1, .max = UINT32_MAX},
-    {"output", 'o', CLI_TEXT, offsetof(generate_args, output), "FILE",
-     .help = ".geojson (plane), .csv (all but polygons), .off or .obj (polygons), .mfjson (moving)"},
+    CLI_OUTPUT_OPTIONS(generate_args, "FILE",
+                       ".geojson (plane), .csv (all but polygons), .off or .obj (polygons), .mfjson (moving)",
+                       .required = false),
     {"list", 0, CLI_FLAG, offsetof(generate_args, list), .help = "list the usual kinds; --list all: every kind"},
     {0},
 };
@@ -70,7 +73,8 @@ static int run_generate(const void *given) {
     bool moving = false;
     int code = find_kind(args->kind, &moving);
     if (code) return code;
-    if (!args->output) return cli_fail(CLI_USE, NULL, "-o FILE is missing. froe generate --help lists what there is.");
+    if (!args->output.name)
+        return cli_fail(CLI_USE, NULL, "-o FILE is missing. froe generate --help lists what there is.");
     froe_motion *motion = NULL;
     froe_scene *scene = NULL;
     froe_diagnostic diag = {0};
@@ -79,14 +83,14 @@ static int run_generate(const void *given) {
                                 : froe_generate(args->kind, n, args->common.seed, NULL, &scene, &diag);
     if (status) return cli_fail_status(CLI_WORKING, NULL, status, &diag);
     status = cli_interrupted() ? support_fail_cancelled(&diag)
-             : moving          ? froe_write_motion(motion, args->output, &diag)
-                               : froe_write_scene(scene, args->output, &diag);
+             : moving          ? froe_write_motion(motion, args->output.path, &diag)
+                               : froe_write_scene(scene, args->output.path, &diag);
     const size_t objects = moving ? froe_motion_object_count(motion) : froe_scene_object_count(scene);
-    code = status ? cli_fail_status(CLI_WRITING, args->output, status, &diag)
+    code = status ? cli_output_fail(&args->output, status, &diag)
                   : cli_report(&args->common, NULL,
                                json_pack("{s:s, s:i, s:I, s:I, s:o}", "kind", args->kind, "dim",
                                          moving ? 2 : froe_scene_dim(scene), "objects", (json_int_t)objects, "seed",
-                                         (json_int_t)args->common.seed, "output", cli_name_json(args->output)));
+                                         (json_int_t)args->common.seed, "output", cli_name_json(args->output.name)));
     froe_motion_free(motion);
     froe_scene_free(scene);
     return code;

@@ -26,8 +26,8 @@ static const char *const paints[] = {"whole", "regions", "fragments", NULL};
 static const char *const presets[] = {"illustration", "technical", "plotter", "web", "print", NULL};
 
 static const cli_option what[] = {
-    {"output", 'o', CLI_TEXT, offsetof(render_args, output), "FILE",
-     .help = ".svg, .pdf, .eps or .png; lines alone as .dxf, .csv or .geojson", .required = true},
+    CLI_OUTPUT_OPTIONS(render_args, "FILE", ".svg, .pdf, .eps or .png; lines alone as .dxf, .csv or .geojson",
+                       .required = true),
     {"preset", 0, CLI_CHOICE, offsetof(render_args, preset), "NAME",
      .help =
          "what the other options begin with: illustration (default), technical (parallel, lines, hidden ones dashed), "
@@ -152,7 +152,7 @@ static json_t *report_json(const render_args *args, const froe_render_report *r)
         "flat_polygons", (json_int_t)v->flat, "segments", (json_int_t)v->segments, "points", (json_int_t)v->points,
         "thin_shapes", (json_int_t)r->thin_shapes, "short_lines", (json_int_t)r->short_strokes);
     return json_pack("{s:o, s:o, s:s, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:f, s:o}", "tree",
-                     cli_name_json(args->tree.scene.path), "output", cli_name_json(args->output), "paint",
+                     cli_name_json(args->tree.scene.path), "output", cli_name_json(args->output.name), "paint",
                      froe_paint_name(p->paint), "fragments", (json_int_t)v->pieces, "visible_fragments",
                      (json_int_t)v->visible_pieces, "visible_faces", (json_int_t)v->visible_patches, "arcs",
                      (json_int_t)p->arcs, "late_faces", (json_int_t)p->late, "shapes", (json_int_t)r->shapes, "lines",
@@ -163,12 +163,12 @@ static json_t *report_json(const render_args *args, const froe_render_report *r)
 
 static void warn(const render_args *args, const froe_render_options *o, const froe_render_report *r) {
     if (r->view.up_axis >= 0 && !args->common.quiet)
-        (void)cli_fail(0, args->output, "note: Up lies along the line of view, and axis %s points up instead.",
+        (void)cli_fail(0, args->output.name, "note: Up lies along the line of view, and axis %s points up instead.",
                        axes[r->view.up_axis]);
     if (r->picture.paint != o->paint && o->shading != FROE_SHADE_NONE)
-        (void)cli_fail(0, args->output,
+        (void)cli_fail(0, args->output.name,
                        "note: Too many faces overlap for an order of whole ones, and fragments were painted.");
-    if (!r->shapes && !r->strokes) (void)cli_fail(0, args->output, "note: Nothing is visible from here.");
+    if (!r->shapes && !r->strokes) (void)cli_fail(0, args->output.name, "note: Nothing is visible from here.");
 }
 
 /* The name of frame i: "pic-%03d.svg" has one %d, perhaps with a width; false: it has not. */
@@ -195,11 +195,11 @@ static froe_status render_turning(const render_args *args, render_fn *write, con
     const double seconds = isnan(args->seconds) ? 8 : args->seconds;
     froe_status status = froe_camera_turn(&o->camera, froe_tree_scene(tree), args->turntable, cameras, diag);
     if (!status && args->animate)
-        status = froe_render_animation(tree, args->output, o, cameras, args->turntable, seconds, report, diag);
+        status = froe_render_animation(tree, args->output.path, o, cameras, args->turntable, seconds, report, diag);
     for (size_t i = 0; !status && !args->animate && i < args->turntable; i++) {
         char path[4096];
         o->camera = cameras[i];
-        status = name_frame(args->output, i, path, sizeof path) ? write(tree, path, o, report, diag) : FROE_E_ARG;
+        status = name_frame(args->output.path, i, path, sizeof path) ? write(tree, path, o, report, diag) : FROE_E_ARG;
     }
     free(cameras);
     return status;
@@ -213,10 +213,10 @@ static int render(const render_args *args, const froe_tree *tree, froe_render_op
     if (args->turntable && (args->eye.count || args->target.count))
         return cli_fail(CLI_USE, NULL,
                         "--turntable: It goes around the middle of the scene, and excludes --eye and --target.");
-    if (args->turntable && !args->animate && !name_frame(args->output, 0, path, sizeof path))
-        return cli_fail(CLI_USE, NULL, "--turntable: '%s' is not like pic-%%03d.svg.", args->output);
+    if (args->turntable && !args->animate && !name_frame(args->output.path, 0, path, sizeof path))
+        return cli_fail(CLI_USE, NULL, "--turntable: '%s' is not like pic-%%03d.svg.", args->output.name);
     render_fn *write = froe_render;
-    if (!strcmp(support_path_extension(args->output).text, "png")) {
+    if (!strcmp(support_path_extension(args->output.path).text, "png")) {
         cli_draw library;
         const int code = cli_open_draw(&library);
         if (code) return code;
@@ -226,10 +226,9 @@ static int render(const render_args *args, const froe_tree *tree, froe_render_op
     o->progress = cli_progress_step;
     o->user = &bar;
     const froe_status status = args->turntable ? render_turning(args, write, tree, o, &report, &diag)
-                                               : write(tree, args->output, o, &report, &diag);
+                                               : write(tree, args->output.path, o, &report, &diag);
     cli_progress_end(&bar);
-    if (status == FROE_E_ARG || status == FROE_E_OPTIONS) return cli_fail(CLI_USE, NULL, "%s", diag.message);
-    if (status) return cli_fail_status(CLI_WRITING, args->output, status, &diag);
+    if (status) return cli_output_fail(&args->output, status, &diag);
     warn(args, o, &report);
     return cli_report(&args->common, NULL, report_json(args, &report));
 }
@@ -279,7 +278,7 @@ static int check_scene(const render_args *args, const froe_scene *scene) {
 static int run_render(const void *given) {
     const render_args *args = given;
     froe_tree *tree;
-    int code = cli_check_tree_outputs(&args->tree, args->output);
+    int code = cli_check_tree_outputs(&args->tree, args->output.path);
     if (!code) code = cli_open_tree(&args->common, &args->tree, "draw", &tree);
     if (code) return code;
     code = check_scene(args, froe_tree_scene(tree));

@@ -184,7 +184,7 @@ int render_set_options(const render_args *args, const froe_scene *scene, froe_re
     o->section = args->section.count ? -1 : 0;
     o->interleaved = args->over > 0;
     o->own_colours = args->colours > 0;
-    o->ids = args->ids >= 0 ? (froe_ids)args->ids : is_data(args->output) ? FROE_IDS_OBJECT : FROE_IDS_NONE;
+    o->ids = args->ids >= 0 ? (froe_ids)args->ids : is_data(args->output.path) ? FROE_IDS_OBJECT : FROE_IDS_NONE;
     o->layers = (froe_layers)args->layers;
     o->seams = (froe_seams)args->seams;
     cli_set_number(args->min_area, &o->min_area);

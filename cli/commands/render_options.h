@@ -1,6 +1,7 @@
 /* render_options.h: what is said on the command line of froe render, as options of a picture. */
 #ifndef FROE_CLI_RENDER_OPTIONS_H
 #define FROE_CLI_RENDER_OPTIONS_H
+#include "args/output.h"
 #include "args/tree.h"
 #include "command.h"
 #include "commands/render_lines.h"
@@ -10,7 +11,8 @@
 typedef struct render_args {
     cli_common common;
     cli_tree_args tree;
-    const char *output, *lines, *background, *title, *description, *opacity, *priority, *size, *shading, *scale;
+    cli_output output;
+    const char *lines, *background, *title, *description, *opacity, *priority, *size, *shading, *scale;
     char *line_style;
     int direction, up_axis, paint, preset, seams, ids, layers, hidden, colours, over;
     double halo, fov, unit, min_area, seconds, margin, crease, pixels; /**< NaN: not given */

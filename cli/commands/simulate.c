@@ -29,8 +29,8 @@ static const cli_option options[] = {
     {"events", 0, CLI_TEXT, offsetof(simulate_args, follow.events), "FILE",
      .help = "follow the partition of the segments, and write what changes it, with the times, as .csv"},
     {"at", 0, CLI_REAL, offsetof(simulate_args, follow.at), "T", .help = "with --output: the time of the tree"},
-    {"output", 'o', CLI_TEXT, offsetof(simulate_args, follow.tree), "TREE",
-     .help = "save the partition as it is at the time of --at, as a tree for all other commands"},
+    {"output", 'o', CLI_OUTPUT, offsetof(simulate_args, follow.tree), "TREE",
+     .help = "save the partition as it is at the time of --at, as a tree for all other commands", .ending = "froe"},
     {"places", 0, CLI_TEXT, offsetof(simulate_args, follow.places), "FILE",
      .help = "with --output: write where the tree's vertices are exactly, as quotients of whole numbers, as .csv"},
     {"unrounded", 0, CLI_FLAG, offsetof(simulate_args, follow.unrounded),
@@ -125,15 +125,15 @@ static int report(const simulation *s) {
 static int check(const simulate_args *args) {
     if (!isnan(args->from) && !isnan(args->to) && !(args->from < args->to))
         return cli_fail(CLI_USE, NULL, "--from: '%g' is not before --to, '%g'.", args->from, args->to);
-    if (isnan(args->follow.at) != !args->follow.tree)
+    if (isnan(args->follow.at) != !args->follow.tree.name)
         return cli_fail(CLI_USE, NULL,
                         "--at: It needs --output, a file for the tree of that time, and --output needs it.");
-    if ((args->follow.places || args->follow.unrounded) && !args->follow.tree)
+    if ((args->follow.places || args->follow.unrounded) && !args->follow.tree.name)
         return cli_fail(CLI_USE, NULL, "--places, --unrounded: They need --output.");
     if (!isnan(args->seconds) && !(args->seconds > 0))
         return cli_fail(CLI_USE, NULL, "--seconds: '%g' is not a number above 0.", args->seconds);
-    const char *const outputs[] = {args->contacts,      args->animate,     args->player,
-                                   args->follow.events, args->follow.tree, args->follow.places};
+    const char *const outputs[] = {args->contacts,      args->animate,          args->player,
+                                   args->follow.events, args->follow.tree.path, args->follow.places};
     return cli_check_outputs(&args->path, 1, outputs, sizeof outputs / sizeof *outputs);
 }
 
