@@ -9,7 +9,7 @@
  * (16 samples a pixel) by more than 16 (40) of 255. Seconds, processor time: from tree (gl2ps: from triangles)
  * to file, median of five; froe's tree, which serves all views, is given apart. */
 #include "bench.h"
-#include "peers/peers.h"
+#include "peers/gl2ps.h"
 #include "svg_shapes.h"
 #include <cairo.h>
 #include <froe/render.h>

@@ -7,7 +7,7 @@
  * The last column compares the number of pieces with that of density at leaf 0 (where there is none: leaf 1). */
 #include "apart.h"
 #include "bench.h"
-#include "peers/peers.h"
+#include "peers/gl2ps.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

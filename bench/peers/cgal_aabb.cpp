@@ -1,9 +1,11 @@
 // cgal_aabb.cpp: CGAL's AABB tree of triangles, in doubles.
-#include "space.h"
+#include "peer.h"
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Simple_cartesian.h>
+#include <boost/iterator/function_output_iterator.hpp>
+#include <cmath>
 #include <vector>
 
 using kernel = CGAL::Simple_cartesian<double>;
@@ -16,14 +18,17 @@ struct index3 {
     tree a;
 };
 
-static kernel::Point_3 point(const double x[3]) {
+static kernel::Point_3 point(const double *x) {
     return {x[0], x[1], x[2]};
 }
 
-static void *build(const peer_triangle *t, size_t n) {
+static void *build(const peer_data *data, const peer *) {
     auto *x = new index3;
-    x->t.reserve(n);
-    for (size_t i = 0; i < n; i++) x->t.emplace_back(point(t[i].p[0]), point(t[i].p[1]), point(t[i].p[2]));
+    x->t.reserve(data->count);
+    for (size_t i = 0; i < data->count; i++) {
+        const double *t = data->coords + 9 * i;
+        x->t.emplace_back(point(t), point(t + 3), point(t + 6));
+    }
     x->a.insert(x->t.begin(), x->t.end());
     x->a.build();
     return x;
@@ -50,13 +55,11 @@ static bool any(void *index, const double o[3], const double d[3]) {
     return static_cast<index3 *>(index)->a.do_intersect(ray_of(o, d));
 }
 
-static size_t window(void *index, const double lo[3], const double hi[3], uint32_t *out) {
+static void window(void *index, const double *lo, const double *hi, peer_answers *out) {
     auto *x = static_cast<index3 *>(index);
-    static thread_local std::vector<tree::Primitive_id> found;
-    found.clear();
-    x->a.all_intersected_primitives(kernel::Iso_cuboid_3(point(lo), point(hi)), std::back_inserter(found));
-    for (size_t i = 0; i < found.size(); i++) out[i] = uint32_t(found[i] - x->t.cbegin());
-    return found.size();
+    auto add = [&](tree::Primitive_id found) { peer_put(out, uint32_t(found - x->t.cbegin())); };
+    x->a.all_intersected_primitives(kernel::Iso_cuboid_3(point(lo), point(hi)),
+                                    boost::make_function_output_iterator(add));
 }
 
 /* Its tree of points, made once by the first call, gives it a good bound to begin with. */
@@ -64,4 +67,25 @@ static double near(void *index, const double p[3]) {
     return std::sqrt(static_cast<index3 *>(index)->a.squared_distance(point(p)));
 }
 
-extern "C" const space_peer peer_cgal_aabb = {"CGAL", build, drop, nullptr, ray, any, window, near};
+static void answer(void *index, const peer_questions *q, peer_answers *out) {
+    const double *x = q->numbers;
+    for (size_t i = 0; i < q->count; i++, x += q->width)
+        if (q->work == PEER_WINDOW)
+            window(index, x, x + 3, out), out->ends[i] = out->used;
+        else
+            out->values[i] = q->work == PEER_NEAREST     ? near(index, x)
+                             : q->work == PEER_FIRST_HIT ? ray(index, x, q->directions + 3 * i)
+                                                         : any(index, x, q->directions + 3 * i);
+}
+
+static bool serves(const peer_data *data, peer_work work) {
+    return data->kind == PEER_TRIANGLES &&
+           (work == PEER_WINDOW || work == PEER_NEAREST || work == PEER_FIRST_HIT || work == PEER_ANY_HIT);
+}
+
+static const peer aabb = {"CGAL", "its AABB tree, in doubles", 0, false, serves, build, drop, answer, nullptr, nullptr,
+                          nullptr};
+
+const peer *peer_at(size_t i) {
+    return i ? nullptr : &aabb;
+}

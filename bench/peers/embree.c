@@ -1,5 +1,6 @@
 /* embree.c: Embree 3, triangles in single precision, high quality, one thread. */
-#include "space.h"
+#include "peer.h"
+#include "triangle.h"
 #include <embree3/rtcore.h>
 #include <stdlib.h>
 
@@ -16,7 +17,10 @@ static bool count_bytes(void *user, ssize_t bytes, bool post) {
     return true;
 }
 
-static void *build(const peer_triangle *t, size_t n) {
+static void *build(const peer_data *data, const peer *self) {
+    const size_t n = data->count;
+    const peer_triangle *t = (const peer_triangle *)data->coords;
+    (void)self;
     index3 *x = calloc(1, sizeof *x);
     if (!x) exit(1);
     x->t = t;
@@ -93,7 +97,7 @@ static bool look(struct RTCPointQueryFunctionArguments *a) {
     return true;
 }
 
-static double near(void *index, const double point[3]) {
+static double nearest_distance(void *index, const double point[3]) {
     index3 *x = index;
     struct RTCPointQueryContext context;
     struct RTCPointQuery q = {(float)point[0], (float)point[1], (float)point[2], 0, INFINITY};
@@ -103,4 +107,28 @@ static double near(void *index, const double point[3]) {
     return sqrt(n.best);
 }
 
-const space_peer peer_embree = {"Embree", build, drop, bytes, ray, any, NULL, near};
+static void answer(void *index, const peer_questions *q, peer_answers *out) {
+    for (size_t i = 0; i < q->count; i++) {
+        const double *x = q->numbers + 3 * i;
+        out->values[i] = q->work == PEER_NEAREST     ? nearest_distance(index, x)
+                         : q->work == PEER_FIRST_HIT ? ray(index, x, q->directions + 3 * i)
+                                                     : any(index, x, q->directions + 3 * i);
+    }
+}
+
+static bool serves(const peer_data *data, peer_work work) {
+    return data->kind == PEER_TRIANGLES && (work == PEER_FIRST_HIT || work == PEER_ANY_HIT || work == PEER_NEAREST);
+}
+
+static const peer embree = {.name = "Embree",
+                            .what = "version 3, of high quality, one thread; it rounds to single precision",
+                            .tolerance = 1e-4,
+                            .serves = serves,
+                            .make = build,
+                            .free = drop,
+                            .answer = answer,
+                            .bytes = bytes};
+
+const peer *peer_at(size_t i) {
+    return i ? NULL : &embree;
+}

@@ -1,5 +1,5 @@
 /* gl2ps.c: gl2ps 1.4 as a BSP of triangles: it sorts with a BSP and writes every piece as a polygon. */
-#include "peers.h"
+#include "gl2ps.h"
 #include <GL/gl.h>
 #include <gl2ps.h>
 #include <stdio.h>

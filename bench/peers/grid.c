@@ -1,6 +1,7 @@
 /* grid.c: a plain uniform grid, written for this comparison as the simplest index: cells of about one segment, ids
  * cell by cell in one array (CSR), stamps against duplicates. */
-#include "index.h"
+#include "peer.h"
+#include "segment.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -41,7 +42,10 @@ static void put_one(grid *g, size_t cell, uint32_t id) {
     g->ids[g->start[cell]++] = id;
 }
 
-static void *build(const peer_segment *s, size_t n) {
+static void *build(const peer_data *data, const peer *self) {
+    const peer_segment *s = (const peer_segment *)data->coords;
+    const size_t n = data->count;
+    (void)self;
     grid *g = calloc(1, sizeof *g);
     double x1 = -1e300, y1 = -1e300;
     *g = (grid){.s = s, .n = n, .x0 = 1e300, .y0 = 1e300};
@@ -75,24 +79,20 @@ static size_t bytes(void *index) {
     return 4 * (cells + 1) + 4 * (size_t)g->start[cells] + 4 * g->n;
 }
 
-static size_t window(void *index, const double lo[2], const double hi[2], uint32_t *out) {
-    grid *g = index;
+static void window(grid *g, const double lo[2], const double hi[2], peer_answers *out) {
     uint32_t i0 = cell_of(g, lo[0], g->x0), i1 = cell_of(g, hi[0], g->x0), j0 = cell_of(g, lo[1], g->y0),
              j1 = cell_of(g, hi[1], g->y0);
-    size_t count = 0;
     g->stamp++;
     for (uint32_t i = i0; i <= i1; i++)
         for (uint32_t k = g->start[(size_t)i * g->cells + j0]; k < g->start[(size_t)i * g->cells + j1 + 1]; k++) {
             uint32_t id = g->ids[k];
             if (g->stamps[id] == g->stamp) continue;
             g->stamps[id] = g->stamp;
-            if (peer_meets_window(g->s + id, lo, hi)) out[count++] = id;
+            if (peer_meets_window(g->s + id, lo, hi)) peer_put(out, id);
         }
-    return count;
 }
 
-static int64_t above(void *index, double x, double y) {
-    grid *g = index;
+static int64_t above(const grid *g, double x, double y) {
     uint32_t i = cell_of(g, x, g->x0);
     int64_t best = -1;
     double height = 1e300, at, width = g->side / g->cells;
@@ -117,20 +117,45 @@ static void common_point(const peer_segment *a, const peer_segment *b, double *x
 }
 
 /* Each pair once: in the cell of its common point. */
-static size_t pairs(const peer_segment *s, size_t n) {
-    grid *g = build(s, n);
-    size_t count = 0, cells = (size_t)g->cells * g->cells;
+static void pairs(const grid *g, double values[2]) {
+    const size_t cells = (size_t)g->cells * g->cells;
     double x, y;
+    values[0] = values[1] = 0;
     for (size_t c = 0; c < cells; c++)
         for (uint32_t k = g->start[c]; k < g->start[c + 1]; k++)
             for (uint32_t l = k + 1; l < g->start[c + 1]; l++) {
-                const peer_segment *a = s + g->ids[k], *b = s + g->ids[l];
+                const peer_segment *a = g->s + g->ids[k], *b = g->s + g->ids[l];
                 if (!peer_meet(a, b)) continue;
                 common_point(a, b, &x, &y);
-                count += (size_t)cell_of(g, x, g->x0) * g->cells + cell_of(g, y, g->y0) == c;
+                if ((size_t)cell_of(g, x, g->x0) * g->cells + cell_of(g, y, g->y0) == c)
+                    peer_pair(values, g->ids[k], g->ids[l]);
             }
-    drop(g);
-    return count;
 }
 
-const peer peer_grid = {"grid", build, drop, bytes, window, above, NULL, pairs};
+static void answer(void *index, const peer_questions *q, peer_answers *out) {
+    const double *x = q->numbers;
+    if (q->work == PEER_PAIRS) pairs(index, out->values);
+    for (size_t i = 0; i < q->count && q->work != PEER_PAIRS; i++, x += q->width) {
+        if (q->work == PEER_WINDOW)
+            window(index, x, x + 2, out), out->ends[i] = out->used;
+        else
+            out->values[i] = (double)above(index, x[0], x[1]);
+    }
+}
+
+static bool serves(const peer_data *data, peer_work work) {
+    return data->kind == PEER_SEGMENTS && data->dim == 2 &&
+           (work == PEER_WINDOW || work == PEER_ABOVE || work == PEER_PAIRS);
+}
+
+static const peer plain_grid = {.name = "plain grid",
+                                .what = "150 lines of C written for this comparison, the simplest index there is",
+                                .serves = serves,
+                                .make = build,
+                                .free = drop,
+                                .answer = answer,
+                                .bytes = bytes};
+
+const peer *peer_at(size_t i) {
+    return i ? NULL : &plain_grid;
+}

@@ -1,7 +1,6 @@
-/* space.h: what a library does to be a column of `bench space`. A peer is one file that defines one of these; functions
- * it lacks are NULL. An index lies beside the caller's array, which stays. */
-#ifndef FROE_BENCH_PEERS_SPACE_H
-#define FROE_BENCH_PEERS_SPACE_H
+/* triangle.h: triangles in space, in doubles, for libraries that know bounding boxes alone. */
+#ifndef FROE_BENCH_PEERS_TRIANGLE_H
+#define FROE_BENCH_PEERS_TRIANGLE_H
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -14,25 +13,6 @@ extern "C" {
 typedef struct peer_triangle {
     double p[3][3];
 } peer_triangle;
-
-typedef struct space_peer {
-    const char *name;
-    void *(*build)(const peer_triangle *t, size_t n);
-    void (*free)(void *index);
-    size_t (*bytes)(void *index); /**< NULL: what the heap grew by */
-    /** The parameter of the first hit of o + t d, t >= 0; infinity: none. */
-    double (*ray)(void *index, const double o[3], const double d[3]);
-    /** Is there any? */
-    bool (*any)(void *index, const double o[3], const double d[3]);
-    /** Writes the triangles that meet the closed box, each once; how many. There is room for all. */
-    size_t (*window)(void *index, const double lo[3], const double hi[3], uint32_t *out);
-    /** The distance of the nearest triangle. */
-    double (*near)(void *index, const double point[3]);
-} space_peer;
-
-extern const space_peer peer_embree, peer_cgal_aabb, peer_boost_space;
-
-/* ----------------------------------------------------------------- triangles -- */
 
 static inline void peer_bounds(const peer_triangle *t, double lo[3], double hi[3]) {
     for (int k = 0; k < 3; k++) {

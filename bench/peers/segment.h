@@ -1,8 +1,7 @@
-/* index.h: what a library does to be a column of `bench index`. A peer is one file that defines one of these; functions
- * it lacks are NULL. Coordinates are whole numbers below 2^30 in doubles, so that every peer decides exactly with the
- * functions at the end. */
-#ifndef FROE_BENCH_PEERS_INDEX_H
-#define FROE_BENCH_PEERS_INDEX_H
+/* segment.h: segments of the plane, for libraries that know bounding boxes alone. Coordinates are whole numbers below
+ * 2^30 in doubles, so that these functions decide exactly. */
+#ifndef FROE_BENCH_PEERS_SEGMENT_H
+#define FROE_BENCH_PEERS_SEGMENT_H
 #include <math.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -16,26 +15,6 @@ extern "C" {
 typedef struct peer_segment {
     double ax, ay, bx, by;
 } peer_segment;
-
-/** An index lies beside the caller's array, which stays. */
-typedef struct peer {
-    const char *name;
-    void *(*build)(const peer_segment *s, size_t n);
-    void (*free)(void *index);
-    size_t (*bytes)(void *index);
-    /** Writes the segments that meet the closed window, each once; how many. There is room for all. */
-    size_t (*window)(void *index, const double lo[2], const double hi[2], uint32_t *out);
-    /** The first segment met by the ray upwards from a point, which may be on it; -1: none. */
-    int64_t (*above)(void *index, double x, double y);
-    /** Finds the face of the map of segments that do not cross; what it returns depends on the face alone. */
-    int64_t (*locate)(void *index, double x, double y);
-    /** Pairs of segments that meet, from scratch. */
-    size_t (*pairs)(const peer_segment *s, size_t n);
-} peer;
-
-extern const peer peer_boost, peer_geos, peer_grid, peer_trapezoids, peer_boxes, peer_embree;
-
-/* ------------------------------------------------------------------- exact -- */
 
 /** Sign of (b - a) x (c - a): coordinates are multiples of 1/2. */
 static inline int peer_turn(double ax, double ay, double bx, double by, double cx, double cy) {
