@@ -9,6 +9,7 @@
  * (16 samples a pixel) by more than 16 (40) of 255. Seconds, processor time: from tree (gl2ps: from triangles)
  * to file, median of five; froe's tree, which serves all views, is given apart. */
 #include "bench.h"
+#include "json.h"
 #include "peers/gl2ps.h"
 #include "svg_shapes.h"
 #include <cairo.h>
@@ -29,7 +30,9 @@ typedef struct subject {
     froe_projection view;
     oracle_triangles triangles;
     uint32_t *colours; /* per patch */
-    double build_seconds;
+    double *window;    /* the triangles as gl2ps takes them, and their colours */
+    unsigned *window_colours;
+    size_t window_count;
 } subject;
 
 /* ------------------------------------------------------------------------ making -- */
@@ -51,50 +54,32 @@ static void find_colours(subject *s) {
     oracle_canvas_free(&canvas);
 }
 
-static void open_subject(subject *s, const char *arg) {
-    char path[4096];
-    const char *colon = strrchr(arg, ':');
-    const bool y_up = colon && !strcmp(colon, ":y");
-    froe_diagnostic why = {0};
-    froe_render_report report;
-    snprintf(path, sizeof path, "%.*s", (int)(y_up ? colon - arg : (long)strlen(arg)), arg);
-    bench_name(path, s->name);
-    s->scene = bench_read(path);
-    const double start = bench_cpu();
-    s->tree = bench_build(s->scene, "auto", NULL, 1, 1, NULL);
-    s->build_seconds = bench_cpu() - start;
-    bench_must(froe_surface_new(s->scene, NULL, &s->surface, &why), &why);
-    s->options = froe_render_defaults();
-    s->options.lines = 0;
-    s->options.own_colours = true; /* all opaque */
-    if (y_up) {
-        const double eye[3] = {3, 2, 5}, up[3] = {0, 1, 0};
-        memcpy(s->options.camera.eye, eye, sizeof eye);
-        memcpy(s->options.camera.up, up, sizeof up);
-    }
-    bench_must(froe_render(s->tree, "froe.svg", &s->options, &report, &why), &why);
-    s->view = report.view;
-    s->triangles = oracle_triangles_new(s->scene, s->surface, &s->view, false);
-    find_colours(s);
-}
-
 static void close_subject(subject *s) {
-    free(s->colours);
+    free(s->colours), free(s->window), free(s->window_colours);
     oracle_triangles_free(&s->triangles);
     froe_surface_free(s->surface);
     froe_tree_free(s->tree);
     froe_scene_free(s->scene);
 }
 
-static double ours(subject *s) {
+static froe_tree *tree_for_drawing(froe_scene *scene) {
+    froe_build_options o = froe_build_defaults();
     froe_diagnostic why = {0};
-    double seconds[RUNS];
-    for (int i = 0; i < RUNS; i++) {
-        const double start = bench_cpu();
-        bench_must(froe_render(s->tree, "froe.svg", &s->options, NULL, &why), &why);
-        seconds[i] = bench_cpu() - start;
-    }
-    return bench_median(seconds, RUNS);
+    froe_tree *tree = NULL;
+    o.purpose = "draw", o.threads = 1;
+    bench_must(froe_build(scene, &o, &tree, &why), &why);
+    return tree;
+}
+
+/* From the scene to the file, the tree included; and the same with a tree that is there. */
+static void ours(subject *s, double seconds[2]) {
+    froe_diagnostic why = {0};
+    const double start = bench_cpu();
+    froe_tree *tree = tree_for_drawing(s->scene);
+    const double built = bench_cpu() - start;
+    bench_must(froe_render(tree, "froe.svg", &s->options, NULL, &why), &why);
+    seconds[0] = bench_cpu() - start, seconds[1] = seconds[0] - built;
+    froe_tree_free(tree);
 }
 
 /* Triangles in the window coordinates of OpenGL: z linear in 1 / depth, 0.01 the nearest, 0.99 the farthest. */
@@ -124,19 +109,39 @@ static size_t window_coordinates(const subject *s, double *out, unsigned *colour
     return n;
 }
 
-static double theirs(subject *s) {
-    const size_t most = froe_scene_object_count(s->scene);
-    double *triangles = bench_take(1, 9 * most * sizeof *triangles), seconds[RUNS];
-    unsigned *colours = bench_take(1, most * sizeof *colours);
-    const size_t n = window_coordinates(s, triangles, colours);
-    for (int i = 0; i < RUNS; i++) {
-        const double start = bench_cpu();
-        if (!peer_gl2ps_picture(triangles, colours, n, "gl2ps.svg")) exit(1);
-        seconds[i] = bench_cpu() - start;
+static void open_subject(subject *s, const char *arg) {
+    char path[4096];
+    const char *colon = strrchr(arg, ':');
+    const bool y_up = colon && !strcmp(colon, ":y");
+    froe_diagnostic why = {0};
+    froe_render_report report;
+    snprintf(path, sizeof path, "%.*s", (int)(y_up ? colon - arg : (long)strlen(arg)), arg);
+    bench_name(path, s->name);
+    s->scene = bench_read(path);
+    s->tree = tree_for_drawing(s->scene);
+    bench_must(froe_surface_new(s->scene, NULL, &s->surface, &why), &why);
+    s->options = froe_render_defaults();
+    s->options.lines = 0;
+    s->options.own_colours = true; /* all opaque */
+    if (y_up) {
+        const double eye[3] = {3, 2, 5}, up[3] = {0, 1, 0};
+        memcpy(s->options.camera.eye, eye, sizeof eye);
+        memcpy(s->options.camera.up, up, sizeof up);
     }
-    free(triangles);
-    free(colours);
-    return bench_median(seconds, RUNS);
+    bench_must(froe_render(s->tree, "froe.svg", &s->options, &report, &why), &why);
+    s->view = report.view;
+    s->triangles = oracle_triangles_new(s->scene, s->surface, &s->view, false);
+    find_colours(s);
+    const size_t most = froe_scene_object_count(s->scene);
+    s->window = bench_take(9 * most, sizeof *s->window);
+    s->window_colours = bench_take(most, sizeof *s->window_colours);
+    s->window_count = window_coordinates(s, s->window, s->window_colours);
+}
+
+static double theirs(const subject *s) {
+    const double start = bench_cpu();
+    if (!peer_gl2ps_picture(s->window, s->window_colours, s->window_count, "gl2ps.svg")) exit(1);
+    return bench_cpu() - start;
 }
 
 /* --------------------------------------------------------------------- measuring -- */
@@ -171,12 +176,13 @@ static void count_wrong(const subject *s, const char *path, const oracle_nearest
     oracle_canvas_free(&canvas);
 }
 
-/* Pixels whose colours differ from the mean of 16 samples by more than 16 and 40. */
+/* Pixels whose colours differ from the mean of 16 samples by more than 16 and 40; SIZE_MAX: not counted. */
 static void count_seams(const subject *s, const char *path, const oracle_nearest *n, verdict *v) {
     char command[256];
     snprintf(command, sizeof command, "rsvg-convert -b white -w %d -h %d -o raster.png %s", PAGE, PAGE, path);
     if (system(command) != 0) { /* NOLINT(cert-env33-c): a bench, and its own words */
-        fprintf(stderr, "hidden: no rsvg-convert (librsvg2-bin): no seams counted\n");
+        fprintf(stderr, "hidden: rsvg-convert (librsvg2-bin) is missing: no pixels are compared\n");
+        v->seams[0] = SIZE_MAX;
         return;
     }
     cairo_surface_t *image = cairo_image_surface_create_from_png("raster.png");
@@ -200,19 +206,34 @@ static void count_seams(const subject *s, const char *path, const oracle_nearest
     cairo_surface_destroy(image);
 }
 
-static void print(const char *name, const char *who, const verdict *v, double seconds, double build) {
-    printf("%-12s %-6s %9zu %7zu %7zu %8zu %9zu %8zu %8zu %9.3f", name, who, v->covered, v->wrong, v->blocks,
-           v->file.shapes, v->file.bytes, v->seams[0], v->seams[1], seconds);
-    if (build > 0) printf("   (tree %.3f)", build);
-    printf("\n");
-    fflush(stdout);
+static void print(const subject *s, const char *who, const verdict *v, const double *seconds) {
+    const double shapes = (double)v->file.shapes, bytes = (double)v->file.bytes, pixels = (double)v->seams[0];
+    const double wrong = 100 * (double)v->wrong / (double)v->covered, blocks = (double)v->blocks;
+    json_result r = {.work = "picture", .scene = s->name, .objects = froe_scene_object_count(s->scene), .program = who};
+    const struct {
+        const char *measure;
+        const double *values;
+        size_t count;
+    } all[] = {{"shapes", &shapes, 1},       {"bytes", &bytes, 1},
+               {"percent wrong", &wrong, 1}, {"wrong amid wrong ones", &blocks, 1},
+               {"pixels off", &pixels, 1},   {"seconds", seconds, RUNS}};
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++) {
+        if (v->seams[0] == SIZE_MAX && all[i].values == &pixels) continue;
+        r.measure = all[i].measure, r.values = all[i].values, r.count = all[i].count;
+        json_line(&r);
+    }
 }
 
 static void compare(const char *arg) {
     subject s = {.scene = NULL};
     verdict v[2] = {{.wrong = 0}, {.wrong = 0}};
+    double seconds[3][RUNS];
     open_subject(&s, arg);
-    const double seconds[2] = {ours(&s), theirs(&s)};
+    for (int i = 0; i < RUNS; i++) {
+        double both[2];
+        ours(&s, both);
+        seconds[0][i] = both[0], seconds[1][i] = both[1], seconds[2][i] = theirs(&s);
+    }
     const char *const files[2] = {"froe.svg", "gl2ps.svg"};
     const oracle_grid grids[2] = {{WRONG_GRID, WRONG_GRID, {0.31415926, -0.27182818}},
                                   {EXACT_GRID, EXACT_GRID, {0, 0}}};
@@ -222,18 +243,14 @@ static void compare(const char *arg) {
     oracle_nearest all = oracle_nearest_new(&s.triangles, grids[1]);
     for (int i = 0; i < 2; i++) count_seams(&s, files[i], &all, v + i);
     oracle_nearest_free(&all);
-    print(s.name, "froe", v, seconds[0], s.build_seconds);
-    print(s.name, "gl2ps", v + 1, seconds[1], 0);
-    printf("%-12s ratio gl2ps / froe: shapes %.1f, bytes %.1f, seams %.2f, seconds %.1f\n", s.name,
-           (double)v[1].file.shapes / (double)v[0].file.shapes, (double)v[1].file.bytes / (double)v[0].file.bytes,
-           (double)v[1].seams[0] / (double)v[0].seams[0], seconds[1] / seconds[0]);
+    print(&s, "froe", v, seconds[0]);
+    print(&s, "gl2ps", v + 1, seconds[2]);
+    json_line(&(json_result){"picture", s.name, froe_scene_object_count(s.scene), "froe, tree there", "seconds",
+                             seconds[1], RUNS, NULL});
     close_subject(&s);
 }
 
 int main(int argc, char **argv) {
-    bench_head("pictures without hidden surfaces, beside gl2ps with best root and occlusion cull", 1);
-    printf("%-12s %-6s %9s %7s %7s %8s %9s %8s %8s %9s\n", "scene", "", "samples", "wrong", "blocks", "shapes", "bytes",
-           "seams", "> 40", "cpu s");
     for (int i = 1; i < argc; i++) compare(argv[i]);
     const char *const made[] = {"colours.svg", "froe.svg", "gl2ps.svg", "raster.png"};
     for (size_t i = 0; i < sizeof made / sizeof *made; i++) remove(made[i]);

@@ -1,12 +1,13 @@
-/* pieces.c: pieces per object, height and time of every method on every scene, beside gl2ps.
+/* pieces.c: pieces per object, height and time of every method on every scene, beside gl2ps, as lines of results.
  *
  *     bench_pieces [-t SECONDS] SCENE...        a file, or KIND:N for a generated scene
  *
- * One thread; seconds are processor time. At leaf 0 every object ends in a cut, as polygons do in the peers.
- * gl2ps sorts triangles by a BSP and writes every piece as a polygon; its height cannot be seen from outside.
- * The last column compares the number of pieces with that of density at leaf 0 (where there is none: leaf 1). */
+ * One thread; seconds are processor time. Every object ends in a cut (leaf 0), as polygons do in the other programs;
+ * where froe cannot do that, as of boxes, one is left in a leaf. gl2ps sorts triangles by a BSP and writes every piece
+ * as a polygon; its height cannot be seen from outside. */
 #include "apart.h"
 #include "bench.h"
+#include "json.h"
 #include "peers/gl2ps.h"
 #include <math.h>
 #include <stdio.h>
@@ -16,7 +17,7 @@
 typedef struct subject {
     froe_scene *scene;
     char name[32];
-    double objects, yardstick; /* pieces of density */
+    double objects;
     const char *method;
     uint32_t leaf;
     double *triangles; /* 9 numbers each, scaled to the page; NULL: not all objects are triangles */
@@ -41,35 +42,29 @@ static bool build(const void *user, double *out) {
     }
 }
 
-static void print(const subject *s, const char *method, const char *leaf, const char *trouble, const double *out) {
-    printf("%-16s %7.0f %-16s %4s ", s->name, s->objects, method, leaf);
-    if (trouble) {
-        printf("%9s\n", trouble);
-    } else {
-        printf("%9.3f", out[PIECES] / s->objects);
-        if (out[HEIGHT] > 0)
-            printf(" %7.0f %7.2f", out[HEIGHT], out[HEIGHT] / log2(s->objects));
-        else
-            printf(" %7s %7s", "-", "-");
-        printf(" %9.4f %7.2f\n", out[SECONDS], s->yardstick > 0 ? out[PIECES] / s->yardstick : 1.0);
+/* `trouble`: why there are no numbers, or NULL. */
+static void print(const subject *s, const char *program, const char *trouble, const double *out) {
+    static const char *const measures[COLUMNS] = {"pieces", "height", "seconds"};
+    json_result r = {.work = "pieces", .scene = s->name, .objects = (size_t)s->objects, .program = program, .count = 1};
+    for (int c = 0; c < (trouble ? 1 : COLUMNS); c++) {
+        r.measure = measures[c], r.values = trouble ? NULL : out + c, r.note = trouble;
+        if (trouble || out[c] > 0) json_line(&r);
     }
 }
 
-static void ours(subject *s, const char *method, unsigned limit) {
-    double out[COLUMNS];
-    s->method = method;
-    const char *trouble = bench_apart(build, s, limit, out, COLUMNS);
-    if (!trouble && !(s->yardstick > 0) && !strcmp(method, "density")) s->yardstick = out[PIECES];
-    print(s, method, s->leaf ? "1" : "0", trouble, out);
-}
-
-static void all_of_ours(subject *s, unsigned limit) {
+static void ours(subject *s, unsigned limit) {
     const froe_method_info *m;
-    for (s->leaf = 0; s->leaf < 2; s->leaf++) { /* density first: the others are compared with it */
-        for (size_t i = 0; (m = froe_method_at(i)) != NULL; i++)
-            if (!strcmp(m->name, "density") && froe_method_serves(m, s->scene, s->leaf)) ours(s, m->name, limit);
-        for (size_t i = 0; (m = froe_method_at(i)) != NULL; i++)
-            if (strcmp(m->name, "density") != 0 && froe_method_serves(m, s->scene, s->leaf)) ours(s, m->name, limit);
+    s->leaf = 0;
+    for (size_t i = 0; (m = froe_method_at(i)) != NULL; i++)
+        if (!strcmp(m->name, "density") && !froe_method_serves(m, s->scene, 0)) s->leaf = 1;
+    for (size_t i = 0; (m = froe_method_at(i)) != NULL; i++) {
+        double out[COLUMNS];
+        char name[64];
+        if (!froe_method_serves(m, s->scene, s->leaf)) continue;
+        snprintf(name, sizeof name, "froe, %s", m->name);
+        s->method = m->name;
+        const char *trouble = bench_apart(build, s, limit, out, COLUMNS);
+        print(s, name, trouble, out);
     }
 }
 
@@ -112,7 +107,7 @@ static void theirs(subject *s, unsigned limit) {
     for (int best = 0; s->triangles && best < 2; best++) {
         s->best_root = best;
         const char *trouble = bench_apart(sort_and_write, s, limit, out, COLUMNS);
-        print(s, best ? "gl2ps best root" : "gl2ps", "0", trouble, out);
+        print(s, best ? "gl2ps, best root" : "gl2ps", trouble, out);
     }
     free(s->triangles);
 }
@@ -132,14 +127,11 @@ int main(int argc, char **argv) {
     unsigned limit = 120;
     int at = 1;
     if (argc > 2 && !strcmp(argv[1], "-t")) limit = (unsigned)strtoul(argv[2], NULL, 10), at = 3;
-    bench_head("pieces per object, all methods and gl2ps, one thread", 1);
-    printf("%-16s %7s %-16s %4s %9s %7s %7s %9s %7s\n", "scene", "n", "method", "leaf", "pieces/n", "height", "/log2 n",
-           "cpu s", "x ours");
     for (; at < argc; at++) {
         subject s = {0};
         s.scene = open_scene(argv[at], s.name);
         s.objects = (double)froe_scene_object_count(s.scene);
-        all_of_ours(&s, limit);
+        ours(&s, limit);
 #ifdef HAVE_GL2PS
         theirs(&s, limit);
 #endif

@@ -5,5 +5,5 @@ import { run } from './mesh.mjs'
 const require = createRequire(process.env.NPM_FOLDER + '/')
 const { geometries } = require('@jscad/modeling')
 const { Tree } = require('@jscad/modeling/src/operations/booleans/trees')
-run('jscad', (triangles) => new Tree(triangles.map((t) => geometries.poly3.create(t))).rootnode,
+run('@jscad/modeling', (triangles) => new Tree(triangles.map((t) => geometries.poly3.create(t))).rootnode,
   (node) => node.polygontreenodes.length)

@@ -44,7 +44,8 @@ const census = (root, pieces) => {
   return [total, height]
 }
 
-/** node SCRIPT MESH.off [shuffle]: builds, counts, prints one row. Polygons without a plane are left out: they have no cut. */
+/** node SCRIPT MESH.off [shuffle]: builds, counts, prints lines of results. Polygons without a plane have no cut, and
+ * are left out. */
 export const run = (name, build, pieces) => {
   const [, , path, order] = process.argv
   const triangles = readOff(path).filter((t) => twoAreas(t) > 0)
@@ -53,10 +54,7 @@ export const run = (name, build, pieces) => {
   const root = build(triangles)
   const took = process.cpuUsage(start)
   const [total, height] = census(root, pieces)
-  const n = triangles.length
-  console.log([
-    basename(path).replace(/\..*/, '').padEnd(16), String(n).padStart(7), (order ? name + ' shuffled' : name).padEnd(16),
-    '0'.padStart(4), (total / n).toFixed(3).padStart(9), String(height).padStart(7),
-    (height / Math.log2(n)).toFixed(2).padStart(7), ((took.user + took.system) / 1e6).toFixed(4).padStart(9)
-  ].join(' '))
+  const scene = basename(path).replace(/\..*/, ''), program = order ? name + ', shuffled' : name
+  for (const [measure, value] of [['pieces', total], ['height', height], ['seconds', (took.user + took.system) / 1e6]])
+    console.log(JSON.stringify({ work: 'pieces', scene, objects: triangles.length, program, measure, values: [value] }))
 }

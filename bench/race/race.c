@@ -1,10 +1,10 @@
 /* race.c: froe and other programs answer the same questions in one process, in turns.
  *
- *     bench_race [--froe LIST] [--alone] [--clock] [--peers FOLDER] KIND:SCENE:N...
+ *     bench_race [--froe LIST] [--alone] [--clock] [--makings] [--peers FOLDER] KIND:SCENE:N...
  *
  * KIND is points, segments, trapezoids, triangles, boxes or areas; SCENE a kind of scene or a file (scene.c). LIST
  * holds ways of using froe, separated by commas (race.h); --alone leaves other programs out; --clock measures the time
- * that passes, for several threads, instead of processor time.
+ * that passes, for several threads, instead of processor time; --makings asks nothing.
  *
  * In each round all take turns, and each answers another share of the questions, so that nothing is warm of what was
  * asked before; in the end each has answered all. The clock runs from the caller's arrays to the answers in the
@@ -38,7 +38,7 @@ typedef struct run {
 
 static struct options {
     const char *froe, *folder;
-    bool alone, clock;
+    bool alone, clock, makings;
 } options;
 
 /* --------------------------------------------------------------------- tasks -- */
@@ -292,7 +292,7 @@ static bool race(peer_kind kind, const char *name, size_t n) {
     const size_t ours = r.count;
     if (!options.alone) enter_peers(&r, options.folder);
     race_makings(&r);
-    for (const race_task *t = r.tasks; t->name; t++) race_questions(&r, t);
+    for (const race_task *t = r.tasks; t->name && !options.makings; t++) race_questions(&r, t);
     for (size_t i = 0; i < r.count; i++) r.contestants[i].peer->free(r.contestants[i].index);
     for (size_t i = 0; i < ours; i++) race_froe_free((peer *)(uintptr_t)r.contestants[i].peer);
     free(r.room.values), free(r.room.ids), free(r.room.ends);
@@ -321,6 +321,8 @@ int main(int argc, char **argv) {
             options.folder = argv[++i];
         else if (!strcmp(argv[i], "--alone"))
             options.alone = true;
+        else if (!strcmp(argv[i], "--makings"))
+            options.makings = true;
         else if (!strcmp(argv[i], "--clock"))
             options.clock = true;
         else

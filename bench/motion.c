@@ -1,4 +1,4 @@
-/* motion.c: a partition that follows moving segments, beside building one again and again.
+/* motion.c: a partition that follows moving segments, beside building one again and again, as lines of results.
  *
  *     bench_motion [KIND [EVENTS [N...]]]     default: moving, 30,000 events at 1,000, 10,000 and 100,000 segments
  *
@@ -7,6 +7,7 @@
  *                  or 60 times a second of the motion, which misses what lies between two frames
  *     reinsert     each segment taken out and put in again where it is now, 60 times a second */
 #include "bench.h"
+#include "json.h"
 #include <froe/kinetic.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -76,14 +77,16 @@ static double reinsert(ride *r) {
     return (bench_cpu() - start) / (double)done;
 }
 
+static void put(const char *kind, size_t n, const char *program, const char *measure, const double *value) {
+    json_line(&(json_result){"motion", kind, n, program, measure, value, 1, NULL});
+}
+
 static void measure(const char *kind, size_t n, uint64_t events) {
     ride r = {NULL, NULL, 0, 0};
     froe_diagnostic diag = {0};
     const froe_kinetic_options o = froe_kinetic_defaults();
     bench_must(froe_generate_motion(kind, n, 1, NULL, &r.motion, &diag), &diag);
-    double start = bench_cpu();
     bench_must(froe_kinetic_new(r.motion, &o, NULL, &r.kinetic, &diag), &diag);
-    double made = bench_cpu() - start;
     follow(&r, events / 10 + 1); /* memory that was never touched */
     froe_kinetic_stats before = froe_kinetic_statistics(r.kinetic);
     double from = froe_kinetic_time(r.kinetic), seconds = follow(&r, events);
@@ -91,11 +94,13 @@ static void measure(const char *kind, size_t n, uint64_t events) {
     froe_kinetic_stats after = froe_kinetic_statistics(r.kinetic);
     double again = rebuild(&r, n), once = reinsert(&r);
     double each = seconds / done, moved = seconds / passed; /* for a second of the motion */
-    printf("%7zu %8.2f %9zu %6u %9.0f %8.1f %7.1f %7.2f %9.0f %8.2f %8.2f\n", n, made, after.nodes, after.height,
-           1 / each, 1e6 * each, (double)(after.nodes_touched - before.nodes_touched) / done,
-           (double)(after.certificates_made - before.certificates_made) / done, again / each, FRAMES * again / moved,
-           FRAMES * once * (double)n / moved);
-    fflush(stdout);
+    const double touched = (double)(after.nodes_touched - before.nodes_touched) / done, rate = done / seconds;
+    const double ratios[] = {again / each, FRAMES * again / moved, FRAMES * once * (double)n / moved};
+    put(kind, n, "froe", "events per second", &rate);
+    put(kind, n, "froe", "nodes touched an event", &touched);
+    put(kind, n, "froe", "events in the time of one rebuild", &ratios[0]);
+    put(kind, n, "froe", "work of 60 rebuilds a second", &ratios[1]);
+    put(kind, n, "froe", "work of 60 insertions of all a second", &ratios[2]);
     froe_kinetic_free(r.kinetic);
     froe_motion_free(r.motion);
 }
@@ -104,12 +109,6 @@ int main(int argc, char **argv) {
     static const size_t sizes[] = {1000, 10000, 100000};
     const char *kind = argc > 1 ? argv[1] : "moving";
     uint64_t events = argc > 2 ? strtoull(argv[2], NULL, 10) : 30000;
-    bench_head("a partition that follows moving segments, one thread, processor time", 1);
-    printf(
-        "# %s, %llu events each. rebuild, frames, reinsert: how many times more work for the same time of the motion\n",
-        kind, (unsigned long long)events);
-    printf("%7s %8s %9s %6s %9s %8s %7s %7s %9s %8s %8s\n", "n", "start s", "nodes", "height", "events/s", "us",
-           "touched", "made", "rebuild", "60 Hz", "reinsert");
     for (int i = 3; i < argc; i++) measure(kind, strtoull(argv[i], NULL, 10), events);
     for (size_t i = 0; argc < 4 && i < sizeof sizes / sizeof *sizes; i++) measure(kind, sizes[i], events);
     return 0;
