@@ -7,7 +7,7 @@ PREFIX ?= /usr/local
 export CMAKE_GENERATOR = $(if $(shell command -v ninja 2>/dev/null),Ninja,Unix Makefiles)
 
 .DEFAULT_GOAL := build
-.PHONY: help build demo test install uninstall bench bench-bar bench-boxes bench-peers claims oracle mutations coverage bare docs site format lint clean
+.PHONY: help build demo test install uninstall bench build-bench bench-peers claims oracle mutations coverage bare docs site format lint clean
 
 deps-%:
 	@scripts/deps $*
@@ -33,33 +33,21 @@ install: build ## into PREFIX (/usr/local); DESTDIR is honoured
 uninstall: ## removes what `make install` with the same PREFIX and DESTDIR added
 	@scripts/install --remove $(BUILD) $(PREFIX)
 
-bench: deps-bench ## froe beside its peers, those that Debian has
+build-bench: deps-bench
 	@cmake -S . -B $(BUILD)/bench -DCMAKE_BUILD_TYPE=Release -DFROE_TESTS=OFF -DFROE_BENCH=ON
 	@cmake --build $(BUILD)/bench --parallel $(JOBS)
-	@bench/run $(BUILD)/bench
 
-bench-bar: deps-bench ## approximate ranges in fat cells, beside CGAL: tables and figures
-	@cmake -S . -B $(BUILD)/bench -DCMAKE_BUILD_TYPE=Release -DFROE_TESTS=OFF -DFROE_BENCH=ON
-	@cmake --build $(BUILD)/bench --parallel $(JOBS)
-	@bench/run-bar $(BUILD)/bench
+bench: build-bench ## froe beside other programs of Debian: docs/evidence/benchmarks.md; SIZES="10000 10000000" for others
+	@bench/run --build $(BUILD)/bench
 
-bench-boxes: deps-bench ## trees of boxes beside each other and Boost: tables and figures
-	@cmake -S . -B $(BUILD)/bench -DCMAKE_BUILD_TYPE=Release -DFROE_TESTS=OFF -DFROE_BENCH=ON
-	@cmake --build $(BUILD)/bench --parallel $(JOBS)
-	@bench/run-boxes $(BUILD)/bench
+bench-peers: build-bench ## and beside programs that have to be fetched, where they can be
+	@bench/run --build $(BUILD)/bench npm pieces pictures
 
-bench-peers: bench ## and those from the npm registry, where it can be reached
-	@bench/run-peers $(BUILD)/bench
+claims: build-bench ## what the sources claim, measured: docs/evidence/claims.md
+	@$(BUILD)/bench/bin/bench_claims docs/evidence/claims.md
 
-claims: deps-bench ## what the sources claim, measured: docs/claims.md
-	@cmake -S . -B $(BUILD)/bench -DCMAKE_BUILD_TYPE=Release -DFROE_TESTS=OFF -DFROE_BENCH=ON
-	@cmake --build $(BUILD)/bench --parallel $(JOBS) --target bench_claims
-	@$(BUILD)/bench/bin/bench_claims docs/claims.md
-
-oracle: deps-bench ## pictures of large scenes against rays, half an hour
-	@cmake -S . -B $(BUILD)/bench -DCMAKE_BUILD_TYPE=Release -DFROE_TESTS=OFF -DFROE_BENCH=ON
-	@cmake --build $(BUILD)/bench --parallel $(JOBS) --target bench_oracle
-	@bench/run-oracle $(BUILD)/bench
+oracle: build-bench ## pictures of large scenes against rays, half an hour
+	@bench/run --build $(BUILD)/bench oracle
 
 mutations: deps-test ## every bit of small tree files turned over, an hour: refused, found, or another right tree
 	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=Release -DFROE_TESTS=ON

@@ -1,12 +1,13 @@
-/* oracle.c: pictures against rays: every scene from nine eyes. The long run of what tests/view checks on small scenes.
+/* oracle.c: pictures against rays, as lines of results: every scene from nine eyes. The long run of what tests/view
+ * checks on small scenes.
  *
  *     bench_oracle [-s SAMPLES] SCENE...        a file, or KIND:N for a generated scene
  *
- * Columns: pictures of whole faces, with underlap: samples where a ray meets something, those at which two faces
- * are met at the same depth to seven digits, wrong ones among the others; the same where one sees through a fifth of
- * the faces, whole stacks of layers; middles of visible and hidden parts of edges, doubtful and wrong ones. Ends with 1
- * if anything is wrong. */
+ * Counts: samples of pictures of whole faces where a ray meets something; layers, where one sees through a fifth of the
+ * faces; middles of visible and hidden parts of edges; of all of these the doubtful ones, at which two faces are met at
+ * the same depth to seven digits, and the wrong ones among the others. Ends with 1 if anything is wrong. */
 #include "bench.h"
+#include "json.h"
 #include "oracle/views.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -31,9 +32,9 @@ static void must(froe_status status, const char *what, unsigned view, const froe
 
 static void complain(const char *what, unsigned view, const oracle_report *r) {
     if (r->faces.wrong)
-        printf("  %s, view %u: at (%.3f, %.3f) patch %d is painted, but %d is met\n", what, view, r->faces.at[0],
-               r->faces.at[1], (int)r->faces.painted, (int)r->faces.met);
-    if (r->lines.wrong) printf("  %s, view %u: edge %u at %.9g\n", what, view, r->lines.edge, r->lines.share);
+        fprintf(stderr, "  %s, view %u: at (%.3f, %.3f) patch %d is painted, but %d is met\n", what, view,
+                r->faces.at[0], r->faces.at[1], (int)r->faces.painted, (int)r->faces.met);
+    if (r->lines.wrong) fprintf(stderr, "  %s, view %u: edge %u at %.9g\n", what, view, r->lines.edge, r->lines.share);
 }
 
 /* All views; what is wrong is told at once. */
@@ -46,6 +47,11 @@ static oracle_report look(const oracle_task *task, const char *what) {
         if (sum.faces.wrong + sum.lines.wrong > wrong) complain(what, view, &sum);
     }
     return sum;
+}
+
+static void put(const char *name, const froe_scene *scene, const char *measure, uint64_t count) {
+    const double value = (double)count;
+    json_line(&(json_result){"rays", name, froe_scene_object_count(scene), "froe", measure, &value, 1, NULL});
 }
 
 static bool check(const char *arg, uint32_t samples) {
@@ -61,19 +67,16 @@ static bool check(const char *arg, uint32_t samples) {
     task.clear = 5, task.underlap = 0, task.edge_step = 0;
     const oracle_report clear = look(&task, name);
     const oracle_lines *l = &opaque.lines;
-    printf("%-14s %8.0f | %9llu %8llu %5llu | %9llu %8llu %5llu | %9llu %8llu %5llu | %8llu %6.2f %5llu\n", name,
-           (double)froe_scene_object_count(scene), (unsigned long long)opaque.faces.covered,
-           (unsigned long long)opaque.faces.ties, (unsigned long long)opaque.faces.wrong,
-           (unsigned long long)clear.faces.layers, (unsigned long long)clear.faces.ties,
-           (unsigned long long)clear.faces.wrong, (unsigned long long)(l->visible + l->hidden),
-           (unsigned long long)l->doubtful, (unsigned long long)l->wrong, (unsigned long long)opaque.shapes,
-           100.0 * (double)opaque.whole / (double)(opaque.shapes ? opaque.shapes : 1),
-           (unsigned long long)(opaque.fallbacks + clear.fallbacks));
-    fflush(stdout);
+    const uint64_t wrong = opaque.faces.wrong + clear.faces.wrong + l->wrong;
+    put(name, scene, "points of faces", opaque.faces.covered);
+    put(name, scene, "points of layers", clear.faces.layers);
+    put(name, scene, "points of edges", l->visible + l->hidden);
+    put(name, scene, "doubtful", opaque.faces.ties + clear.faces.ties + l->doubtful);
+    put(name, scene, "wrong", wrong);
     froe_surface_free(surface);
     froe_tree_free(tree);
     froe_scene_free(scene);
-    return !opaque.faces.wrong && !clear.faces.wrong && !l->wrong;
+    return !wrong;
 }
 
 int main(int argc, char **argv) {
@@ -81,9 +84,6 @@ int main(int argc, char **argv) {
     int at = 1;
     bool right = true;
     if (argc > 2 && !strcmp(argv[1], "-s")) samples = (uint32_t)strtoul(argv[2], NULL, 10), at = 3;
-    bench_head("pictures against rays, nine eyes a scene", 1);
-    printf("%-14s %8s | %9s %8s %5s | %9s %8s %5s | %9s %8s %5s | %8s %6s %5s\n", "scene", "polygons", "faces", "ties",
-           "wrong", "layers", "ties", "wrong", "edges", "doubtful", "wrong", "shapes", "% whole", "fell");
     for (; at < argc; at++) right = check(argv[at], samples) && right;
     return !right;
 }

@@ -1,4 +1,4 @@
-/* scatter.c: disjoint short segments at random, the scene of the index tables in docs/benchmarks.md.
+/* scatter.c: disjoint short segments at random, for benches and claims.
  *
  * Centres anywhere, in random order, lengths from 0.2 to 1.2 times the mean distance of neighbours; one that meets an
  * earlier segment is thrown again. Coordinates are whole and below 2^26, so the test below is exact. */

@@ -139,7 +139,7 @@ endif()
 
 # The project looked at from outside: sources, compiled code, installation, documents.
 set(scripts ${PROJECT_SOURCE_DIR}/scripts)
-# Claims of the sources that are counted in a moment: each holds, and breaks without what it rests on (docs/claims.md).
+# Claims of the sources that are counted in a moment: each holds, and breaks without what it rests on (docs/evidence/claims.md).
 if(TARGET froe_io_white)
   file(GLOB claims CONFIGURE_DEPENDS bench/claims/*.c)
   add_executable(test_claims ${claims} bench/bench.c bench/scatter.c)

@@ -1,5 +1,5 @@
-/* geos.c: GEOS by its C interface: its STR-packed R-tree of the bounds of segments, with the exact test of segment.h, and
- * of polygons, with prepared polygons, as most programs find the area around a point. */
+/* geos.c: GEOS by its C interface: its STR-packed R-tree of the bounds of segments, with the exact test of segment.h,
+ * and of polygons, with prepared polygons, as most programs find the area around a point. */
 #include "peer.h"
 #include "segment.h"
 #include <geos_c.h>

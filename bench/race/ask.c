@@ -48,7 +48,7 @@ static double found_on_average(const race_task *t, const race_contestant *first,
 
 static void make_ranges(race_task *t, const race_scene *scene, const race_contestant *first, peer_answers *room,
                         uint64_t *state) {
-    const size_t dim = dim_of(scene), count = t->share * RACE_ROUNDS, sample = count < SAMPLE ? count : SAMPLE;
+    const size_t dim = dim_of(scene), count = t->share * 2 * RACE_ROUNDS, sample = count < SAMPLE ? count : SAMPLE;
     const double wanted = fmin(t->wanted, 0.1 * (double)scene->data.count);
     double *centres = bench_take(count * dim, sizeof *centres), low = 0, high = scene->size;
     for (size_t i = 0; i < count; i++) place(scene, state, centres + i * dim);
@@ -75,8 +75,9 @@ static void anywhere(const race_scene *scene, uint64_t *state, double *x) {
 void race_ask(race_task *t, const race_scene *scene, const race_contestant *first, peer_answers *room) {
     const bool range = t->work == PEER_WINDOW || t->work == PEER_BALL || t->work == PEER_FUZZY;
     const bool rays = t->work == PEER_FIRST_HIT || t->work == PEER_ANY_HIT;
-    const size_t dim = dim_of(scene), count = t->share * RACE_ROUNDS;
-    uint64_t state = bench_state((uint64_t)2 << 40);
+    const size_t dim = dim_of(scene), count = t->share * 2 * RACE_ROUNDS;
+    uint64_t state =
+        bench_state((uint64_t)(2 + t->work) << 40 | (uint64_t)t->wanted); /* other questions in each task */
     t->width = t->work == PEER_WINDOW ? 2 * dim : range ? dim + 2 : dim;
     t->numbers = bench_take(count * t->width, sizeof *t->numbers);
     if (rays) t->directions = bench_take(count * t->width, sizeof *t->directions);

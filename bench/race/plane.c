@@ -218,7 +218,8 @@ static void read_file(maker *m, const char *path) {
             if (o.kind != FROE_SEGMENT || o.corners < 2) continue;
             for (uint32_t c = 0; c < 4; c++) {
                 const double *p = froe_scene_vertex(scene, froe_scene_corner(scene, i, c / 2));
-                const double shift = 1.02 * pitch * (double)(c % 2 ? tile / side : tile % side);
+                const size_t step = c % 2 ? tile / side : tile % side;
+                const double shift = 1.02 * pitch * (double)step;
                 x[c] = floor((p[c % 2] - lo[c % 2] + shift) * scale);
             }
             add(m, oriented(x[0], x[1], x[2], x[3]));

@@ -79,7 +79,7 @@ static const race_task area_tasks[] = {{.name = "area of a point", .work = PEER_
 static const struct {
     const char *name, *froe;
     const race_task *tasks;
-} kinds[PEER_KINDS] = {{"points", "index,kd/32,bar/32", point_tasks},  {"segments", "index", plane_tasks},
+} kinds[PEER_KINDS] = {{"points", "index,bar/32", point_tasks},        {"segments", "index", plane_tasks},
                        {"trapezoids", "cylindrical", trapezoid_tasks}, {"triangles", "index", space_tasks},
                        {"boxes", "index,directional", box_tasks},      {"areas", "index", area_tasks}};
 
@@ -134,15 +134,23 @@ static void make_one(run *r, race_contestant *c, making *m, int round) {
     for (int k = 0; k < 2; k++) m->steps[k][round] = steps[k];
 }
 
+/* What finds pairs and nothing else makes no index that is worth a row. */
+static bool makes_index(const run *r, const peer *p) {
+    for (const race_task *t = r->tasks; t->name; t++)
+        if (t->work != PEER_PAIRS && p->serves(&r->data, t->work)) return true;
+    return false;
+}
+
 static void race_makings(run *r) {
     making *all = bench_take(r->count, sizeof *all);
     for (int round = 0; round < RACE_MAKES; round++)
         for (size_t i = 0; i < r->count; i++) {
             const size_t at = (i + (size_t)round) % r->count;
-            make_one(r, r->contestants + at, all + at, round);
+            if (makes_index(r, r->contestants[at].peer)) make_one(r, r->contestants + at, all + at, round);
         }
     for (size_t i = 0; i < r->count; i++) {
         const peer *p = r->contestants[i].peer;
+        if (!makes_index(r, p)) continue;
         const double own = p->bytes ? (double)p->bytes(r->contestants[i].index) / (double)r->data.count : 0;
         const double bytes = p->bytes && !p->steps ? own : bench_median(all[i].bytes, RACE_MAKES);
         const double peak = fmax(bytes, bench_median(all[i].peak, RACE_MAKES));
@@ -183,33 +191,49 @@ static double answer(const run *r, const race_task *t, const runner *who, const 
     return seconds;
 }
 
+static size_t rounds_of(const race_task *t) {
+    return t->work == PEER_PAIRS ? RACE_MAKES : RACE_ROUNDS;
+}
+
+/* Answers a share, and keeps what the answers are compared by. Seconds. */
+static double answer_share(run *r, const race_task *t, runner *who, size_t share) {
+    const size_t first = t->work == PEER_PAIRS ? 0 : share * t->share * t->width;
+    const peer_questions q = {.work = t->work,
+                              .count = t->share,
+                              .width = t->width,
+                              .k = t->k,
+                              .together = who->together,
+                              .numbers = t->numbers + first,
+                              .directions = t->directions ? t->directions + first : NULL};
+    const double seconds = answer(r, t, who, &q, &r->room);
+    race_digest(&r->scene, &q, &r->room, who->digest + share * t->share * t->k);
+    free(r->room.given), r->room.given = NULL;
+    return seconds;
+}
+
+/* Questions in one call come from further shares: their answers would be warm for single ones, in the same tree. When
+ * all is measured, these are answered one by one, too. */
 static void run_rounds(run *r, const race_task *t, runner *runners, size_t count) {
-    const size_t rounds = t->work == PEER_PAIRS ? RACE_MAKES : RACE_ROUNDS;
+    const size_t rounds = rounds_of(t);
     for (size_t round = 0; round < rounds; round++)
         for (size_t i = 0; i < count; i++) {
-            const size_t share = (round + i) % rounds;
-            const peer_questions q = {.work = t->work,
-                                      .count = t->share,
-                                      .width = t->width,
-                                      .k = t->k,
-                                      .together = runners[i].together,
-                                      .numbers = t->numbers + share * t->share * t->width,
-                                      .directions = t->directions ? t->directions + share * t->share * t->width : NULL};
-            const double seconds = answer(r, t, runners + i, &q, &r->room);
+            const size_t share = (round + i) % rounds + (runners[i].together ? rounds : 0);
+            const double seconds = answer_share(r, t, runners + i, share);
             runners[i].rate[round] = t->work == PEER_PAIRS ? seconds : (double)t->share / seconds;
-            race_digest(&r->scene, &q, &r->room, runners[i].digest + share * t->share * t->k);
-            free(r->room.given), r->room.given = NULL;
         }
+    for (size_t share = rounds; share < 2 * rounds; share++) answer_share(r, t, runners, share);
 }
 
 static void report(run *r, const race_task *t, runner *runners, size_t count) {
-    const size_t rounds = t->work == PEER_PAIRS ? RACE_MAKES : RACE_ROUNDS, answers = t->share * t->k * rounds;
+    const size_t rounds = rounds_of(t), answers = t->share * t->k * rounds;
     const char *measure = t->work == PEER_PAIRS ? options.clock ? "seconds of the clock" : "seconds" : "per second";
     for (size_t i = 0; i < count; i++) {
         const peer *p = runners[i].peer;
         char name[80];
         snprintf(name, sizeof name, "%s%s", p->name, runners[i].together ? ", in batches" : "");
-        const size_t wrong = race_differ(&r->scene, t, p, runners[0].digest, runners[i].digest, answers);
+        const size_t first = runners[i].together ? answers : 0;
+        const size_t wrong =
+            race_differ(&r->scene, t, p, runners[0].digest + first, runners[i].digest + first, answers);
         char note[128];
         snprintf(note, sizeof note, "%zu of %zu answers of %s differ.", wrong, answers, name);
         put(r, t->name, name, measure, runners[i].rate, rounds, wrong ? note : NULL);
@@ -231,7 +255,7 @@ static void race_questions(run *r, const race_task *pattern) {
     runners[count++] = (runner){.peer = r->contestants[0].peer, .index = r->contestants[0].index, .together = true};
     r->room.values = realloc(r->room.values, (t.share * t.k + 2) * sizeof(double));
     r->room.ends = realloc(r->room.ends, (t.share + 1) * sizeof(size_t));
-    for (size_t i = 0; i < count; i++) runners[i].digest = bench_take(t.share * t.k * RACE_ROUNDS, sizeof(double));
+    for (size_t i = 0; i < count; i++) runners[i].digest = bench_take(t.share * t.k * 2 * RACE_ROUNDS, sizeof(double));
     run_rounds(r, &t, runners, count);
     report(r, &t, runners, count);
     for (size_t i = 0; i < count; i++) free(runners[i].digest);
@@ -293,7 +317,8 @@ static bool race(peer_kind kind, const char *name, size_t n) {
     if (!options.alone) enter_peers(&r, options.folder);
     race_makings(&r);
     for (const race_task *t = r.tasks; t->name && !options.makings; t++) race_questions(&r, t);
-    for (size_t i = 0; i < r.count; i++) r.contestants[i].peer->free(r.contestants[i].index);
+    for (size_t i = 0; i < r.count; i++)
+        if (r.contestants[i].index) r.contestants[i].peer->free(r.contestants[i].index);
     for (size_t i = 0; i < ours; i++) race_froe_free((peer *)(uintptr_t)r.contestants[i].peer);
     free(r.room.values), free(r.room.ids), free(r.room.ends);
     race_scene_free(&r.scene);

@@ -39,7 +39,7 @@ typedef struct race_task {
     size_t share, width, k;
     double wanted;                /* objects to be found, on average */
     double eps;                   /* of PEER_FUZZY: the margin by the radius */
-    double *numbers, *directions; /* RACE_ROUNDS shares; directions of rays, or NULL */
+    double *numbers, *directions; /* 2 RACE_ROUNDS shares; directions of rays, or NULL */
 } race_task;
 
 typedef struct race_contestant {

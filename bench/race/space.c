@@ -97,7 +97,8 @@ static void read_model(maker *m, const char *path, size_t n) {
     const int up = froe_scene_up(scene), across = up == 0, along = up == 2 ? 1 : 2;
     if (!n) n = there;
     m->t = bench_take(n, sizeof *m->t);
-    for (size_t tile = 0; tile < side * side; tile++)
+    for (size_t tile = 0; tile < side * side; tile++) {
+        const size_t row = tile / side;
         for (uint32_t i = 0; i < there && m->n < n; i++) {
             const froe_object o = froe_scene_object(scene, i);
             if (o.kind != FROE_POLYGON || o.corners != 3) continue;
@@ -105,10 +106,11 @@ static void read_model(maker *m, const char *path, size_t n) {
                 double *p = m->t[m->n].p[c];
                 memcpy(p, froe_scene_vertex(scene, froe_scene_corner(scene, i, c)), sizeof m->t->p[c]);
                 p[across] += 1.1 * (hi[across] - lo[across]) * (double)(tile % side);
-                p[along] += 1.1 * (hi[along] - lo[along]) * (double)(tile / side);
+                p[along] += 1.1 * (hi[along] - lo[along]) * (double)row;
             }
             m->n++;
         }
+    }
     froe_scene_free(scene);
 }
 

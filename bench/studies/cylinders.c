@@ -1,7 +1,7 @@
 /* cylinders.c: how trees of the builder `cylindrical` grow.
  *
- *     bench_cylinders FOLDER [LARGEST]  into FOLDER: cylinders-size.svg, cylinders-height.svg; default 10^6, of segments
- *                                       that cross much a third of it: more take 12 GB and minutes
+ *     bench_cylinders FOLDER [LARGEST]  into FOLDER: cylinders-size.svg, cylinders-height.svg; default 10^6, of
+ *                                       segments that cross much a third of it: more take 12 GB and minutes
  *
  * One thread, processor time. */
 #include "bench.h"
