@@ -29,8 +29,8 @@ static void put(double *out, size_t count, const double *numbers) {
 
 /** Where the cell of a group begins, in a grid of cells 2 wide. */
 static void group_at(size_t group, size_t groups, double at[2]) {
-    const size_t side = (size_t)ceil(sqrt((double)groups));
-    at[0] = 2 * (double)(group % side), at[1] = 2 * (double)(group / side);
+    const size_t side = (size_t)ceil(sqrt((double)groups)), row = group / side;
+    at[0] = 2 * (double)(group % side), at[1] = 2 * (double)row;
 }
 
 /* ----------------------------------------------------------------- triangles -- */
@@ -42,7 +42,8 @@ static froe_scene *saddles_of(size_t n, size_t each, bool apart) {
     const double lines = (double)each / 2, narrow = 1 / (lines * lines), above = apart ? 4 : 0.25 * narrow;
     double *coords = bench_take(9 * n, sizeof *coords);
     for (size_t i = 0; i < n; i++) {
-        const double t = ((double)(i % each / 2) + 0.5) / lines, shift = 2 * (double)(i / each), width = 0.05 * narrow;
+        const size_t line = i % each / 2, group = i / each;
+        const double t = ((double)line + 0.5) / lines, shift = 2 * (double)group, width = 0.05 * narrow;
         if (i % 2)
             PUT(coords + 9 * i, shift, t, above, shift + 1, t, t + above, shift + 0.5, t + width, 0.5 * t + above);
         else
@@ -88,8 +89,9 @@ static froe_scene *roofs_of(size_t n, bool turned) {
     uint64_t state = 1;
     for (size_t i = 0; i < n; i++) {
         if (i < small) {
+            const size_t row = i / side;
             const double x = step * ((double)(i % side) + 0.1 * bench_unit(&state));
-            const double y = step * ((double)(i / side) + 0.1 * bench_unit(&state)), z = 0.1 * bench_unit(&state);
+            const double y = step * ((double)row + 0.1 * bench_unit(&state)), z = 0.1 * bench_unit(&state);
             PUT(coords + 9 * i, x, y, z, x + 0.6 * step, y + 0.1 * step, z, x + 0.2 * step, y + 0.7 * step, z + 0.01);
             continue;
         }
@@ -285,9 +287,10 @@ static froe_scene *petals(size_t n, size_t lambda) {
     uint64_t state = 1;
     (void)lambda;
     for (size_t i = 0; i < n; i++) {
+        const size_t layer = i / 2 / side;
         const double x = (double)(i % 2) + 1e-9 * bench_unit(&state), e = 0.3 * step;
         const double y = step * ((double)(i / 2 % side) + 0.5 * bench_unit(&state));
-        const double z = step * ((double)(i / 2 / side) + 0.5 * bench_unit(&state));
+        const double z = step * ((double)layer + 0.5 * bench_unit(&state));
         PUT(coords + 9 * i, x, y, z, x + 1e-10, y + e, z, x, y, z + e);
     }
     return taken(3, FROE_POLYGON, coords, n);

@@ -22,9 +22,9 @@ MODELS = {"fzk-haus": "house", "utah-teapot": "teapot", "boxes1020": "boxes, 1,0
 # kind: heading, what is compared, the works in order, and what each of them is
 KINDS = {
     "segments": ("Segments in the plane", """
-Scenes of segments: *short* ones anywhere that do not meet; *mixed* ones, of which a few are very long; *crossing* ones,
-about as many crossings as segments; a *network* of triangles that share corners; *countries*, the borders of the
-world's countries, and *rooms*, the walls of a floor plan. Of the last two, copies are laid side by side.""", {
+*Short* segments lie anywhere and do not meet. Of *mixed* ones, a few are very long. *Crossing* ones have about as many
+crossings as segments. A *network* consists of triangles that share corners. *Countries* are the borders of the world's
+countries, and *rooms* the walls of a floor plan; of these two, copies are laid side by side.""", {
         "make": "from coordinates to an index that can answer",
         "window of 10": "all segments that meet a rectangle, about 10 of them",
         "window of 1000": "the same, about 1,000 of them",
@@ -34,8 +34,8 @@ world's countries, and *rooms*, the walls of a floor plan. Of the last two, copi
         "all pairs": "from coordinates to all pairs of segments that meet",
     }),
     "triangles": ("Triangles in space", """
-Scenes of triangles: *scattered* ones in all directions; a *city* of blocks; a *mesh*, which is a bumpy sphere;
-*houses* and *teapots*, which are copies of two models, side by side. Embree computes in single precision. Its answers
+*Scattered* triangles lie anywhere, in all directions. A *city* consists of blocks. The *mesh* is a bumpy sphere.
+*Houses* and *teapots* are copies of two models, side by side. Embree computes in single precision. Its answers
 count as equal within a ten-thousandth of the size of the scene.""", {
         "make": "from coordinates to an index that can answer",
         "first hit": "the first triangle that a ray meets, and where",
@@ -87,7 +87,7 @@ ABOUT = {
                   "Boost": "the packed R-tree of bounding boxes; each triangle found is then tested in doubles"},
     "points": {"nanoflann": "kd-trees, ten points in a leaf", "CGAL": "its kd-tree with `Fuzzy_sphere`"},
     "boxes": {"Boost": "the packed R-tree"},
-    "areas": {"GEOS": "its STRtree, and prepared polygons", "CGAL": "a trapezoidal map of the borders, exact"},
+    "areas": {"GEOS": "its STRtree, and prepared polygons, each of which it prepares when it is first looked at", "CGAL": "a trapezoidal map of the borders, exact"},
     "trapezoids": {"CGAL": "`Arr_trapezoid_ric_point_location`, exact"},
 }
 
@@ -270,8 +270,8 @@ class Page:
         self.say("## Pieces", """
 A binary space partition cuts objects into pieces. Here cuts go on until each triangle or segment is part of a cut; of
 boxes, until one is left in each cell. The other programs do the same with triangles: csg.js, @jscad/modeling, and gl2ps,
-which sorts polygons by such a tree. *Shuffled*: the same triangles in random order. These numbers are counts, the same
-on every machine. A cell shows the pieces of one object, and in brackets the height of the tree, which gl2ps does not
+which sorts polygons by such a tree. *Shuffled*: the same triangles in random order. *Failed*: the method refuses
+polygons that cross. These numbers are counts, the same on every machine. A cell shows the pieces of one object, and in brackets the height of the tree, which gl2ps does not
 show.""")
         for some, what in ((shapes, "Triangles"), (flat, "Segments and boxes")):
             names = [MODELS.get(s, s) for s in some]

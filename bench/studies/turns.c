@@ -26,8 +26,9 @@ static froe_motion *hand_over_bars(size_t bars) {
     memcpy(xy, turning, sizeof turning);
     starts[1] = 2, starts[2] = 4, times[1] = times[3] = 8;
     for (size_t i = 0; i < 2 * bars; i++) {
+        const size_t bar = i / 2;
         xy[8 + 2 * i] = (i % 2 ? 20 : -20) + bench_unit(&state);
-        xy[9 + 2 * i] = (double)(i / 2);
+        xy[9 + 2 * i] = (double)bar;
         starts[3 + i] = starts[2 + i] + 1;
     }
     b.vertex_count = 2 * n, b.count = n, b.starts = starts, b.times = times, b.coords = xy;

@@ -59,7 +59,7 @@ static inline double scene_coordinate(guard_scene scene, uint64_t seed, size_t c
     case SCENE_CHAIN:
         return ldexp(x, p < count / 2 ? -1000 : -(int)(p % 999));
     case SCENE_LATTICE:
-        return axis == 0 ? (double)((int)p % side) : axis == 1 ? (double)((int)p / side) : floor(3 * x);
+        return axis == 0 ? (double)((int)p % side) : axis == 1 ? floor((double)p / side) : floor(3 * x);
     case SCENE_LINE:
         return axis == 0 ? x : 0;
     case SCENE_DIAGONAL:
