@@ -103,7 +103,7 @@ static void set_owner(const vector_render *r, const froe_stroke *s, froe_render_
 /* Of wires and points that of their group, unless the style of their kind says it. */
 static uint32_t colour_of_stroke(const vector_render *r, const froe_stroke *s, const froe_line_style *style) {
     if (style->colour != FROE_NONE) return style->colour;
-    if (s->kind != FROE_LINE_WIRE && s->kind != FROE_LINE_POINT) return VECTOR_INK;
+    if (s->kind != FROE_LINE_WIRE && s->kind != FROE_LINE_POINT) return FROE_LINE_COLOUR;
     return vector_line_colour(r, froe_scene_object(r->scene, s->objects[0]).group);
 }
 

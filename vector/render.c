@@ -18,6 +18,10 @@ static froe_status format_of(const char *path, froe_render_format *format, froe_
         return support_fail(diag, FROE_E_UNSUPPORTED,
                             "%s: A PNG is made by froe_render_png() of the library froe-draw, not by froe_render().",
                             support_short(path));
+    if (strcmp(extension.text, "dxf") == 0)
+        return support_fail(diag, FROE_E_UNSUPPORTED,
+                            "%s: A DXF is made by froe_render_dxf() of the library froe-io, not by froe_render().",
+                            support_short(path));
     return support_fail_ending(diag, FROE_E_OPTIONS, path, "pictures",
                                ".svg, .pdf, .eps, .png, .dxf, .csv or .geojson");
 }

@@ -44,7 +44,7 @@ double vector_grid(const froe_render_options *options, froe_render_format format
 
 /** Opacity of a group, 0 .. 1; of FROE_NONE 1. */
 double vector_opacity(const froe_scene *scene, const froe_render_options *options, uint32_t group);
-/** Colour of wires and points of a group, 0xRRGGBB; VECTOR_INK if it has none. */
+/** Colour of wires and points of a group, 0xRRGGBB; FROE_LINE_COLOUR if it has none. */
 uint32_t vector_line_colour(const vector_render *render, uint32_t group);
 /** Fills style_of, styles, keys and layer_of. FROE_E_MEMORY. */
 froe_status vector_shade(vector_render *render);
@@ -53,8 +53,6 @@ uint32_t vector_group(const vector_render *render, uint32_t object);
 
 /* ------------------------------------------------------------------------- strokes.c -- */
 
-/** The colour of lines without a style. */
-#define VECTOR_INK 0x1B2630
 /** How lines of one kind are drawn, all members filled in; lengths in units of 1/scale of a unit of the page. */
 froe_line_style vector_line_style(const froe_render_options *options, froe_line kind, bool hidden, double scale);
 /** Half the width of the widest visible line, in units of the page. */

@@ -54,7 +54,7 @@ double vector_opacity(const froe_scene *scene, const froe_render_options *o, uin
 
 uint32_t vector_line_colour(const vector_render *r, uint32_t group) {
     const uint32_t given = group == FROE_NONE ? 0 : given_colour(r->scene, r->options, group);
-    return given ? given >> 8 : VECTOR_INK;
+    return given ? given >> 8 : FROE_LINE_COLOUR;
 }
 
 /* 0xAARRGGBB. */

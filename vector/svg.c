@@ -179,7 +179,7 @@ static void put_strokes(svg_writer *w, const froe_render_path *path) {
     /* Not from path->width: three digits depend on the order of rounding. */
     const froe_line_style style = vector_line_style(w->render->options, path->kind, path->hidden, w->render->grid);
     vector_print(w->output, "<path class=\"%s%s\"", froe_line_name(path->kind), path->hidden ? " hidden" : "");
-    if ((path->colour & 0xFFFFFF) != VECTOR_INK) {
+    if ((path->colour & 0xFFFFFF) != FROE_LINE_COLOUR) {
         put_text(w, " stroke=\"");
         put_colour(w->output, path->colour);
         put_text(w, "\"");

@@ -185,8 +185,24 @@ static bool name_frame(const char *pattern, size_t i, char *out, size_t room) {
     return length > 0 && (size_t)length < room;
 }
 
-/* froe_render(), or froe_render_png() of the library that draws. */
+/* froe_render(), or one of the same form that a library has. */
 typedef __typeof__(froe_render) render_fn;
+
+/* PNG and DXF are written by libraries. */
+static int find_writer(const char *path, render_fn **write) {
+    const support_extension extension = support_path_extension(path);
+    int code = 0;
+    if (!strcmp(extension.text, "png")) {
+        cli_draw library;
+        code = cli_open_draw(&library);
+        if (!code) *write = library.render_png;
+    } else if (!strcmp(extension.text, "dxf")) {
+        cli_io library;
+        code = cli_open_io(&library);
+        if (!code) *write = library.render_dxf;
+    }
+    return code;
+}
 
 static froe_status render_turning(const render_args *args, render_fn *write, const froe_tree *tree,
                                   froe_render_options *o, froe_render_report *report, froe_diagnostic *diag) {
@@ -216,12 +232,8 @@ static int render(const render_args *args, const froe_tree *tree, froe_render_op
     if (args->turntable && !args->animate && !name_frame(args->output.path, 0, path, sizeof path))
         return cli_fail(CLI_USE, NULL, "--turntable: '%s' is not like pic-%%03d.svg.", args->output.name);
     render_fn *write = froe_render;
-    if (!strcmp(support_path_extension(args->output.path).text, "png")) {
-        cli_draw library;
-        const int code = cli_open_draw(&library);
-        if (code) return code;
-        write = library.render_png;
-    }
+    const int code = find_writer(args->output.path, &write);
+    if (code) return code;
     cli_progress bar = cli_progress_begin(&args->common, "looking");
     o->progress = cli_progress_step;
     o->user = &bar;

@@ -1,4 +1,4 @@
-/* io.h: scenes from files of every format.
+/* io.h: scenes from files of every format, and drawings to DXF.
  *
  *     froe_scene *scene;  froe_read_report report;  froe_diagnostic diag;
  *     froe_read_options o = froe_read_defaults();
@@ -11,6 +11,7 @@
 #define FROE_IO_H
 
 #include <froe/formats.h>
+#include <froe/render.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -47,6 +48,18 @@ extern "C" {
  * features, more than 8 axes. FROE_E_MEMORY, FROE_E_CANCELLED, FROE_E_LIMIT. */
 FROE_API froe_status froe_read(const char *path, const froe_read_options *options, froe_scene **out,
                                froe_read_report *report, froe_diagnostic *diag);
+
+/** The lines of the picture of froe_render() as a drawing in DXF (of AutoCAD 2004), by GDAL. They are those of an SVG of
+ * the same options, as polylines with all digits, in units of the page, y upwards from its lower left corner. With a page
+ * in millimetres the drawing says so, and else names no unit. Each kind of line has a layer: VISIBLE-SILHOUETTE,
+ * HIDDEN-CREASE; with FROE_LAYERS_OBJECT each object has: WALL-VISIBLE, WALL-HIDDEN. Layers have the colour (the
+ * nearest of AutoCAD's 255 and the exact one; black and FROE_LINE_COLOUR are 7, black on white or white on black), dashes
+ * (line types DASHED, DASHED2 ...) and, in millimetres, the nearest width that DXF has, of the first path on them. What
+ * has another colour on such a layer has it by itself.
+ * Shapes, background and title are left out. `path` may have any name. FROE_E_UNSUPPORTED: GDAL has no DXF driver, or
+ * not its data. Otherwise as froe_render(). */
+FROE_API froe_status froe_render_dxf(const froe_tree *tree, const char *path, const froe_render_options *options,
+                                     froe_render_report *report, froe_diagnostic *diag);
 
 #ifdef __cplusplus
 }

@@ -22,6 +22,8 @@ extern "C" {
 #define FROE_DRAW_CLEAR UINT32_MAX           /**< background: none, transparent where the format can be */
 #define FROE_DRAW_BY_FORMAT (UINT32_MAX - 1) /**< background: white in PNG, none in other files */
 
+#define FROE_LINE_COLOUR 0x1B2630 /**< of lines without a style, a dark blue */
+
 /** How faces are filled. */
 typedef enum froe_shading {
     FROE_SHADE_FLAT = 0,  /**< lit from the upper left of the camera, two-sided */
@@ -69,7 +71,7 @@ typedef enum froe_layers {
 typedef struct froe_line_style {
     uint32_t visible, hidden; /**< bits of froe_line: the kinds of visible and of hidden lines that it is about */
     double width;             /**< in units of the page, above 0 */
-    uint32_t colour;          /**< 0xRRGGBB */
+    uint32_t colour;          /**< 0xRRGGBB; default FROE_LINE_COLOUR */
     double dash, gap;         /**< lengths in units of the page; both 0: the line is solid */
 } froe_line_style;
 /** Of no lines, and everything as it is. */
@@ -141,9 +143,9 @@ typedef enum froe_render_format {
 /** The polygons, segments and points of a tree in space as a picture with hidden surfaces removed, exactly: see
  * froe_picture_new(). `path` ends in .svg, .pdf, .eps, .csv or .geojson and appears whole or not at all. `options`
  * NULL: the defaults; `report` may be NULL. FROE_E_OPTIONS: a value out of range, a title or description of a PDF that
- * is not UTF-8, or EPS with an opacity below 1, which EPS does not have. FROE_E_UNSUPPORTED: `path` ends in .png, which
- * froe_render_png() of froe/draw.h makes. FROE_E_IO: the directory or disk does not take it. Otherwise as
- * froe_camera_place(), froe_picture_new(). */
+ * is not UTF-8, or EPS with an opacity below 1, which EPS does not have. FROE_E_UNSUPPORTED: `path` ends in .png or
+ * .dxf, which froe_render_png() of froe/draw.h and froe_render_dxf() of froe/io.h make. FROE_E_IO: the directory or
+ * disk does not take it. Otherwise as froe_camera_place(), froe_picture_new(). */
 FROE_API froe_status froe_render(const froe_tree *tree, const char *path, const froe_render_options *options,
                                  froe_render_report *report, froe_diagnostic *diag);
 
