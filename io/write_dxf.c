@@ -111,7 +111,7 @@ static bool put_entity(const dxf_drawing *d, OGRLayerH out, const dxf_line *line
     OGR_F_SetFieldString(feature, OGR_F_GetFieldIndex(feature, "Layer"), d->layers.data[line->layer].name);
     if (line->colour != d->layers.data[line->layer].colour) {
         char style[24];
-        snprintf(style, sizeof style, "PEN(c:#%06x)", line->colour);
+        snprintf(style, sizeof style, "PEN(c:#%06x)", line->colour == FROE_LINE_COLOUR ? 0 : line->colour);
         OGR_F_SetStyleString(feature, style);
     }
     OGR_F_SetGeometryDirectly(feature, geometry);

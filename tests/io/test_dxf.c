@@ -200,6 +200,22 @@ static void layers_by_object_have_names_that_dxf_can_have(void **state) {
     static const char *const names[] = {"WALL-VISIBLE", "WALL-HIDDEN", "T\\U+00FCR_2-VISIBLE", "T\\U+00FCR_2-HIDDEN"};
     for (int i = 0; i < 4; i++) find(d, "LAYER", names[i]);
     free_drawing(d);
+    /* What has another colour than its layer has that by itself. */
+    froe_line_style s = froe_line_style_defaults();
+    s.visible = FROE_LINE_CREASE, s.colour = 0xFF0000;
+    o.line_styles = &s, o.line_style_count = 1;
+    assert_int_equal(froe_render_dxf(tree, "colours.dxf", &o, NULL, NULL), FROE_OK);
+    d = read_drawing("colours.dxf");
+    size_t red = 0;
+    for (size_t i = 0; i < d->count; i++) {
+        const char *colour = d->at[i].code || strcmp(d->at[i].value, "LWPOLYLINE") ? NULL : value(d, i, 62, 0);
+        if (!colour) continue;
+        assert_true(!strcmp(colour, "1") || !strcmp(colour, "7"));
+        assert_string_not_equal(colour, value(d, find(d, "LAYER", value(d, i, 8, 0)), 62, 0));
+        red += !strcmp(colour, "1");
+    }
+    assert_true(red > 0);
+    free_drawing(d);
     froe_tree_free(tree);
 }
 
