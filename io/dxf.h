@@ -20,7 +20,7 @@ typedef ARRAY(char) dxf_text;
 /** The number of the colour that is nearest among the 255 of AutoCAD, 1 .. 255. 7 is black on white and white on black.
  */
 int dxf_colour(uint32_t colour);
-/** GDAL's template of a header with these layers, their types of line, and units. `millimetres`: the unit of the drawing;
- * otherwise it has none. FROE_E_UNSUPPORTED: there is no such template. FROE_E_MEMORY. */
+/** GDAL's template of a header with these layers, their types of line, and units. `millimetres`: the unit of the
+ * drawing; otherwise it has none. FROE_E_UNSUPPORTED: there is no such template. FROE_E_MEMORY. */
 froe_status dxf_header(const froe_allocator *alloc, const dxf_layers *layers, bool millimetres, dxf_text *out);
 #endif

@@ -1,8 +1,9 @@
-/* write_dxf.c: the lines of a picture as a drawing in DXF: GDAL writes the entities, each on the layer of its lines, and
- * what surrounds them. */
+/* write_dxf.c: the lines of a picture as a drawing in DXF. GDAL writes the entities, each on the layer of its lines,
+ * and what surrounds them. */
 #include "dxf.h"
 #include "support/fail.h"
 #include "support/floats.h"
+#include "support/utf8.h"
 #include "support/writer.h"
 #include <cpl_conv.h>
 #include <cpl_error.h>
@@ -35,25 +36,21 @@ typedef struct dxf_drawing {
 
 /* ------------------------------------------------------------------------- layers -- */
 
-/* Appends a name as DXF can have it: without the characters that it has not, others that are not ASCII by number. */
+/* Appends a name in characters that every program takes for the same: ASCII in capitals, U+00FC for others. Signs that
+ * DXF does not have become underscores. (GDAL takes the backslash of DXF's own \U+00FC for such a sign.) */
 static void put_name(char name[DXF_NAME], const char *text) {
     size_t used = strlen(name);
-    while (*text && used + 8 < DXF_NAME) {
-        const unsigned char c = (unsigned char)*text;
-        const int more = c < 0xC0 ? 0 : c < 0xE0 ? 1 : c < 0xF0 ? 2 : 3;
-        uint32_t number = more ? c & (0x3Fu >> more) : c;
-        bool ok = c < 0x80 || more;
-        for (int i = 1; i <= more && ok; i++) {
-            ok = (text[i] & 0xC0) == 0x80;
-            number = number << 6 | (text[i] & 0x3Fu);
-        }
-        text += ok ? more + 1 : 1;
-        if (!ok || number > 0xFFFF || number < 0x20 || (number < 0x80 && strchr("<>/\\\":;?*|=',`", (int)number)))
+    while (*text && used + 10 < DXF_NAME) {
+        const size_t length = support_utf8_length(text);
+        uint32_t number = (unsigned char)*text & (length > 1 ? 0x7Fu >> length : 0x7Fu);
+        for (size_t i = 1; i < length; i++) number = number << 6 | (text[i] & 0x3Fu);
+        if (!length || number < 0x20 || number == 0x7F || (number < 0x7F && strchr("<>/\\\":;?*|=',`", (int)number)))
             name[used++] = '_';
-        else if (number < 0x80)
+        else if (length == 1)
             name[used++] = (char)toupper((int)number);
         else
-            used += (size_t)snprintf(name + used, DXF_NAME - used, "\\U+%04X", number);
+            used += (size_t)snprintf(name + used, DXF_NAME - used, "U+%04X", number);
+        text += length ? length : 1;
     }
     name[used] = '\0';
 }

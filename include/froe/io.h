@@ -49,15 +49,18 @@ extern "C" {
 FROE_API froe_status froe_read(const char *path, const froe_read_options *options, froe_scene **out,
                                froe_read_report *report, froe_diagnostic *diag);
 
-/** The lines of the picture of froe_render() as a drawing in DXF (of AutoCAD 2004), by GDAL. They are those of an SVG of
- * the same options, as polylines with all digits, in units of the page, y upwards from its lower left corner. With a page
- * in millimetres the drawing says so, and else names no unit. Each kind of line has a layer: VISIBLE-SILHOUETTE,
- * HIDDEN-CREASE; with FROE_LAYERS_OBJECT each object has: WALL-VISIBLE, WALL-HIDDEN. Layers have the colour (the
- * nearest of AutoCAD's 255 and the exact one; black and FROE_LINE_COLOUR are 7, black on white or white on black), dashes
- * (line types DASHED, DASHED2 ...) and, in millimetres, the nearest width that DXF has, of the first path on them. What
- * has another colour on such a layer has it by itself.
- * Shapes, background and title are left out. `path` may have any name. FROE_E_UNSUPPORTED: GDAL has no DXF driver, or
- * not its data. Otherwise as froe_render(). */
+/** The lines of the picture of froe_render() as a drawing in DXF (of AutoCAD 2004), by GDAL. They are those of an SVG
+ * of the same options, as polylines with 15 digits, in units of the page, y upwards from its lower left corner. With a
+ * page in millimetres the drawing says so, and otherwise it names no unit. Each kind of line has a layer:
+ * VISIBLE-SILHOUETTE, HIDDEN-CREASE. With FROE_LAYERS_OBJECT each object has two: WALL-VISIBLE, WALL-HIDDEN. Signs that
+ * DXF does not have are underscores in them, and characters beyond ASCII are like U+00FC.
+ *
+ * A layer has the look of the first path on it: its colour (the nearest of AutoCAD's 255, and the exact one; black and
+ * FROE_LINE_COLOUR are 7, which is black on white and white on black), its dashes as a type of line (DASHED, DASHED2
+ * and so on) and, in millimetres, the nearest width that DXF has. What has another colour has it by itself. Shapes,
+ * background and title are left out.
+ *
+ * `path` may have any name. FROE_E_UNSUPPORTED: GDAL has no DXF driver, or not its data. Otherwise as froe_render(). */
 FROE_API froe_status froe_render_dxf(const froe_tree *tree, const char *path, const froe_render_options *options,
                                      froe_render_report *report, froe_diagnostic *diag);
 

@@ -1,5 +1,5 @@
-/* test_dxf.c: drawings read back pair by pair: the lines are those that are data, to the last of DXF's 15 digits; each is
- * on a layer that the header has, with the colour, dashes and width of its style. */
+/* test_dxf.c: drawings read back pair by pair: the lines are those that are data, to the last of DXF's 15 digits. Each
+ * is on a layer that the header has, with the colour, dashes and width of its style. */
 #include "support/memory.h"
 #include "support/small_scenes.h"
 #include <froe/io.h>
@@ -197,8 +197,11 @@ static void layers_by_object_have_names_that_dxf_can_have(void **state) {
     o.layers = FROE_LAYERS_OBJECT;
     assert_int_equal(froe_render_dxf(tree, "objects.dxf", &o, NULL, NULL), FROE_OK);
     drawing *d = read_drawing("objects.dxf");
-    static const char *const names[] = {"WALL-VISIBLE", "WALL-HIDDEN", "T\\U+00FCR_2-VISIBLE", "T\\U+00FCR_2-HIDDEN"};
+    static const char *const names[] = {"WALL-VISIBLE", "WALL-HIDDEN", "TU+00FCR_2-VISIBLE", "TU+00FCR_2-HIDDEN"};
     for (int i = 0; i < 4; i++) find(d, "LAYER", names[i]);
+    size_t layers = 0;
+    for (size_t i = 0; i < d->count; i++) layers += !d->at[i].code && !strcmp(d->at[i].value, "LAYER");
+    assert_int_equal(layers, 1 + 4); /* and 0, which every drawing has: GDAL adds none of its own */
     free_drawing(d);
     /* What has another colour than its layer has that by itself. */
     froe_line_style s = froe_line_style_defaults();
