@@ -1,4 +1,5 @@
 /* draw.c: the public calls: options checked, page planned and painted, bytes written. */
+#include "map/map.h"
 #include "output.h"
 #include "palette.h"
 #include "picture.h"
@@ -70,6 +71,13 @@ static bool all_finite(const double *x, int count) {
     return true;
 }
 
+/* Cairo would refuse what is not, too, but only after looking for fonts. */
+static bool is_utf8(const char *text) {
+    size_t length = 1;
+    for (; text && *text && length; text += length) length = support_utf8_length(text);
+    return length;
+}
+
 static froe_status check_options(const froe_draw_options *o, int dim, froe_diagnostic *diag) {
     if (o->size != sizeof *o) return support_fail_defaults(diag, "froe_draw_defaults");
     if (dim > 3) return support_fail(diag, FROE_E_UNSUPPORTED, "Pictures exist in 2 and 3 dimensions, not in %d.", dim);
@@ -84,10 +92,13 @@ static froe_status check_options(const froe_draw_options *o, int dim, froe_diagn
     for (size_t i = 0; i < o->mark_count; i++)
         if (!o->marks || !all_finite(o->marks[i].lo, 3) || !all_finite(o->marks[i].hi, 3))
             return support_fail(diag, FROE_E_OPTIONS, "Mark %zu of a picture is not finite.", i);
-    /* Cairo would refuse it too, but only after looking for fonts. */
-    size_t length = 1;
-    for (const char *text = o->title; text && *text && length; text += length) length = support_utf8_length(text);
-    if (!length) return support_fail(diag, FROE_E_OPTIONS, "The title of the picture is not UTF-8.");
+    for (size_t i = 0; i < o->mark_count; i++)
+        if (o->marks[i].kind < 0 || o->marks[i].kind >= FROE_DRAW_MARK_KIND_COUNT || !is_utf8(o->marks[i].label))
+            return support_fail(diag, FROE_E_OPTIONS,
+                                "Mark %zu of a picture has an unknown kind, or a label that is not UTF-8.", i);
+    if (o->accented_count && !o->accented)
+        return support_fail(diag, FROE_E_OPTIONS, "The objects to be accented are missing.");
+    if (!is_utf8(o->title)) return support_fail(diag, FROE_E_OPTIONS, "The title of the picture is not UTF-8.");
     const draw_range ranges[] = {{"width", o->width, 16, 32000},
                                  {"height", o->height, o->height == 0 ? 0 : 16, 32000},
                                  {"margin", o->margin, -HUGE_VAL, o->width / 2},
@@ -161,7 +172,11 @@ static froe_status make(const froe_tree *tree, froe_draw_format format, const fr
         if (!(o.lo[k] < o.hi[k])) picture.whole = true; /* there is no window */
     if (picture.whole) froe_scene_bounds(froe_tree_scene(tree), lo, hi);
     const int up = dim == 3 && o.up < 0 ? froe_scene_up(froe_tree_scene(tree)) : o.up;
-    picture.space = draw_space_over(dim, up, picture.whole ? lo : o.lo, picture.whole ? hi : o.hi);
+    const double *from = picture.whole ? lo : o.lo, *to = picture.whole ? hi : o.hi;
+    picture.space = draw_space_over(dim, up, from, to);
+    picture.space.squeeze = draw_map_squeeze(froe_tree_scene(tree), from[1], to[1]);
+    const bool inked = picture.show & (FROE_DRAW_OBJECTS | FROE_DRAW_FRAGMENTS) && o.style != FROE_DRAW_EXPLODED;
+    picture.page.faint = inked ? 0.5 : 0;
     for (int k = 0; k < 3; k++)
         picture.wide[k] = picture.whole ? fmax(picture.space.reach[k] + 0.025, 0.125) : picture.space.reach[k];
     status = paint_page(&picture, format, output, diag);

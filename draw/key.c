@@ -32,7 +32,8 @@ static void rectangle_path(const key_view *key, cairo_t *cr, int axis, double at
 
 void draw_paint_key(const draw_page *page, cairo_t *cr, const draw_space *space, const double *half, double left,
                     double top, double width, double height) {
-    key_view key = {.half = half, .camera = draw_camera_from(space, (const double[3]){0, 0, 0})};
+    key_view key = {
+        .half = half, .view.space.squeeze = 1, .camera = draw_camera_from(space, (const double[3]){0, 0, 0})};
     /* The whole box, seen from the corner, fills the middle of the rectangle. */
     for (int i = 0; i < 8; i++) {
         const double p[3] = {(i & 1 ? 1 : -1) * half[0], (i & 2 ? 1 : -1) * half[1], (i & 4 ? 1 : -1) * half[2]};

@@ -4,11 +4,13 @@
  * ends in its first and last point and rounds the corners between (tangent to
  * their edges at the middles), `o` the closed one. So `o0,0 0,24 21,24 21,0` is an O. */
 #include "lettering.h"
+#include "page.h"
 #include <stdlib.h>
 #include <string.h>
 
 enum { CAPITAL = 24, GAP = 6, FIRST = ' ', LAST = '~' };
 #define EM (0.7 / CAPITAL)
+#define WEIGHT 0.085 /* of strokes, in ems */
 
 static const char *const glyphs[LAST - FIRST + 1] = {
     "7",                                                                                          /* space */
@@ -111,6 +113,7 @@ static const char *const glyphs[LAST - FIRST + 1] = {
 static const struct other {
     const char *utf8, *glyph;
 } others[] = {{"\xC2\xB7", "0 l0,10 0,11"},                      /* middle dot */
+              {"\xC2\xB0", "8 o0,16 0,24 8,24 8,16"},            /* degree */
               {"\xC3\x97", "12 l0,3 12,15 l0,15 12,3"},          /* times */
               {"\xE2\x89\xA4", "13 l13,20 0,13 13,6 l0,1 13,1"}, /* at most */
               {"\xE2\x89\xA5", "13 l0,20 13,13 0,6 l0,1 13,1"}}; /* at least */
@@ -168,14 +171,8 @@ static void quadratic_to(cairo_t *cr, point control, point end) {
                    end.y + 2 * (control.y - end.y) / 3, end.x, end.y);
 }
 
-void draw_text(cairo_t *cr, const char *text, double x, double y, double size, double align) {
-    x -= align * draw_text_length(cr, text, size);
-    if (!draw_text_known(text)) {
-        system_font(cr, size);
-        cairo_move_to(cr, x, y);
-        cairo_show_text(cr, text);
-        return;
-    }
+/* The strokes of a text that is known. */
+static void text_path(cairo_t *cr, const char *text, double x, double y, double size) {
     double unit = EM * size;
     cairo_new_path(cr);
     for (const char *t = text; *t; x += GAP * unit) { /* a glyph is its width and its strokes */
@@ -204,8 +201,41 @@ void draw_text(cairo_t *cr, const char *text, double x, double y, double size, d
         }
         x += width;
     }
-    cairo_set_line_width(cr, 0.075 * size);
     cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
     cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+}
+
+void draw_text(cairo_t *cr, const char *text, double x, double y, double size, double align) {
+    x -= align * draw_text_length(cr, text, size);
+    if (!draw_text_known(text)) {
+        system_font(cr, size);
+        cairo_move_to(cr, x, y);
+        cairo_show_text(cr, text);
+        return;
+    }
+    text_path(cr, text, x, y, size);
+    cairo_set_line_width(cr, WEIGHT * size);
     cairo_stroke(cr);
+}
+
+void draw_text_backed(cairo_t *cr, const char *text, double x, double y, double size, uint32_t paper, uint32_t ink) {
+    const bool known = draw_text_known(text);
+    if (known)
+        text_path(cr, text, x, y, size);
+    else {
+        system_font(cr, size);
+        cairo_new_path(cr);
+        cairo_move_to(cr, x, y);
+        cairo_text_path(cr, text);
+        cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+    }
+    draw_set_color(cr, paper, 0.85);
+    cairo_set_line_width(cr, 0.36 * size);
+    cairo_stroke_preserve(cr);
+    draw_set_color(cr, ink, 1);
+    cairo_set_line_width(cr, 1.35 * WEIGHT * size);
+    if (known)
+        cairo_stroke(cr);
+    else
+        cairo_fill(cr);
 }

@@ -4,6 +4,7 @@
 #define FROE_DRAW_LETTERING_H
 #include <cairo.h>
 #include <stdbool.h>
+#include <stdint.h>
 
 /** Can every character of this UTF-8 text be written? */
 bool draw_text_known(const char *text);
@@ -13,4 +14,6 @@ double draw_text_length(cairo_t *cr, const char *text, double size);
 /** Writes from (x, y) on the base line in the current colour; align 0: x is the left
  * end, 0.5: the middle, 1: the right end. */
 void draw_text(cairo_t *cr, const char *text, double x, double y, double size, double align);
+/** The same from a left end, in `ink` with a rim of `paper` around the letters, to be read over a map. */
+void draw_text_backed(cairo_t *cr, const char *text, double x, double y, double size, uint32_t paper, uint32_t ink);
 #endif

@@ -114,9 +114,16 @@ static void paint_strokes(cairo_t *cr, const stroke *strokes, size_t count, bool
     cairo_stroke(cr);
 }
 
+/* Width of strokes by their number: a few hundred are bold, a million are fine. */
+static double weight_of(const draw_page *page, double count) {
+    const double each = sqrt(page->inner_width * page->inner_height / (count + 1));
+    return fmin(fmax(0.1 * each, 0.4 * page->unit), 1.8 * page->unit);
+}
+
 static void paint_gathered(object_painter *pen) {
     cairo_t *cr = pen->cr;
     stroke *parts = pen->parts.data;
+    pen->weight = weight_of(pen->page, (double)(pen->ink.count + pen->parts.count + pen->points.count));
     const double reach = 2.4 * pen->page->unit;
     size_t held = 0;
     /* Along each object, every second part is odd. */
@@ -151,19 +158,44 @@ static void paint_gathered(object_painter *pen) {
     cairo_stroke(cr);
 }
 
+/* The objects that the options single out, over all others. */
+static bool paint_accented(object_painter *pen) {
+    const froe_draw_options *o = pen->page->options;
+    cairo_t *cr = pen->cr;
+    draw_shape shape;
+    cairo_set_line_cap(cr, CAIRO_LINE_CAP_ROUND);
+    cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
+    cairo_set_line_width(cr, fmax(1.6 * pen->weight, 2 * pen->page->unit));
+    for (size_t i = 0; i < o->accented_count; i++) {
+        if (o->accented[i] >= pen->object_count) continue;
+        if (!draw_shape_of_object(&pen->shaper, o->accented[i], &shape)) return false;
+        if (shape.sort == DRAW_NOTHING) continue;
+        cairo_new_path(cr);
+        if (shape.sort == DRAW_DISC || shape.sort == DRAW_DOT)
+            draw_circle(cr, shape.points[0], shape.sort == DRAW_DISC ? shape.radius : 2.4 * pen->page->unit);
+        for (size_t k = 0; shape.sort != DRAW_DISC && shape.sort != DRAW_DOT && k < shape.count; k++)
+            cairo_line_to(cr, shape.points[k].x, shape.points[k].y);
+        if (shape.sort == DRAW_RING) cairo_close_path(cr);
+        draw_set_color(cr, DRAW_ACCENT, shape.sort == DRAW_DOT ? 1 : 0.2);
+        if (shape.sort != DRAW_STROKE) cairo_fill_preserve(cr);
+        draw_set_color(cr, DRAW_ACCENT, 1);
+        cairo_stroke(cr);
+    }
+    return true;
+}
+
 froe_status draw_paint_objects(const draw_page *page, cairo_t *cr, const draw_view *view, uint32_t show) {
     if (!(show & (FROE_DRAW_OBJECTS | FROE_DRAW_FRAGMENTS))) return FROE_OK;
     const froe_scene *scene = froe_tree_scene(page->tree);
     object_painter pen = {.page = page, .cr = cr, .view = view};
     pen.shaper = (draw_shaper){.alloc = page->alloc, .tree = page->tree, .scene = scene, .view = view};
     pen.object_count = froe_scene_object_count(scene);
-    /* Width of strokes by their number: a few hundred are bold, a million are fine. Of a scene in space a section meets
-     * about the power 2/3. */
-    const double count = (double)pen.object_count, met = view->axis < 0 ? count : cbrt(count * count);
-    const double each = sqrt(page->inner_width * page->inner_height / (met + 1));
-    pen.weight = fmin(fmax(0.055 * each, 0.4 * page->unit), 1.5 * page->unit);
+    /* Of a scene in space a section meets about the power 2/3. */
+    const double count = (double)pen.object_count;
+    pen.weight = weight_of(page, view->axis < 0 ? count : cbrt(count * count));
     bool ok = gather_shapes(&pen, show & FROE_DRAW_FRAGMENTS);
     if (ok && !page->task->cancelled) paint_gathered(&pen);
+    if (ok && !page->task->cancelled) ok = paint_accented(&pen);
     draw_dots_free(&pen.dots);
     support_free(&page->alloc, pen.cut, pen.object_count * sizeof *pen.cut);
     array_free(&page->alloc, &pen.ink);

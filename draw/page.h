@@ -14,6 +14,7 @@ typedef struct draw_page {
     double unit; /**< line weights and letters are given for a page 960 wide; this scales them */
     double text; /**< size of small letters */
     double left, top, inner_width, inner_height; /**< what is left for the picture */
+    double faint;                                /**< share of paper in the colours of cells: objects come first */
 } draw_page;
 
 /** Plans a page for a picture whose height is `aspect` times its width, plus gaps and labels
@@ -27,6 +28,7 @@ typedef struct draw_legend {
     bool below, above;              /**< cells beyond the scale */
     double unit;                    /**< page units per `length` of the scene: a scale bar; 0: none */
     double length;                  /**< in scene coordinates: see unit */
+    double squeeze;                 /**< of the space: see there */
     bool parts;                     /**< what is merged are the parts of an exploded view */
     uint64_t merged, merged_leaves; /**< regions drawn as one, leaves in them */
 } draw_legend;
@@ -34,6 +36,8 @@ typedef struct draw_legend {
 void draw_page_open(const draw_page *page, cairo_t *cr);
 void draw_page_close(const draw_page *page, cairo_t *cr, const draw_legend *legend);
 
+/** The colour of a cell of a tone. */
+uint32_t draw_cell_color(const draw_page *page, int tone);
 void draw_set_color(cairo_t *cr, uint32_t rgb, double alpha);
 /** A circle as a path; four cubics. */
 void draw_circle(cairo_t *cr, draw_point centre, double radius);

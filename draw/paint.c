@@ -27,7 +27,7 @@ static froe_status paint_cells(const draw_page *page, cairo_t *cr, const draw_pa
             cairo_close_path(cr);
             if (i + 1 != starts[tone + 1] && (i + 1 - starts[tone]) % PATH != 0) continue;
             /* A thin line of the same colour around each cell closes the seams that antialiasing leaves. */
-            draw_set_color(cr, draw_tone(tone), 1);
+            draw_set_color(cr, draw_cell_color(page, tone), 1);
             cairo_set_line_width(cr, 0.35 * page->unit);
             cairo_set_line_join(cr, CAIRO_LINE_JOIN_BEVEL);
             cairo_fill_preserve(cr);
@@ -47,7 +47,7 @@ static void paint_cuts(const draw_page *page, cairo_t *cr, const draw_partition 
         size_t held = 0;
         const double deep = class < DEEP ? (double)class / DEEP : 1,
                      faint = class > DEEP ? (double)(class - DEEP) / FADES : 0;
-        draw_set_color(cr, DRAW_LINE, (1 - 0.45 * deep) * (1 - faint));
+        draw_set_color(cr, DRAW_LINE, (1 - 0.45 * deep) * (1 - faint) * (1 - page->faint));
         cairo_set_line_width(cr, (1.25 - 0.95 * sqrt(deep)) * page->unit);
         for (size_t i = 0; i < part->cuts.count; i++) {
             const draw_cut *cut = part->cuts.data + i;

@@ -8,6 +8,7 @@
 #define DRAW_SOFT 0x6B7680u   /**< small text */
 #define DRAW_ACCENT 0xC8502Du /**< where a cut went through an object */
 #define DRAW_WOOD 0xE3A070u   /**< every second fragment of a cut object */
+#define DRAW_LAND 0xF0DFB6u   /**< areas of features */
 #define DRAW_LINE 0x24506Au   /**< cuts */
 
 enum { DRAW_TONES = 64 };

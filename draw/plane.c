@@ -4,6 +4,7 @@
  *     plan    z = middle      .
  *     front   y = middle      side   x = middle                                    */
 #include "lettering.h"
+#include "map/map.h"
 #include "paint.h"
 #include "palette.h"
 #include "picture.h"
@@ -33,6 +34,16 @@ static int section_axis(const draw_picture *picture) {
     return picture->space.dim == 3 ? draw_space_axis(&picture->space, picture->page.options->axis) : -1;
 }
 
+static void set_view(const draw_picture *picture, int axis, double at, draw_panel *out);
+
+/* Of a single view with a legend. */
+static draw_axis_room axis_room(const draw_picture *picture) {
+    draw_panel panel;
+    if (!picture->page.options->legend) return (draw_axis_room){0, 0};
+    set_view(picture, section_axis(picture), picture->page.options->at, &panel);
+    return draw_map_room(&panel.view, froe_tree_scene(picture->page.tree));
+}
+
 froe_status draw_plane_plan(draw_picture *picture) {
     const double *wide = picture->wide;
     if (is_sheet(picture)) {
@@ -41,7 +52,9 @@ froe_status draw_plane_plan(draw_picture *picture) {
     }
     int across, up;
     axes_of(section_axis(picture), &across, &up);
-    draw_page_plan(&picture->page, wide[up] / wide[across], 0, picture->space.dim == 3 ? LABEL : 0);
+    const draw_axis_room room = axis_room(picture);
+    draw_page_plan(&picture->page, wide[up] / (wide[across] * picture->space.squeeze), room.left,
+                   room.below + (picture->space.dim == 3 ? LABEL : 0));
     return FROE_OK;
 }
 
@@ -67,9 +80,11 @@ static int arrange(const draw_picture *picture, draw_panel *panels) {
     const draw_space *space = &picture->space;
     double gap = GAP * page->text, label = LABEL * page->text;
     if (!is_sheet(picture)) {
+        const draw_axis_room room = axis_room(picture);
+        const double left = room.left * page->text, below = room.below * page->text + (space->dim == 3 ? label : 0);
         set_view(picture, section_axis(picture), page->options->at, panels);
-        draw_view_place(&panels[0].view, page->left, page->top, page->inner_width,
-                        fmax(page->inner_height - (space->dim == 3 ? label : 0), 1));
+        draw_view_place(&panels[0].view, page->left + left, page->top, fmax(page->inner_width - left, 1),
+                        fmax(page->inner_height - below, 1));
         return 1;
     }
     double scale = fmin((page->inner_width - gap) / (2 * (wide[0] + wide[1])),
@@ -87,38 +102,9 @@ static int arrange(const draw_picture *picture, draw_panel *panels) {
     return 3;
 }
 
-static void frame_path(cairo_t *cr, const draw_view *view) {
+static void window_path(cairo_t *cr, const draw_view *view) {
     draw_point p = draw_view_map(view, view->lo), q = draw_view_map(view, view->hi);
     cairo_rectangle(cr, p.x, q.y, q.x - p.x, p.y - q.y);
-}
-
-static void paint_mark(const draw_page *page, cairo_t *cr, const draw_view *view, const froe_draw_mark *mark) {
-    double centre[3] = {0}, half[3] = {0};
-    for (int k = 0; k < view->space.dim; k++) {
-        const int from = view->space.from[k];
-        const double a = draw_space_map(&view->space, k, mark->lo[from]);
-        const double b = draw_space_map(&view->space, k, mark->hi[from]);
-        centre[k] = 0.5 * (a + b), half[k] = 0.5 * fabs(b - a);
-    }
-    const double off = view->axis < 0 ? 0 : fabs(view->at - centre[view->axis]);
-    /* What a section at `away` of half the height of a mark leaves of its half sides. */
-    const double away = off > 0 ? off / half[view->axis] : 0;
-    const double share = away > 1 ? 0 : mark->ball ? sqrt(1 - away * away) : 1;
-    if (!(share > 0)) return;
-    const draw_point p = draw_view_map(view, (draw_point){centre[view->across] - share * half[view->across],
-                                                          centre[view->up] - share * half[view->up]});
-    const draw_point q = draw_view_map(view, (draw_point){centre[view->across] + share * half[view->across],
-                                                          centre[view->up] + share * half[view->up]});
-    cairo_new_path(cr);
-    if (mark->ball)
-        draw_circle(cr, (draw_point){0.5 * (p.x + q.x), 0.5 * (p.y + q.y)}, 0.5 * (q.x - p.x));
-    else
-        cairo_rectangle(cr, p.x, q.y, q.x - p.x, p.y - q.y);
-    draw_set_color(cr, DRAW_ACCENT, 0.12);
-    cairo_fill_preserve(cr);
-    draw_set_color(cr, DRAW_ACCENT, 1);
-    cairo_set_line_width(cr, 2 * page->unit);
-    cairo_stroke(cr);
 }
 
 static froe_status paint_panels(const draw_picture *picture, cairo_t *cr, const draw_panel *panels, int count,
@@ -130,20 +116,20 @@ static froe_status paint_panels(const draw_picture *picture, cairo_t *cr, const 
     if (status == FROE_OK && !draw_partition_scale(part)) status = FROE_E_MEMORY;
     if (status == FROE_OK) status = draw_paint_partition(page, cr, part, picture->show);
     for (int i = 0; i < count && status == FROE_OK; i++) {
+        const draw_view *view = &panels[i].view;
         cairo_save(cr);
-        frame_path(cr, &panels[i].view);
+        window_path(cr, view);
         cairo_clip(cr);
-        status = draw_paint_objects(page, cr, &panels[i].view, picture->show);
-        for (size_t m = 0; m < page->options->mark_count; m++)
-            paint_mark(page, cr, &panels[i].view, page->options->marks + m);
+        if (view->space.dim == 2 && picture->show & FROE_DRAW_OBJECTS) status = draw_map_areas(page, cr, view);
+        if (status == FROE_OK) status = draw_paint_objects(page, cr, view, picture->show);
         cairo_restore(cr);
-        frame_path(cr, &panels[i].view);
-        draw_set_color(cr, DRAW_LINE, 0.6);
-        cairo_set_line_width(cr, 0.5 * page->unit);
-        cairo_stroke(cr);
-        const draw_point corner = draw_view_map(&panels[i].view, panels[i].view.lo);
+        if (status == FROE_OK) status = draw_map_marks(page, cr, view);
+        if (status == FROE_OK) status = draw_map_locator(page, cr, view);
+        const bool axes = count == 1 && page->options->legend;
+        if (axes) draw_map_axes(page, cr, view);
+        const draw_point corner = draw_view_map(view, view->lo);
         draw_set_color(cr, DRAW_SOFT, 1);
-        draw_text(cr, panels[i].label, corner.x, corner.y + 1.5 * page->text, page->text, 0);
+        draw_text(cr, panels[i].label, corner.x, corner.y + (axes ? 3.1 : 1.5) * page->text, page->text, 0);
     }
     return status;
 }
@@ -168,8 +154,9 @@ froe_status draw_plane_paint(draw_picture *picture, cairo_t *cr) {
                           .hi_depth = part.hi_depth,
                           .below = part.below,
                           .above = part.above,
-                          .unit = panels[0].view.scale,
+                          .unit = panels[0].view.scale * picture->space.squeeze,
                           .length = picture->space.unit,
+                          .squeeze = picture->space.squeeze,
                           .merged = part.merged,
                           .merged_leaves = part.merged_leaves};
     draw_page_close(page, cr, &legend);

@@ -19,7 +19,7 @@ int draw_space_axis(const draw_space *space, int scene_axis) {
 }
 
 draw_space draw_space_over(int dim, int up, const double *lo, const double *hi) {
-    draw_space space = {.dim = dim, .sign = {1, dim == 3 && up == 1 ? -1 : 1, 1}};
+    draw_space space = {.dim = dim, .sign = {1, dim == 3 && up == 1 ? -1 : 1, 1}, .squeeze = 1};
     double largest = 0, half[3] = {0};
     for (int k = 0; k < 3; k++) space.from[k] = turned_from[dim == 3 ? up : 2][k];
     for (int k = 0; k < dim; k++) {

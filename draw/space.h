@@ -17,6 +17,7 @@ typedef struct draw_space {
     double mid[3];   /**< of the window, times 2^shift, by drawing axis, its sign applied */
     double half;     /**< largest half extent of the window, times 2^shift; > 0 */
     double reach[3]; /**< half extents in drawing coordinates, <= 1; 0: flat in this axis */
+    double squeeze;  /**< what lengths along the first axis are multiplied by on the page; 1 but on maps in degrees */
     double unit;     /**< scene length of drawing length 1: may round to infinity or 0 */
 } draw_space;
 

@@ -5,15 +5,16 @@
 #include <math.h>
 
 void draw_view_place(draw_view *view, double left, double top, double width, double height) {
-    double across = view->hi.x - view->lo.x, up = view->hi.y - view->lo.y;
+    const double squeeze = view->space.squeeze;
+    double across = squeeze * (view->hi.x - view->lo.x), up = view->hi.y - view->lo.y;
     view->scale = fmin(across > 0 ? width / across : HUGE_VAL, up > 0 ? height / up : HUGE_VAL);
     if (!(view->scale < 1e9)) view->scale = fmin(width, height);
-    view->x0 = left + 0.5 * width - view->scale * 0.5 * (view->lo.x + view->hi.x);
+    view->x0 = left + 0.5 * width - view->scale * squeeze * 0.5 * (view->lo.x + view->hi.x);
     view->y0 = top + 0.5 * height + view->scale * 0.5 * (view->lo.y + view->hi.y);
 }
 
 draw_point draw_view_map(const draw_view *view, draw_point p) {
-    return (draw_point){view->x0 + view->scale * p.x, view->y0 - view->scale * p.y};
+    return (draw_point){view->x0 + view->scale * view->space.squeeze * p.x, view->y0 - view->scale * p.y};
 }
 
 /* Liang and Barsky's clipping against one side: den * t <= num. */

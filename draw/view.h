@@ -8,7 +8,7 @@ typedef struct draw_point {
     double x, y;
 } draw_point;
 
-/** Page x = x0 + scale * p[across], page y = y0 - scale * p[up] in drawing coordinates. */
+/** Page x = x0 + scale * squeeze * p[across], page y = y0 - scale * p[up] in drawing coordinates. */
 typedef struct draw_view {
     draw_space space;
     int across, up;

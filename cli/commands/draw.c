@@ -1,4 +1,5 @@
 /* draw.c: froe draw, a partition as a picture. */
+#include "args/marks.h"
 #include "args/output.h"
 #include "args/picture.h"
 #include "args/tree.h"
@@ -16,7 +17,7 @@ typedef struct draw_args {
     cli_common common;
     cli_tree_args tree;
     cli_output output;
-    const char *show, *background, *title, *section;
+    const char *show, *background, *title, *section, *marks;
     int style, up;
     double width, height, margin, scale, detail, explode; /**< NaN: the library's default */
     uint64_t max_depth, explode_depth;                    /**< UINT64_MAX: the library's default */
@@ -35,6 +36,8 @@ static const cli_option what[] = {
      .help = "auto (default), flat (plane), sections or exploded (space)", .choices = styles},
     {"window", 0, CLI_REALS, offsetof(draw_args, window), "LO,HI",
      .help = "draw this box only: lower corner, then upper, in the scene's coordinates"},
+    {"marks", 0, CLI_TEXT, offsetof(draw_args, marks), "FILE",
+     .help = "mark the points, segments, boxes or balls of this file, with the names of its features"},
     {"max-depth", 0, CLI_WHOLE, offsetof(draw_args, max_depth), "D",
      .help = "draw cells below this depth as one (0: no limit)", .max = UINT32_MAX},
     {"detail", 0, CLI_REAL, offsetof(draw_args, detail), "SIZE",
@@ -149,7 +152,11 @@ static int run_draw(const void *given) {
     if (!code) code = cli_open_tree(&args->common, &args->tree, NULL, &tree);
     if (code) return code;
     froe_draw_options o = library.defaults();
-    code = set_options(args, &library, (size_t)froe_scene_dim(froe_tree_scene(tree)), &o);
+    cli_marks marks;
+    const int dim = froe_scene_dim(froe_tree_scene(tree));
+    code = cli_marks_read(&args->common, args->marks, dim, &marks);
+    o.marks = marks.marks, o.mark_count = marks.count;
+    if (!code) code = set_options(args, &library, (size_t)dim, &o);
     if (!code) {
         cli_progress bar = cli_progress_begin(&args->common, "drawing");
         froe_diagnostic diag;
@@ -163,6 +170,7 @@ static int run_draw(const void *given) {
         code = cli_report(&args->common, NULL,
                           json_pack("{s:o, s:o}", "tree", cli_name_json(args->tree.scene.path), "output",
                                     cli_name_json(args->output.name)));
+    cli_marks_free(&marks);
     froe_tree_free(tree);
     return code;
 }
@@ -171,13 +179,15 @@ const cli_command cli_command_draw = {
     .name = "draw",
     .summary = "draw the partition as SVG, PDF or PNG",
     .about = "Shows cells coloured by depth (pale near the root), cuts, the fragments into which objects fell, and the "
-             "objects. Trees in the plane are drawn flat; trees in space as plane sections or pulled apart. The same "
+             "objects; faint cells behind strong objects. Features of maps whose borders are closed are filled. Trees "
+             "in the plane are drawn flat; trees in space as plane sections or pulled apart. The same "
              "tree and options give the same bytes.",
     .examples =
         "froe draw floor.geojson -o floor.svg\n"
         "froe draw floor.geojson -o corner.png --method density --window 0,0,512,512 --show cells,fragments --scale 2\n"
         "froe draw house.glb -o house.pdf --style exploded --explode 1\n"
-        "froe draw house.glb -o cut.svg --section z=1.2\n",
+        "froe draw house.glb -o cut.svg --section z=1.2\n"
+        "froe draw countries.geojson -o towns.svg --show objects --marks towns.csv\n",
     .parts = parts,
     .defaults = &(const draw_args){.common = CLI_COMMON_DEFAULTS,
                                    .tree = CLI_TREE_DEFAULTS,

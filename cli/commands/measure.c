@@ -144,9 +144,16 @@ static int run_measure(const void *given) {
     const measure_args *args = given;
     froe_scene *scene;
     froe_read_report reader;
-    int code = cli_check_outputs(&args->scene.path, 1, (const char *[]){args->cube, args->ball}, 2);
+    const char *const pictures[] = {args->cube, args->ball};
+    int code = cli_check_outputs(&args->scene.path, 1, pictures, 2);
+    if (!code) code = measure_check_pictures(pictures, 2);
     if (!code) code = cli_read_scene(&args->common, &args->scene, &scene, &reader);
     if (code) return code;
+    for (int i = 0; i < 2 && !code; i++) code = measure_check_dimension(pictures[i], scene);
+    if (code) {
+        froe_scene_free(scene);
+        return code;
+    }
     survey s = {.args = args, .scene = scene, .options = froe_measure_defaults()};
     s.options.samples = (uint32_t)args->samples;
     s.options.seed = args->common.seed;

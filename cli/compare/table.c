@@ -152,7 +152,7 @@ static const char *const csv_kinds[] = {"point", "window", "ray", "approximate",
 static const char *const csv_costs[] = {"nodes", "nodes_p99", "leaves", "tests", "found", "microseconds", NULL};
 
 /* Text as RFC 4180 has it. */
-static void put_quoted(FILE *out, const char *text) {
+static void put_csv_text(FILE *out, const char *text) {
     if (!strpbrk(text, ",\"\r\n")) {
         fputs(text, out);
         return;
@@ -165,11 +165,11 @@ static void put_quoted(FILE *out, const char *text) {
 static void put_cell(FILE *out, const json_t *value) {
     char number[32];
     if (json_is_number(value)) cli_number(number, json_number_value(value)), fputs(number, out);
-    if (json_is_string(value)) put_quoted(out, json_string_value(value));
+    if (json_is_string(value)) put_csv_text(out, json_string_value(value));
     fputc(',', out);
 }
 
-static void put_row(FILE *out, const json_t *scene, const json_t *row, json_t *promises) {
+static void put_csv_row(FILE *out, const json_t *scene, const json_t *row, json_t *promises) {
     const char *name;
     json_t *ignored;
     put_cell(out, scene);
@@ -189,7 +189,7 @@ static void put_row(FILE *out, const json_t *scene, const json_t *row, json_t *p
     put_cell(out, kept);
     json_decref(kept);
     const char *note = json_string_value(json_object_get(row, "note"));
-    put_quoted(out, note ? note : "");
+    put_csv_text(out, note ? note : "");
     fputc('\n', out);
 }
 
@@ -207,6 +207,6 @@ void table_put_csv(FILE *out, const void *user) {
     json_object_foreach(promises, name, bound) fprintf(out, "%s.promised,%s.measured,", name, name);
     fputs("promises_kept,note\n", out);
     json_array_foreach((json_t *)scenes, i, scene) json_array_foreach(json_object_get(scene, "methods"), j, row)
-        put_row(out, json_object_get(scene, "scene"), row, promises);
+        put_csv_row(out, json_object_get(scene, "scene"), row, promises);
     json_decref(promises);
 }

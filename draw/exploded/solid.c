@@ -185,7 +185,7 @@ froe_status draw_solid_paint(draw_picture *picture, cairo_t *cr) {
     draw_solid *solid = picture->solid;
     const draw_page *page = &picture->page;
     solid_painter pen = {.solid = solid, .page = page, .cr = cr};
-    pen.view = (draw_view){.lo = solid->lo, .hi = solid->hi};
+    pen.view = (draw_view){.space.squeeze = 1, .lo = solid->lo, .hi = solid->hi};
     draw_view_place(&pen.view, page->left, page->top, page->inner_width, page->inner_height);
     pen.glass = picture->show & (FROE_DRAW_FRAGMENTS | FROE_DRAW_OBJECTS);
     if (!thin_out(&pen, solid->items.data, &solid->items.count)) return FROE_E_MEMORY;

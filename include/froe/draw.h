@@ -6,9 +6,13 @@
  *
  * What a picture shows, from back to front: cells filled with a colour that
  * tells their depth in the tree (pale: near the root, dark: deep; the scale is
- * perceptually even and reads the same for the colour-blind), cuts as hairlines
- * that thin out with depth, the pieces into which the objects fell, and the
- * objects themselves. Y points up, both axes have the same scale.
+ * perceptually even and reads the same for the colour-blind; faint where objects
+ * are drawn), cuts as hairlines that thin out with depth, the areas of features
+ * of maps whose borders are closed, the pieces into which the objects fell, and
+ * the objects themselves. Y points up, both axes have the same scale; on maps in
+ * degrees x is shorter by the cosine of the middle latitude, so that shapes there
+ * are right. With the legend, pictures of the plane have numbers along two edges,
+ * in degrees where the coordinates are.
  *
  * Trees in the plane are drawn flat. Trees in space are drawn as plane sections,
  * or pulled apart from the centre in parallel projection. The painter's order of
@@ -66,10 +70,17 @@ typedef enum froe_draw_format {
  * written) when the path has no extension or an unknown one. */
 FROE_API bool froe_draw_format_of(const char *path, froe_draw_format *format);
 
-/** A marked place: a box in the scene's coordinates, or the ball within it. */
+typedef enum froe_draw_mark_kind {
+    FROE_DRAW_MARK_BOX = 0,  /**< from its lower to its upper corner */
+    FROE_DRAW_MARK_BALL = 1, /**< its centre is that of the box, its radius half the first side */
+    FROE_DRAW_MARK_LINE = 2, /**< from lo to hi, with a dot at its end; a dot alone where they are the same point */
+    FROE_DRAW_MARK_KIND_COUNT = 3
+} froe_draw_mark_kind;
+/** A marked place, in the scene's coordinates. */
 typedef struct froe_draw_mark {
     double lo[3], hi[3];
-    bool ball; /**< its centre is that of the box, its radius half the first side */
+    froe_draw_mark_kind kind;
+    const char *label; /**< UTF-8, one line, beside hi; NULL or "": none. In the plane only */
 } froe_draw_mark;
 
 typedef struct froe_draw_options {
@@ -82,7 +93,7 @@ typedef struct froe_draw_options {
     double scale;                /**< PNG: pixels per unit, 0.1 .. 16, for dense screens; default 1 */
     uint32_t background;         /**< 0xRRGGBB or FROE_DRAW_CLEAR; default a paper white */
     const char *title;           /**< UTF-8, one line; NULL or "": none (default) */
-    bool legend;                 /**< method, counts, scale of depths, scale bar; default true */
+    bool legend;                 /**< method, counts, scale of depths, scale bar, numbers of axes; default true */
     uint32_t max_depth;          /**< cells below this depth are drawn as one; 0 (default): no limit */
     double detail;               /**< regions, and objects, smaller than this both ways (in the page's unit) are
                                       drawn as one, or one for many; the legend says how many cells that
@@ -102,8 +113,12 @@ typedef struct froe_draw_options {
                                       distance from it, 0 .. 10; default 0.5; 0: nothing moves */
     uint32_t explode_depth;      /**< EXPLODED: the parts are the regions of the nodes at this depth (and
                                       shallower leaves), 0 .. 32; default 4 */
-    const froe_draw_mark *marks; /**< FLAT, SECTIONS: outlined on top, where the section meets them; NULL: none */
+    const froe_draw_mark *marks; /**< FLAT, SECTIONS: on top, where the section meets them; NULL: none */
     size_t mark_count;
+    const uint32_t *accented; /**< FLAT, SECTIONS: objects that are drawn on top in the accent colour; NULL: none */
+    size_t accented_count;
+    bool locator; /**< FLAT, with a window: the whole scene, small, in the corner, and where the window is; default
+                       false */
     const froe_allocator *alloc; /**< of working memory (Cairo's own apart); NULL (default): malloc */
     froe_progress_fn *progress;  /**< may be NULL */
     void *user;                  /**< for progress */

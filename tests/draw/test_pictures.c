@@ -55,37 +55,6 @@ static void assert_pdf(image_bytes p) {
     assert_memory_equal(p.bytes + p.count - 6, "%%EOF\n", 6);
 }
 
-typedef struct reader {
-    image_bytes p;
-    size_t at;
-} reader;
-
-static cairo_status_t read_some(void *user, unsigned char *data, unsigned length) {
-    reader *r = user;
-    if (r->p.count - r->at < length) return CAIRO_STATUS_READ_ERROR;
-    memcpy(data, r->p.bytes + r->at, length);
-    r->at += length;
-    return CAIRO_STATUS_SUCCESS;
-}
-
-static cairo_surface_t *image_of(image_bytes p) {
-    reader r = {p, 0};
-    cairo_surface_t *image = cairo_image_surface_create_from_png_stream(read_some, &r);
-    assert_int_equal(cairo_surface_status(image), CAIRO_STATUS_SUCCESS);
-    return image;
-}
-
-static uint32_t pixel(cairo_surface_t *image, int x, int y) {
-    const unsigned char *row = cairo_image_surface_get_data(image) + y * cairo_image_surface_get_stride(image);
-    uint32_t value;
-    memcpy(&value, row + 4 * x, 4);
-    return value & 0xFFFFFF;
-}
-
-static int lightness(uint32_t rgb) {
-    return (int)((rgb >> 16) + (rgb >> 8 & 255) + (rgb & 255));
-}
-
 /* ------------------------------------------------------------------- tests -- */
 
 static void the_extension_names_the_format_in_any_case(void **state) {

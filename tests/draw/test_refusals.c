@@ -61,6 +61,13 @@ static void options_out_of_range_are_refused_by_name(void **state) {
     const froe_draw_mark far = {.hi = {1, 1.0 / 0.0, 1}};
     o = good, o.marks = &far, o.mark_count = 1;
     assert_int_equal(draw(flat, "no.svg", &o, "Mark 0"), FROE_E_OPTIONS);
+    const froe_draw_mark odd = {.hi = {1, 1, 1}, .kind = FROE_DRAW_MARK_KIND_COUNT}, scrawl = {.label = "\xff"};
+    o.marks = &odd;
+    assert_int_equal(draw(flat, "no.svg", &o, "Mark 0"), FROE_E_OPTIONS);
+    o.marks = &scrawl;
+    assert_int_equal(draw(flat, "no.svg", &o, "Mark 0"), FROE_E_OPTIONS);
+    o = good, o.accented_count = 1;
+    assert_int_equal(draw(flat, "no.svg", &o, "accented"), FROE_E_OPTIONS);
 #undef REFUSED
     o = good;
     o.width = 30000;

@@ -1,0 +1,137 @@
+/* marks.c: marked places: boxes, balls, points and lines, and labels beside them. */
+#include "lettering.h"
+#include "map/map.h"
+#include "palette.h"
+#include <math.h>
+
+typedef struct label_box {
+    double left, top, right, bottom;
+} label_box;
+
+typedef struct mark_painter {
+    const draw_page *page;
+    cairo_t *cr;
+    const draw_view *view;
+    ARRAY(label_box) taken; /* by labels and points */
+} mark_painter;
+
+enum { MOST_LABELS = 2000 }; /* that mind each other */
+
+static bool is_free(const mark_painter *pen, const label_box *b) {
+    const size_t count = pen->taken.count < MOST_LABELS ? pen->taken.count : MOST_LABELS;
+    for (size_t i = 0; i < count; i++) {
+        const label_box *t = pen->taken.data + i;
+        if (b->left < t->right && t->left < b->right && b->top < t->bottom && t->top < b->bottom) return false;
+    }
+    return b->left > 0 && b->right < pen->page->width && b->top > 0 && b->bottom < pen->page->height;
+}
+
+/* Beside the point, where there is room: right, left, above, below; right where there is none. */
+static bool mark_label(mark_painter *pen, const char *label, draw_point p) {
+    static const struct {
+        double x, y, align;
+    } places[] = {{0.7, 0.3, 0}, {-0.7, 0.3, 1}, {0, -0.7, 0.5}, {0, 1.35, 0.5}};
+    const double text = pen->page->text, length = draw_text_length(pen->cr, label, text);
+    label_box box = {0};
+    size_t chosen = 0;
+    for (size_t i = sizeof places / sizeof *places; i-- > 0;) {
+        const double left = p.x + places[i].x * text - places[i].align * length, base = p.y + places[i].y * text;
+        const label_box here = {left, base - 0.8 * text, left + length, base + 0.25 * text};
+        if (i && !is_free(pen, &here)) continue;
+        if (i || is_free(pen, &here) || !chosen) box = here, chosen = i;
+    }
+    draw_text_backed(pen->cr, label, box.left, box.bottom - 0.25 * text, text, DRAW_PAPER, DRAW_INK);
+    return array_push(&pen->page->alloc, &pen->taken, box);
+}
+
+static void mark_dot(const mark_painter *pen, draw_point p, double radius) {
+    cairo_new_path(pen->cr);
+    draw_circle(pen->cr, p, radius * pen->page->unit);
+    draw_set_color(pen->cr, DRAW_ACCENT, 1);
+    cairo_fill_preserve(pen->cr);
+    draw_set_color(pen->cr, DRAW_PAPER, 1);
+    cairo_set_line_width(pen->cr, 0.3 * radius * pen->page->unit);
+    cairo_stroke(pen->cr);
+}
+
+/* A box, or the ball within it, as the section leaves it. */
+static void mark_solid(const mark_painter *pen, const froe_draw_mark *mark) {
+    const draw_view *view = pen->view;
+    double centre[3] = {0}, half[3] = {0};
+    for (int k = 0; k < view->space.dim; k++) {
+        const int from = view->space.from[k];
+        const double a = draw_space_map(&view->space, k, mark->lo[from]);
+        const double b = draw_space_map(&view->space, k, mark->hi[from]);
+        centre[k] = 0.5 * (a + b), half[k] = 0.5 * fabs(b - a);
+    }
+    const double off = view->axis < 0 ? 0 : fabs(view->at - centre[view->axis]);
+    /* What a section at `away` of half the height of a mark leaves of its half sides. */
+    const double away = off > 0 ? off / half[view->axis] : 0;
+    const double share = away > 1 ? 0 : mark->kind == FROE_DRAW_MARK_BALL ? sqrt(1 - away * away) : 1;
+    if (!(share > 0)) return;
+    const draw_point p = draw_view_map(view, (draw_point){centre[view->across] - share * half[view->across],
+                                                          centre[view->up] - share * half[view->up]});
+    const draw_point q = draw_view_map(view, (draw_point){centre[view->across] + share * half[view->across],
+                                                          centre[view->up] + share * half[view->up]});
+    cairo_new_path(pen->cr);
+    if (mark->kind == FROE_DRAW_MARK_BALL)
+        draw_circle(pen->cr, (draw_point){0.5 * (p.x + q.x), 0.5 * (p.y + q.y)}, 0.5 * (q.x - p.x));
+    else
+        cairo_rectangle(pen->cr, p.x, q.y, q.x - p.x, p.y - q.y);
+    draw_set_color(pen->cr, DRAW_ACCENT, 0.12);
+    cairo_fill_preserve(pen->cr);
+    draw_set_color(pen->cr, DRAW_ACCENT, 1);
+    cairo_set_line_width(pen->cr, 2 * pen->page->unit);
+    cairo_stroke(pen->cr);
+}
+
+/* A line from lo to hi, with a dot at its end; a dot alone where both are the same. In a section only what lies in it,
+ * by a millionth of the picture. */
+static bool mark_line(mark_painter *pen, const froe_draw_mark *mark) {
+    const draw_view *view = pen->view;
+    double a[3], b[3];
+    draw_space_point(&view->space, mark->lo, a);
+    draw_space_point(&view->space, mark->hi, b);
+    if (view->axis >= 0 && fmax(fabs(a[view->axis] - view->at), fabs(b[view->axis] - view->at)) > 1e-6) return true;
+    draw_point from = {a[view->across], a[view->up]}, to = {b[view->across], b[view->up]};
+    const draw_point end = to;
+    const bool dot = end.x >= view->lo.x && end.x <= view->hi.x && end.y >= view->lo.y && end.y <= view->hi.y;
+    const bool line = from.x != to.x || from.y != to.y;
+    if (line && draw_view_clip_line(view, &from, &to)) {
+        const draw_point p = draw_view_map(view, from), q = draw_view_map(view, to);
+        cairo_new_path(pen->cr);
+        cairo_move_to(pen->cr, p.x, p.y);
+        cairo_line_to(pen->cr, q.x, q.y);
+        draw_set_color(pen->cr, DRAW_ACCENT, 0.75);
+        cairo_set_line_width(pen->cr, 1.2 * pen->page->unit);
+        cairo_stroke(pen->cr);
+    }
+    if (!dot) return true;
+    const draw_point p = draw_view_map(view, end);
+    const double radius = (line ? 3.2 : 4.8) * pen->page->unit;
+    mark_dot(pen, p, line ? 3.2 : 4.8);
+    const label_box box = {p.x - radius, p.y - radius, p.x + radius, p.y + radius};
+    return !mark->label || !*mark->label || array_push(&pen->page->alloc, &pen->taken, box);
+}
+
+froe_status draw_map_marks(const draw_page *page, cairo_t *cr, const draw_view *view) {
+    mark_painter pen = {.page = page, .cr = cr, .view = view};
+    const froe_draw_options *o = page->options;
+    bool ok = true;
+    for (size_t i = 0; i < o->mark_count && ok; i++) {
+        if (o->marks[i].kind == FROE_DRAW_MARK_LINE)
+            ok = mark_line(&pen, o->marks + i);
+        else
+            mark_solid(&pen, o->marks + i);
+    }
+    for (size_t i = 0; i < o->mark_count && ok && view->axis < 0; i++) { /* over all marks */
+        const froe_draw_mark *m = o->marks + i;
+        double end[3];
+        draw_space_point(&view->space, m->hi, end);
+        const draw_point p = {end[view->across], end[view->up]};
+        if (m->label && *m->label && p.x >= view->lo.x && p.x <= view->hi.x && p.y >= view->lo.y && p.y <= view->hi.y)
+            ok = mark_label(&pen, m->label, draw_view_map(view, p));
+    }
+    array_free(&page->alloc, &pen.taken);
+    return ok ? FROE_OK : FROE_E_MEMORY;
+}

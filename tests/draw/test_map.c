@@ -1,0 +1,182 @@
+/* test_map.c: maps are read as maps: areas of features, degrees, marks with names, and no line that is no object. */
+#include "pictures.h"
+#include "support/memory.h"
+#include <stdio.h>
+
+/* A square ring with a square hole, of one feature, and a bent line of another. */
+static froe_scene *features(double factor, double up) {
+    static const double ring[] = {0, 0, 8, 0, 8, 0, 8, 8, 8, 8, 0, 8, 0, 8, 0, 0,
+                                  3, 3, 3, 5, 3, 5, 5, 5, 5, 5, 5, 3, 5, 3, 3, 3};
+    static const double bent[] = {10, 0, 14, 8, 14, 8, 18, 0};
+    double moved[sizeof ring / sizeof *ring];
+    froe_scene *scene = scene_of(2);
+    const froe_group names[] = {{.name = "ring"}, {.name = "line"}};
+    const double *const coords[] = {ring, bent};
+    const size_t counts[] = {8, 2};
+    for (int g = 0; g < 2; g++) {
+        uint32_t id;
+        assert_int_equal(froe_scene_add_group(scene, &names[g], &id), FROE_OK);
+        for (size_t i = 0; i < 4 * counts[g]; i++) moved[i] = factor * coords[g][i] + (i % 2 ? up : 0);
+        uint32_t groups[8];
+        for (size_t i = 0; i < counts[g]; i++) groups[i] = id;
+        froe_objects objects = froe_objects_defaults();
+        objects.kind = FROE_SEGMENT, objects.count = counts[g], objects.coords = moved, objects.groups = groups;
+        assert_int_equal(froe_scene_add(scene, &objects, NULL), FROE_OK);
+    }
+    return scene;
+}
+
+static froe_draw_options bare(double width, double lo_x, double lo_y, double hi_x, double hi_y) {
+    froe_draw_options o = froe_draw_defaults();
+    o.show = FROE_DRAW_OBJECTS;
+    o.legend = false;
+    o.margin = 0;
+    o.width = width;
+    o.lo[0] = lo_x, o.lo[1] = lo_y, o.hi[0] = hi_x, o.hi[1] = hi_y;
+    return o;
+}
+
+static bool is_land(uint32_t rgb) {
+    return (rgb >> 16) > 0xE0 && (rgb & 255) < 0xD8 && (rgb & 255) > 0x90;
+}
+
+static bool is_accent(uint32_t rgb) {
+    return (rgb >> 16) > 0xA0 && (rgb >> 8 & 255) < 0x90 && (rgb & 255) < 0x80;
+}
+
+static void closed_features_are_filled_with_their_holes_left_out_and_lines_are_not(void **state) {
+    (void)state;
+    froe_tree *tree = tree_of(features(1, 0), "density", 1);
+    froe_draw_options o = bare(200, 0, 0, 20, 20);
+    image_bytes png = picture_of(tree, FROE_DRAW_PNG, &o);
+    cairo_surface_t *image = image_of(png);
+    assert_true(is_land(pixel(image, 10, 190)));   /* 1, 1: within the ring */
+    assert_false(is_land(pixel(image, 40, 160)));  /* 4, 4: in its hole */
+    assert_false(is_land(pixel(image, 140, 180))); /* 14, 2: under the bent line */
+    assert_false(is_land(pixel(image, 100, 50)));
+    cairo_surface_destroy(image);
+    free(png.bytes);
+    o = bare(200, 1, 1, 4, 4); /* the ring goes around the window; the hole reaches into it */
+    png = picture_of(tree, FROE_DRAW_PNG, &o);
+    image = image_of(png);
+    assert_true(is_land(pixel(image, 20, 180)) && is_land(pixel(image, 180, 180)));
+    assert_false(is_land(pixel(image, 180, 20)));
+    cairo_surface_destroy(image);
+    free(png.bytes);
+    froe_tree_free(tree);
+}
+
+static size_t count_of(const char *text, const char *word) {
+    size_t count = 0;
+    for (; (text = strstr(text, word)) != NULL; text += strlen(word)) count++;
+    return count;
+}
+
+static void no_line_is_drawn_that_is_no_object(void **state) {
+    (void)state;
+    froe_scene *scene = scene_of(2);
+    add(scene, FROE_SEGMENT, 1, (const double[]){0, 0, 1, 1}, NULL, NULL);
+    froe_tree *tree = tree_of(scene, "density", 1);
+    froe_draw_options o = froe_draw_defaults();
+    o.legend = false;
+    o.show = FROE_DRAW_OBJECTS;
+    image_bytes svg = picture_of(tree, FROE_DRAW_SVG, &o);
+    assert_int_equal(count_of(svg.bytes, "stroke:rgb"), 1);
+    free(svg.bytes);
+    froe_tree_free(tree);
+}
+
+/* At 60 degrees a degree of longitude is half as long as one of latitude. */
+static void degrees_of_longitude_are_shorter_away_from_the_equator(void **state) {
+    (void)state;
+    for (int geographic = 0; geographic < 2; geographic++) {
+        froe_scene *scene = features(1, 0);
+        const froe_crs crs = {.kind = FROE_CRS_GEOGRAPHIC, .name = "WGS 84", .wkt = "", .code = "", .unit = "degree"};
+        if (geographic) assert_int_equal(froe_scene_set_crs(scene, &crs), FROE_OK);
+        froe_tree *tree = tree_of(scene, "density", 1);
+        const froe_draw_options o = bare(200, 0, 55, 10, 65);
+        image_bytes png = picture_of(tree, FROE_DRAW_PNG, &o);
+        cairo_surface_t *image = image_of(png);
+        assert_int_equal(cairo_image_surface_get_height(image), geographic ? 400 : 200);
+        cairo_surface_destroy(image);
+        free(png.bytes);
+        froe_draw_options whole = froe_draw_defaults(); /* numbers of axes and the scale bar */
+        image_bytes svg = picture_of(tree, FROE_DRAW_SVG, &whole);
+        assert_null(strstr(svg.bytes, "nan"));
+        free(svg.bytes);
+        froe_tree_free(tree);
+    }
+}
+
+static void marks_and_accented_objects_are_seen(void **state) {
+    (void)state;
+    froe_tree *tree = tree_of(features(1, 0), "density", 1);
+    froe_draw_options o = bare(200, 0, 0, 20, 20);
+    const froe_draw_mark marks[] = {{.lo = {12, 15}, .hi = {12, 15}, .kind = FROE_DRAW_MARK_LINE, .label = "Here"},
+                                    {.lo = {2, 16}, .hi = {8, 16}, .kind = FROE_DRAW_MARK_LINE},
+                                    {.lo = {16, 10}, .hi = {18, 12}, .kind = FROE_DRAW_MARK_BOX}};
+    const uint32_t accented[] = {9, 4000000000u};
+    o.marks = marks, o.mark_count = 3;
+    o.accented = accented, o.accented_count = 2;
+    o.scale = 4;
+    image_bytes png = picture_of(tree, FROE_DRAW_PNG, &o);
+    cairo_surface_t *image = image_of(png);
+    assert_true(is_accent(pixel(image, 480, 200)));  /* the dot */
+    assert_true(is_accent(pixel(image, 320, 160)));  /* the end of the line */
+    assert_true(is_accent(pixel(image, 640, 360)));  /* the edge of the box */
+    assert_true(is_accent(pixel(image, 640, 640)));  /* object 9, from 14, 8 to 18, 0, in its middle 16, 4 */
+    assert_false(is_accent(pixel(image, 480, 640))); /* object 8 in its middle 12, 4 */
+    int dark = 0;
+    for (int x = 500; x < 640; x++)
+        for (int y = 180; y < 220; y++) dark += lightness(pixel(image, x, y)) < 250;
+    assert_true(dark > 40); /* the label */
+    cairo_surface_destroy(image);
+    free(png.bytes);
+    froe_tree_free(tree);
+}
+
+static void the_small_map_shows_where_a_window_is(void **state) {
+    (void)state;
+    froe_tree *tree = tree_of(features(1, 0), "density", 1);
+    froe_draw_options o = bare(400, 8.2, 0, 9.8, 1.6); /* nothing is in the window */
+    o.scale = 4;
+    for (int locator = 0; locator < 2; locator++) {
+        o.locator = locator;
+        image_bytes png = picture_of(tree, FROE_DRAW_PNG, &o);
+        cairo_surface_t *image = image_of(png);
+        int accents = 0;
+        for (int x = 800; x < 1600; x++)
+            for (int y = 0; y < 800; y++) accents += is_accent(pixel(image, x, y));
+        if (locator ? accents <= 40 : accents > 0) fail_msg("%d pixels in the accent colour", accents);
+        cairo_surface_destroy(image);
+        free(png.bytes);
+    }
+    froe_tree_free(tree);
+}
+
+static froe_status draw_map(void *user, const froe_allocator *alloc) {
+    static const froe_draw_mark marks[] = {{.lo = {1, 1}, .hi = {1, 1}, .kind = FROE_DRAW_MARK_LINE, .label = "a"},
+                                           {.lo = {1, 2}, .hi = {1, 2}, .kind = FROE_DRAW_MARK_LINE, .label = "b"}};
+    froe_draw_options o = bare(200, 0, 0, 9, 9);
+    o.marks = marks, o.mark_count = 2, o.locator = true, o.legend = true, o.alloc = alloc;
+    return froe_draw(user, "map.svg", &o, NULL);
+}
+
+static void every_allocation_may_fail(void **state) {
+    (void)state;
+    froe_tree *tree = tree_of(features(1, 0), "density", 1);
+    assert_true(test_memory_each(draw_map, tree) > 10);
+    froe_tree_free(tree);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(closed_features_are_filled_with_their_holes_left_out_and_lines_are_not),
+        cmocka_unit_test(no_line_is_drawn_that_is_no_object),
+        cmocka_unit_test(degrees_of_longitude_are_shorter_away_from_the_equator),
+        cmocka_unit_test(marks_and_accented_objects_are_seen),
+        cmocka_unit_test(the_small_map_shows_where_a_window_is),
+        cmocka_unit_test(every_allocation_may_fail),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
