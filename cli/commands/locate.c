@@ -119,7 +119,8 @@ const cli_command cli_command_locate = {
         "all groups whose border it is; features that are lines contain only their own points. With --above or "
         "--below, one line query,object for each point that has a segment there. Objects are closed, and answers are "
         "exact. A query's number is that of its row, from 0.\n\n"
-        "With --columns, each line has what is named there: query, object, group, name, id, " CLI_COLUMNS_ABOUT
+        "With --columns, each line has the columns that are named there. The command has query, object, group, name "
+        "and id. " CLI_COLUMNS_ABOUT
         "With --json a summary takes the place of the answers: how many there are, and what was visited for them.",
     .examples =
         "froe locate countries.geojson --queries towns.csv --groups\nfroe locate house.glb --queries sensors.csv\n"

@@ -64,13 +64,13 @@ static int run_near(const void *given) {
 const cli_command cli_command_near = {
     .name = "near",
     .summary = "find the objects nearest to points",
-    .about =
-        "Prints one line query,object,distance for each of the K objects nearest to a point, nearest first; equal "
-        "distances by object. Distances are compared exactly, and printed as the doubles nearest to them; 0 means "
-        "that the point is in the object. A query's number is that of its row, from 0.\n\n"
-        "With --columns, each line has what is named there: query, object, group, name, id, distance and point (of "
-        "the object, the nearest one), " CLI_COLUMNS_ABOUT
-        "With --json a summary takes the place of the answers: how many there are, and what was visited for them.",
+    .about = "Prints one line query,object,distance for each of the K objects nearest to a point, nearest first; equal "
+             "distances by object. Distances are compared exactly, and printed as the doubles nearest to them; 0 means "
+             "that the point is in the object. A query's number is that of its row, from 0.\n\n"
+             "With --columns, each line has the columns that are named there. The command has query, object, group, "
+             "name, id, distance and point (of "
+             "the object, the nearest one). " CLI_COLUMNS_ABOUT
+             "With --json a summary takes the place of the answers: how many there are, and what was visited for them.",
     .examples = "froe near map.geojson --queries towns.csv -k 3\nfroe near house.glb --queries lamps.csv --within 0.5\n"
                 "froe near roads.gpkg --queries towns.csv --columns '*,name,distance,point' --format geojson\n",
     .parts = parts,

@@ -112,7 +112,8 @@ const cli_command cli_command_pairs = {
         "Prints one line a,b,kind for each pair of objects that have a point in common, a < b, by a, then b. They "
         "cross when their relative interiors meet in less than the dimension of either, overlap when they share a "
         "piece of the dimension of the lower one, and touch when they meet otherwise. All of it is decided exactly. "
-        "With --columns, each line has what is named there: a, b, kind, and of the two objects a_group, a_name, "
+        "With --columns, each line has the columns that are named there: a, b, kind, and of the two objects a_group, "
+        "a_name, "
         "a_id, b_group, b_name and b_id.",
     .examples = "froe pairs floor.geojson --no-corners\nfroe pairs house.glb --count\n",
     .parts = parts,

@@ -132,7 +132,8 @@ const cli_command cli_command_range = {
         "ball x,y,r; capsule ax,ay,bx,by,r; segment ax,ay,bx,by; ray ox,oy,dx,dy. Of simplex and hull, query,x,y, "
         "each row is a corner; of halfspaces, query,nx,ny,c, each row is a halfspace n . x <= c; rows of one query "
         "follow each other.\n\n"
-        "With --columns, each line has what is named there: query, object, group, name, id, " CLI_COLUMNS_ABOUT
+        "With --columns, each line has the columns that are named there. The command has query, object, group, name "
+        "and id. " CLI_COLUMNS_ABOUT
         "With --json a summary takes the place of the answers: how many there are, and what was visited for them.",
     .examples = "froe range floor.geojson --queries windows.csv\n"
                 "froe range floor.geojson --queries discs.csv --shape ball --count\n",

@@ -90,8 +90,9 @@ const cli_command cli_command_ray = {
         "direction; of several met at the same point, the one with the lowest number. With --all one line for each "
         "object met, by t, then object. Objects are closed, the order is decided exactly, and t is the double "
         "nearest to the exact parameter. A query's number is that of its row, from 0.\n\n"
-        "With --columns, each line has what is named there: query, object, group, name, id, t, distance, point "
-        "(where it is met) and normal (of length 1, of the face that is met), " CLI_COLUMNS_ABOUT
+        "With --columns, each line has the columns that are named there. The command has query, object, group, name, "
+        "id, t, distance, point "
+        "(where it is met) and normal (of length 1, of the face that is met). " CLI_COLUMNS_ABOUT
         "With --json a summary takes the place of the answers: how many there are, and what was visited for them.",
     .examples = "froe ray house.glb --queries sight.csv\nfroe ray floor.geojson --queries beams.csv --all --t-max 1\n",
     .parts = parts,

@@ -35,9 +35,9 @@ typedef struct cli_table_args {
 extern const cli_option cli_table_options[];
 /** What --columns takes beside the columns of a command, for its `about`. */
 #define CLI_COLUMNS_ABOUT                                                                                              \
-    "and columns of the CSV by their names, or behind query_ where the command has a column of that name. group is "   \
-    "the group of the object, name its name, and id the number that the feature has in its file, or tag of a "         \
-    "CSV.\n\n"
+    "A column of the CSV is named as there, or with query_ before its name where the command has a column of that "    \
+    "name. group is the group of the object, and name is its name. id is the number of the feature in its file, or "   \
+    "the tag of a CSV.\n\n"
 #define CLI_TABLE_DEFAULTS                                                                                             \
     { .format = -1 }
 
