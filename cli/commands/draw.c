@@ -126,6 +126,7 @@ static int set_options(const draw_args *args, const cli_draw *library, size_t di
     int code = set_show(library, args->show, &o->show);
     if (!code) code = cli_set_background(args->background, &o->background);
     if (!code) code = set_section(args->section, o);
+    if (!code) code = cli_check_text("title", args->title);
     if (code) return code;
     if (window->count && window->count != 2 * dim) return cli_fail_count("window", window->count, 2 * dim);
     for (size_t k = 0; window->count && k < dim; k++) {

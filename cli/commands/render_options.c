@@ -24,6 +24,9 @@ static int set_size(const char *text, froe_render_options *o) {
     const bool mm = strcmp(end, "mm") == 0;
     if (!times || end == second || (*end && !mm))
         return cli_fail(CLI_USE, NULL, "--size: '%s' is not like 1000x800 or 160x120mm.", text);
+    const double least = fmin(o->camera.width, o->camera.height), most = fmax(o->camera.width, o->camera.height);
+    if (!(least >= 1 && most <= 32000))
+        return cli_fail(CLI_USE, NULL, "--size: '%s' is not between 1x1 and 32000x32000.", text);
     if (mm && !o->millimetres) set_widths(o, 0.2);
     o->millimetres = mm;
     return 0;
@@ -59,8 +62,11 @@ static int set_camera(const render_args *args, const froe_scene *scene, froe_cam
     if (args->section.count) c->section = args->section.at;
     if (args->parallel || args->direction > 0) c->parallel = true;
     cli_set_number(args->fov, &c->fov);
-    c->margin = c->width / 50;
+    c->margin = fmin(c->width / 50, c->height / 4);
     cli_set_number(args->margin, &c->margin);
+    if (!(c->margin >= 0 && 2 * c->margin < fmin(c->width, c->height)))
+        return cli_fail(CLI_USE, NULL, "--margin: '%g' leaves nothing of a page of %g x %g.", c->margin, c->width,
+                        c->height);
     return 0;
 }
 
@@ -142,6 +148,31 @@ int render_set_groups(const char *option, const char *list, const froe_scene *sc
     return 0;
 }
 
+/* What else the library would refuse, by the names that options have here. */
+static int check_values(const render_args *args) {
+    const cli_range ranges[] = {{"fov", args->fov, 1, 170},
+                                {"crease", args->crease, 0, 180},
+                                {"halo", args->halo, 0, 1e6},
+                                {"line-width", args->line_width, 0, 1e6},
+                                {"point-width", args->point_width, 0, 1e6},
+                                {"seam-width", args->seam_width, 0, 1e6},
+                                {"min-area", args->min_area, 0, 1e18},
+                                {"pixels", args->pixels, 0.1, 64},
+                                {"seconds", args->seconds, 1e-3, 1e6}};
+    int code = cli_check_ranges(ranges, sizeof ranges / sizeof *ranges);
+    if (!code) code = cli_check_text("title", args->title);
+    return code ? code : cli_check_text("desc", args->description);
+}
+
+/* A PNG has up to 32,000 pixels a side. */
+static int check_pixels(const char *path, const froe_render_options *o) {
+    const double width = o->camera.width * o->pixels, height = o->camera.height * o->pixels;
+    if (strcmp(support_path_extension(path).text, "png") != 0 || fmax(width, height) <= 32000) return 0;
+    return cli_fail(CLI_USE, NULL,
+                    "--pixels: With '%g' the picture has %g x %g pixels. A side of at most 32000 is possible.",
+                    o->pixels, width, height);
+}
+
 /* Lines as data are kept apart by object unless something else is said. */
 static bool is_data(const char *path) {
     const support_extension extension = support_path_extension(path);
@@ -165,7 +196,8 @@ int render_set_options(const render_args *args, const froe_scene *scene, froe_re
         set_widths(o, 0.2);
         o->decimals = 3;
     }
-    int code = set_size(args->size, o);
+    int code = check_values(args);
+    if (!code) code = set_size(args->size, o);
     if (!code) code = set_camera(args, scene, &o->camera);
     if (!code) code = set_scale(args, o);
     if (!code) code = set_style(args->shading, o);
@@ -192,5 +224,5 @@ int render_set_options(const render_args *args, const froe_scene *scene, froe_re
     if (o->line_width > 0) set_preset_styles(args->preset, o->line_width, styles);
     if (!code) code = render_add_styles(args->line_style, styles);
     o->line_styles = styles->at, o->line_style_count = styles->count;
-    return code;
+    return code ? code : check_pixels(args->output.path, o);
 }

@@ -142,8 +142,8 @@ typedef enum froe_render_format {
 
 /** The polygons, segments and points of a tree in space as a picture with hidden surfaces removed, exactly: see
  * froe_picture_new(). `path` ends in .svg, .pdf, .eps, .csv or .geojson and appears whole or not at all. `options`
- * NULL: the defaults; `report` may be NULL. FROE_E_OPTIONS: a value out of range, a title or description of a PDF that
- * is not UTF-8, or EPS with an opacity below 1, which EPS does not have. FROE_E_UNSUPPORTED: `path` ends in .png or
+ * NULL: the defaults; `report` may be NULL. FROE_E_OPTIONS: a value out of range, a title or description that is
+ * not UTF-8, or EPS with an opacity below 1, which EPS does not have. FROE_E_UNSUPPORTED: `path` ends in .png or
  * .dxf, which froe_render_png() of froe/draw.h and froe_render_dxf() of froe/io.h make. FROE_E_IO: the directory or
  * disk does not take it. Otherwise as froe_camera_place(), froe_picture_new(). */
 FROE_API froe_status froe_render(const froe_tree *tree, const char *path, const froe_render_options *options,
