@@ -1,6 +1,7 @@
 /* exit.c: statuses to exit codes, in one table, and error messages. */
 #include "exit.h"
 #include "support/fail.h"
+#include <ctype.h>
 #include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -68,8 +69,8 @@ int cli_fail_status(cli_stage stage, const char *file, froe_status status, const
         const size_t length = strlen(end);
         if (strncmp(sentence, end, length) == 0 && strncmp(sentence + length, ": ", 2) == 0) sentence += length + 2;
     }
-    /* The sentence may name the object already, as such or as "segment 17: ". A row of a CSV file is an object. */
-    bool named = strncmp(sentence, "row ", 4) == 0 || strstr(sentence, "object ") != NULL;
+    /* The sentence may name the object already, as such or as "segment 17: ". A reader names a row or a feature. */
+    bool named = strstr(sentence, "object ") || (stage == CLI_READING && islower((unsigned char)*sentence));
     for (int kind = 0; kind < FROE_KIND_COUNT; kind++) {
         const char *name = froe_kind_name((froe_kind)kind);
         const size_t length = strlen(name);

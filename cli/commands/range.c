@@ -100,6 +100,7 @@ static froe_status answer_range(const void *given, const cli_asked *asked, const
     } else {
         status = support_fail_memory(diag);
     }
+    if (status == FROE_E_UNSUPPORTED) status = diag->status = FROE_E_INPUT; /* of the query, which is to be named */
     if (!status) cli_table_put_lists(out, &answers, args->query.count);
     froe_answers_free(&answers);
     free(ranges), free(normals), free(offsets);

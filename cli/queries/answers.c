@@ -150,7 +150,6 @@ void cli_answers_open(cli_answers *out, cli_format format, bool mute, const char
     out->columns = columns;
     out->length = out->column = 0;
     out->rows = 0;
-    if (format == CLI_GEOJSON) cli_answers_put(out, "{\"type\":\"FeatureCollection\",\"features\":[\n");
     for (size_t i = 0; i < columns && format == CLI_CSV; i++) {
         put_csv(out, names[i]);
         put(out, i + 1 < columns ? ',' : '\n');
@@ -162,7 +161,7 @@ void cli_answers_begin(cli_answers *out) {
     if (out->format == CLI_JSONL) put(out, '{');
     if (out->format == CLI_GEOJSON)
         cli_answers_put(out,
-                        out->rows ? ",\n{\"type\":\"Feature\",\"geometry\":" : "{\"type\":\"Feature\",\"geometry\":");
+                        out->rows ? ",\n{\"type\":\"Feature\",\"geometry\":" : "\n{\"type\":\"Feature\",\"geometry\":");
 }
 
 void cli_answers_end(cli_answers *out) {
@@ -174,6 +173,6 @@ void cli_answers_end(cli_answers *out) {
 }
 
 void cli_answers_close(cli_answers *out) {
-    if (out->format == CLI_GEOJSON) cli_answers_put(out, out->rows ? "\n]}\n" : "]}\n");
+    if (out->format == CLI_GEOJSON) cli_answers_put(out, "\n]}\n");
     flush_answers(out);
 }

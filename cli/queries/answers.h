@@ -5,7 +5,8 @@
  *     cli_answers_close(&out);
  *
  * In GeoJSON a row is a feature: its geometry is written between cli_answers_begin() and the first cell, by
- * cli_answers_put(), and cells are its properties. */
+ * cli_answers_put(), and cells are its properties. The collection begins with what cli_answers_put() wrote before the
+ * first row. */
 #ifndef FROE_CLI_ANSWERS_H
 #define FROE_CLI_ANSWERS_H
 #include <stdbool.h>

@@ -3,6 +3,7 @@
 #include "exit.h"
 #include "queries/geometry.h"
 #include "report/report.h"
+#include "support/geojson.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -29,6 +30,10 @@ int cli_table_open(const cli_common *common, const cli_table_args *args, const c
                         args->columns ? "columns" : "format");
     if (format == CLI_GEOJSON && dim > 3)
         return cli_fail(CLI_USE, NULL, "--format: GeoJSON has at most 3 dimensions, and the scene has %d.", dim);
+    const froe_crs crs = froe_scene_crs(scene);
+    if (format == CLI_GEOJSON && !support_geojson_names(&crs))
+        return cli_fail(CLI_USE, NULL,
+                        "--format: GeoJSON cannot name the coordinate system '%s', because it has no code.", crs.name);
     const int code = cli_columns_open(args->columns, kind->standard, kind->known, rows, dim, &out->columns);
     if (code) return code;
     const bool point = cli_columns_show(&out->columns, CLI_FIELD_POINT);
@@ -37,6 +42,7 @@ int cli_table_open(const cli_common *common, const cli_table_args *args, const c
     out->hit = out->shape == CLI_SHAPE_HIT || (point && ray) || cli_columns_show(&out->columns, CLI_FIELD_NORMAL) ||
                (cli_columns_show(&out->columns, CLI_FIELD_DISTANCE) && ray);
     cli_answers_open(&out->out, format, common->json, out->columns.names, out->columns.count);
+    if (format == CLI_GEOJSON) cli_answers_put(&out->out, support_geojson_begin(&crs).text);
     return 0;
 }
 

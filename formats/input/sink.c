@@ -68,10 +68,11 @@ static froe_status flush(formats_sink *sink) {
     froe_diagnostic why = {.message = ""};
     froe_status status = froe_scene_add(sink->scene, &batch, &why);
     if (status) {
-        size_t first = sink->total - sink->count;
-        support_fail(sink->diag, status, "%s: objects from %zu: %s", support_short(sink->path), first, why.message);
-        if (sink->diag) sink->diag->object = why.object, sink->diag->corner = why.corner, sink->diag->axis = why.axis;
-        return status;
+        const char *path = support_short(sink->path), *colon = strstr(why.message, ": ");
+        if (why.object == FROE_NONE || !colon) return support_fail(sink->diag, status, "%s: %s", path, why.message);
+        const size_t object = sink->total - sink->count + why.object; /* "ball 1: ..." counts within the batch */
+        return support_fail_at(sink->diag, status, (uint32_t)object, why.corner, why.axis, "%s: object %zu: %s", path,
+                               object, colon + 2);
     }
     sink->coords.count = sink->radii.count = sink->starts.count = 0;
     sink->object_faces.count = sink->groups.count = sink->tags.count = 0;
@@ -260,6 +261,9 @@ froe_status formats_sink_ball(formats_sink *sink, const double *centre, double r
     if (status) return status;
     if (!(radius >= 0) || !isfinite(radius))
         return formats_sink_fail(sink, FROE_E_INPUT, "Its radius is %.17g, not a finite number >= 0.", radius);
+    for (int k = 0; k < sink->dim; ++k)
+        if (isinf(nextafter(centre[k] - radius, -INFINITY)) || isinf(nextafter(centre[k] + radius, INFINITY)))
+            return formats_sink_fail(sink, FROE_E_INPUT, "It reaches beyond the range of doubles.");
     if (sink->boxes) { /* one unit in the last place outwards, so that the box contains the ball */
         double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
         for (int k = 0; k < sink->dim; ++k) {

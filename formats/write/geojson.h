@@ -1,7 +1,4 @@
-/* geojson.h: how a GeoJSON file begins, and which coordinate system it is in.
- *
- * RFC 7946 knows longitudes and latitudes of WGS 84 alone. The specification of 2008, which GDAL and QGIS follow where
- * they have to, has a member `crs` for other systems, by their codes; null says that nothing is known. */
+/* geojson.h: how a GeoJSON file of a scene begins and ends (support/geojson.h). */
 #ifndef FROE_FORMATS_GEOJSON_H
 #define FROE_FORMATS_GEOJSON_H
 
