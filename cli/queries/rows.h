@@ -7,11 +7,11 @@
  *     cli_rows_close(&rows);
  *
  * The header line names the columns, in any order, and columns of other names beside them; an axis more than the tree
- * has is refused. What separates fields, what may stand in them, and how axes may be called: support/csv.h. Empty lines
- * do not count as rows. */
+ * has is refused. What separates fields, what may stand in them, and how axes may be called: support/text/csv.h. Empty
+ * lines do not count as rows. */
 #ifndef FROE_CLI_ROWS_H
 #define FROE_CLI_ROWS_H
-#include "support/csv.h"
+#include "support/text/csv.h"
 #include <froe/froe.h>
 #include <stdio.h>
 

@@ -3,7 +3,7 @@
 #include "exit.h"
 #include "queries/geometry.h"
 #include "report/report.h"
-#include "support/geojson.h"
+#include "support/text/geojson.h"
 #include <stdlib.h>
 #include <string.h>
 

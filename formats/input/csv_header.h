@@ -3,7 +3,7 @@
 #ifndef FROE_FORMATS_CSV_HEADER_H
 #define FROE_FORMATS_CSV_HEADER_H
 #include "formats/input/source.h"
-#include "support/csv.h"
+#include "support/text/csv.h"
 
 /** What a column holds. Corner c (0, or 1 for hi_ and to_) of axis a is c * FROE_MAX_DIM + a. */
 enum {

@@ -68,11 +68,12 @@ static froe_status flush(formats_sink *sink) {
     froe_diagnostic why = {.message = ""};
     froe_status status = froe_scene_add(sink->scene, &batch, &why);
     if (status) {
-        const char *path = support_short(sink->path), *colon = strstr(why.message, ": ");
-        if (why.object == FROE_NONE || !colon) return support_fail(sink->diag, status, "%s: %s", path, why.message);
-        const size_t object = sink->total - sink->count + why.object; /* "ball 1: ..." counts within the batch */
+        const char *path = support_short(sink->path), *sentence = strstr(why.message, ": ");
+        if (why.object == FROE_NONE || !sentence) return support_fail(sink->diag, status, "%s: %s", path, why.message);
+        const size_t object = sink->total - sink->count + why.object;
+        sentence += 2; /* behind "ball 1: ", which counts within the batch */
         return support_fail_at(sink->diag, status, (uint32_t)object, why.corner, why.axis, "%s: object %zu: %s", path,
-                               object, colon + 2);
+                               object, sentence);
     }
     sink->coords.count = sink->radii.count = sink->starts.count = 0;
     sink->object_faces.count = sink->groups.count = sink->tags.count = 0;

@@ -1,6 +1,6 @@
 /* geojson.c: see geojson.h. */
 #include "formats/write/geojson.h"
-#include "support/geojson.h"
+#include "support/text/geojson.h"
 
 froe_status formats_geojson_check(const froe_scene *scene, const char *path, froe_diagnostic *diag) {
     const froe_crs crs = froe_scene_crs(scene);

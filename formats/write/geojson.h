@@ -1,4 +1,4 @@
-/* geojson.h: how a GeoJSON file of a scene begins and ends (support/geojson.h). */
+/* geojson.h: how a GeoJSON file of a scene begins and ends (support/text/geojson.h). */
 #ifndef FROE_FORMATS_GEOJSON_H
 #define FROE_FORMATS_GEOJSON_H
 

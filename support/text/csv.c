@@ -1,5 +1,5 @@
 /* csv.c: see csv.h. */
-#include "support/csv.h"
+#include "support/text/csv.h"
 #include "support/decimal/decimal.h"
 #include "support/path.h"
 #include <stdio.h>

@@ -5,8 +5,8 @@
  *                                numbers may have decimal commas where semicolons separate
  *
  * Fields are read in place: a text is changed while it is read. */
-#ifndef FROE_SUPPORT_CSV_H
-#define FROE_SUPPORT_CSV_H
+#ifndef FROE_SUPPORT_TEXT_CSV_H
+#define FROE_SUPPORT_TEXT_CSV_H
 #include <stdbool.h>
 #include <stddef.h>
 

@@ -2,8 +2,8 @@
  *
  * RFC 7946 knows longitudes and latitudes of WGS 84 alone. The specification of 2008, which GDAL and QGIS follow where
  * they have to, has a member `crs` for other systems, by their codes; null says that nothing is known. */
-#ifndef FROE_SUPPORT_GEOJSON_H
-#define FROE_SUPPORT_GEOJSON_H
+#ifndef FROE_SUPPORT_TEXT_GEOJSON_H
+#define FROE_SUPPORT_TEXT_GEOJSON_H
 #include <froe/froe.h>
 
 /** How a collection of features begins, up to the bracket before the first. */

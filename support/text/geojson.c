@@ -1,5 +1,5 @@
 /* geojson.c: see geojson.h. */
-#include "support/geojson.h"
+#include "support/text/geojson.h"
 #include "support/escape.h"
 #include <stdio.h>
 #include <string.h>
