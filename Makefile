@@ -41,7 +41,7 @@ bench: build-bench ## froe beside other programs of Debian: docs/evidence/benchm
 	@bench/run --build $(BUILD)/bench
 
 bench-peers: build-bench ## and beside programs that have to be fetched, where they can be
-	@bench/run --build $(BUILD)/bench npm pieces pictures
+	@bench/run --build $(BUILD)/bench npm $(filter lines,$(notdir $(wildcard bench/parts/*))) pieces pictures
 
 claims: build-bench ## what the sources claim, measured: docs/evidence/claims.md
 	@$(BUILD)/bench/bin/bench_claims docs/evidence/claims.md

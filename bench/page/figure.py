@@ -3,7 +3,9 @@ import html
 import math
 
 WIDTH, RIGHT, ROW, FONT = 640, 20, 22, 14
-COLOURS = ["#2f6fdb", "#d1691c", "#2c8f57", "#9b59c6", "#b8860b", "#c8375c"]
+FROE, OTHER = "#2f6fdb", "#d1691c"
+COLOURS = {"Boost": "#2f6fdb", "Boost, segments": "#17a2b8", "CGAL": "#2c8f57", "GEOS": "#9b59c6", "plain grid": "#b8860b",
+           "Embree": "#d1691c", "nanoflann": "#c8375c"}
 STYLE = """<style>
 text{font:%dpx system-ui,sans-serif;fill:#1f2328}.small{font-size:12px;fill:#59636e}.back{fill:#fff}
 .line{stroke:#d1d9e0}.one{stroke:#1f2328;stroke-width:1.5}.slower{fill:#fbeeee}
@@ -32,7 +34,7 @@ def ratios(title, rows, less="the other program is faster", more="froe is faster
     """rows: (work, program, ratios by scene). One line each: a mark for each scene, a bar from the least to the most."""
     programs = list(dict.fromkeys(program for _, program, _ in rows))
     left = 30 + 7.4 * max(len(work) for work, _, _ in rows)
-    colour = {p: COLOURS[i % len(COLOURS)] for i, p in enumerate(programs)}
+    colour = {p: COLOURS.get(p, OTHER) for p in programs}
     low = min(0.5, min(min(r) for _, _, r in rows))
     high = max(2, max(max(r) for _, _, r in rows))
     first, last = math.floor(math.log2(low)), math.ceil(math.log2(high))
@@ -68,7 +70,7 @@ def ratios(title, rows, less="the other program is faster", more="froe is faster
 
 
 def bars(title, groups, unit):
-    """groups: (name, [(program, value)]): bars below each other; the first program, froe, is filled."""
+    """groups: (name, [(program, value)]): bars below each other."""
     count = sum(len(bars) for _, bars in groups)
     height = 50 + 18 * count + 12 * len(groups)
     most = max(v for _, bars in groups for _, v in bars)
@@ -79,8 +81,8 @@ def bars(title, groups, unit):
         for i, (program, value) in enumerate(of):
             wide = (WIDTH - left - 60) * value / most
             parts += [text(left - 6, y + 13, program, "small", "end"),
-                      '<rect x="%d" y="%g" width="%.1f" height="14" rx="2" fill="%s" opacity="%s"/>'
-                      % (left, y + 1, max(wide, 1), COLOURS[0] if program.startswith("froe") else COLOURS[1], "1"),
+                      '<rect x="%d" y="%g" width="%.1f" height="14" rx="2" fill="%s"/>'
+                      % (left, y + 1, max(wide, 1), FROE if program.startswith("froe") else OTHER),
                       text(left + wide + 6, y + 13, unit(value), "small")]
             y += 18
         y += 12

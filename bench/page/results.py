@@ -15,6 +15,11 @@ def shown(number):
     return "%.3g" % number if number >= 100 else "%.2g" % number
 
 
+def span(values):
+    low, high = shown(min(values)), shown(max(values))
+    return low if low == high else "%s\u2013%s" % (low, high)
+
+
 def quartiles(values):
     return statistics.quantiles(values, n=4, method="inclusive") if len(values) > 1 else [values[0]] * 3
 
