@@ -45,7 +45,7 @@ FROE_API void froe_motion_free(froe_motion *motion);
  * in between on a straight line at constant speed, or, where controls[2 i], controls[2 i + 1] is not NaN, on
  * the parabola with that control point (Bezier's form):
  *     p(t) = ((t1-t)^2 p0 + 2 (t1-t)(t-t0) c + (t-t0)^2 p1) / (t1-t0)^2
- * so a body that starts at p0 with speed s has c = p0 + s (t1-t0) / 2. A vertex with one time stands still for ever.
+ * so a body that starts at p0 with speed s has c = p0 + s (t1-t0) / 2. A vertex with one time never moves.
  * Segment j joins the vertices vertices[2 j] and vertices[2 j + 1] of the batch; segments may share vertices. */
 typedef struct froe_moving {
     size_t size;              /**< set by froe_moving_defaults() */
@@ -149,8 +149,8 @@ FROE_API froe_status froe_motion_contacts(const froe_motion *motion, const froe_
 /* --------------------------------------------------------------- partition -- */
 
 /** A cylindrical partition of a motion (Agarwal, Erickson and Guibas, "Kinetic BSPs for intersecting segments and
- * disjoint triangles", SODA 1998) that is kept right while time goes on: at each tick it stands at it is, node for
- * node, what the builder `cylindrical` would make of the same segments in the same order. */
+ * disjoint triangles", SODA 1998) that is kept right while time goes on. At the tick that it has reached, it has exactly
+ * the nodes that the builder `cylindrical` would make of the same segments in the same order. */
 typedef struct froe_kinetic froe_kinetic;
 
 typedef struct froe_kinetic_options {
@@ -166,8 +166,8 @@ typedef struct froe_kinetic_options {
 } froe_kinetic_options;
 FROE_API froe_kinetic_options froe_kinetic_defaults(void);
 
-/** The partition at the first odd tick of the window. The motion must outlive it; while it lives, plans are changed and
- * objects added by the functions below only. FROE_E_ARG, FROE_E_OPTIONS: the order is not one, FROE_E_MEMORY,
+/** The partition at the first odd tick of the window. The motion must outlive it. Until it is freed, plans are changed
+ * and objects added by the functions below only. FROE_E_ARG, FROE_E_OPTIONS: the order is not one, FROE_E_MEMORY,
  * FROE_E_CANCELLED.
  * Expected O(n log^2 n + k log n) for n segments with k crossings. */
 FROE_API froe_status froe_kinetic_new(froe_motion *motion, const froe_kinetic_options *options,
@@ -210,8 +210,8 @@ typedef bool froe_event_fn(void *user, const froe_event *event);
 
 /** Lets time go on to `time`, rounded up to an odd tick, and keeps the partition right; `visit` (may be NULL) is called
  * for each event. FROE_E_ARG: the time is before the present or after the window. FROE_E_MEMORY: call again, or free
- * it. FROE_E_CANCELLED: `visit` returned false, and the partition stands right after the event; or the progress
- * function did, and it stands somewhere in between. Expected polylogarithmic in n for each event, if the motion does
+ * it. FROE_E_CANCELLED: `visit` returned false, and the partition is that right after the event; or the
+ * progress function did, and it is that of some moment before `time`. Expected polylogarithmic in n for each event, if the motion does
  * not depend on the order, and no coordinate is beyond 2^480: then the partition is made anew for each. */
 FROE_API froe_status froe_kinetic_advance(froe_kinetic *kinetic, double time, froe_event_fn *visit, void *user,
                                           froe_diagnostic *diag);
@@ -220,7 +220,7 @@ FROE_API froe_status froe_kinetic_advance(froe_kinetic *kinetic, double time, fr
  * more than the ticks before and after. Certain: out[0] <= true time <= out[1]. FROE_E_ARG: there is no event. Some 30
  * microseconds. */
 FROE_API froe_status froe_kinetic_instant(froe_kinetic *kinetic, double out[2], froe_diagnostic *diag);
-/** The time of the tick at which it stands. */
+/** The time of the tick that the partition has reached. */
 FROE_API double froe_kinetic_time(const froe_kinetic *kinetic);
 /** The time of the tick of the next event at the earliest; INFINITY: nothing happens in the rest of the window. */
 FROE_API double froe_kinetic_next(const froe_kinetic *kinetic);
@@ -235,9 +235,9 @@ FROE_API froe_status froe_kinetic_replan(froe_kinetic *kinetic, uint32_t vertex,
 /** Takes an object out, for good. FROE_E_ARG: there is no such object. */
 FROE_API froe_status froe_kinetic_remove(froe_kinetic *kinetic, uint32_t object, froe_diagnostic *diag);
 
-/* Questions about the present. The partition stands just after its tick, and so do the segments that are asked about:
+/* Questions about the present. The partition is that just after its tick, and so are the segments in answers:
  * where they are at the tick, and an infinitesimal while later. So what touches at the tick alone, because it is about
- * to part or to cross, is told apart as it is afterwards. The points of a question stand still. Only `on` is about the
+ * to part or to cross, is told apart as it is afterwards. The points of a question do not move. Only `on` is about the
  * tick itself. Of segments that lie in one line where they overlap, the first in the order of cuts
  * is the answer. Segments without length are not met. Questions use memory of the partition's, so they are for one
  * thread at a time. FROE_E_ARG: a coordinate is NaN or infinite. FROE_E_MEMORY. */

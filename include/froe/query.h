@@ -13,7 +13,7 @@
  * on every tree, from every builder. Each object is reported once, in an order that depends on the tree
  * and the query alone.
  *
- * A query context holds what one thread needs to ask: stacks, marks, numbers. It grows with the
+ * A query context holds what one thread needs for queries: stacks, marks, numbers. It grows with the
  * first queries and then allocates nothing. What is prepared once for all threads (the structure
  * that locates points in deep trees, the borders of groups, the coordinates of points in the order of
  * the tree) is shared by its forks.
@@ -30,7 +30,7 @@ extern "C" {
 
 /* ----------------------------------------------------------------- context -- */
 
-/** What one thread asks with. The tree must outlive it. */
+/** What one thread needs for queries. The tree must outlive it. */
 typedef struct froe_query froe_query;
 
 /** A context for a tree, with the tree's allocator. FROE_E_MEMORY. O(1); it grows with the answers, to at
@@ -40,9 +40,9 @@ FROE_API froe_status froe_query_new(const froe_tree *tree, froe_query **out, fro
 FROE_API froe_status froe_query_fork(const froe_query *query, froe_query **out, froe_diagnostic *diag);
 FROE_API void froe_query_free(froe_query *query);
 
-/** What the queries of a context have cost since it was made or last asked. */
+/** What the queries of a context have cost since it was made, or since the last call of froe_query_statistics(). */
 typedef struct froe_query_stats {
-    uint64_t queries, nodes, leaves; /**< asked; visited. A search for all pairs is one query */
+    uint64_t queries, nodes, leaves; /**< answered; visited. A search for all pairs is one query */
     uint64_t tests;                  /**< objects tested against a query; by index in space, one by one */
     uint64_t exact;                  /**< ... of these, decided by exact numbers */
     uint64_t slices;                 /**< lists reported without a test */
@@ -51,7 +51,7 @@ typedef struct froe_query_stats {
 /** Returns the counts and starts again at 0. */
 FROE_API froe_query_stats froe_query_statistics(froe_query *query);
 
-/** Objects (or groups) found. The array belongs to the context and lives until its next call. */
+/** Objects (or groups) found. The array belongs to the context and is valid until its next call. */
 typedef struct froe_list {
     const uint32_t *ids;
     size_t count;
