@@ -149,8 +149,8 @@ FROE_API froe_status froe_motion_contacts(const froe_motion *motion, const froe_
 /* --------------------------------------------------------------- partition -- */
 
 /** A cylindrical partition of a motion (Agarwal, Erickson and Guibas, "Kinetic BSPs for intersecting segments and
- * disjoint triangles", SODA 1998) that is kept right while time goes on. At the tick that it has reached, it has exactly
- * the nodes that the builder `cylindrical` would make of the same segments in the same order. */
+ * disjoint triangles", SODA 1998) that is kept right while time goes on. At the tick that it has reached, it has
+ * exactly the nodes that the builder `cylindrical` would make of the same segments in the same order. */
 typedef struct froe_kinetic froe_kinetic;
 
 typedef struct froe_kinetic_options {
@@ -210,9 +210,9 @@ typedef bool froe_event_fn(void *user, const froe_event *event);
 
 /** Lets time go on to `time`, rounded up to an odd tick, and keeps the partition right; `visit` (may be NULL) is called
  * for each event. FROE_E_ARG: the time is before the present or after the window. FROE_E_MEMORY: call again, or free
- * it. FROE_E_CANCELLED: `visit` returned false, and the partition is that right after the event; or the
- * progress function did, and it is that of some moment before `time`. Expected polylogarithmic in n for each event, if the motion does
- * not depend on the order, and no coordinate is beyond 2^480: then the partition is made anew for each. */
+ * it. FROE_E_CANCELLED: `visit` returned false, and the partition is that right after the event; or the progress
+ * function did, and it is that of some moment before `time`. Expected polylogarithmic in n for each event, if the
+ * motion does not depend on the order, and no coordinate is beyond 2^480: then the partition is made anew for each. */
 FROE_API froe_status froe_kinetic_advance(froe_kinetic *kinetic, double time, froe_event_fn *visit, void *user,
                                           froe_diagnostic *diag);
 /** For visitors, while they are called for an event: when it happened, between two doubles that are next to one another
