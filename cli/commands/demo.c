@@ -10,6 +10,7 @@
 #include "progress.h"
 #include "report/report.h"
 #include <errno.h>
+#include <fcntl.h>
 #include <froe/froe.h>
 #include <stdlib.h>
 #include <string.h>
@@ -47,19 +48,43 @@ static int make_folder(const char *path) {
 
 enum { LINE = 400, WORDS = 40, SCENES = 8 };
 
+/* Lets what the program prints go to a file from now on; *kept is where it went before. */
+static int redirect(const char *path, int *kept) {
+    fflush(stdout);
+    const int file = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    *kept = dup(STDOUT_FILENO);
+    const bool done = file >= 0 && *kept >= 0 && dup2(file, STDOUT_FILENO) >= 0;
+    if (file >= 0) close(file);
+    return done ? 0 : cli_fail_file(CLI_RESOURCES, path, "written");
+}
+
+static int restore(const char *path, int kept) {
+    const bool written = fflush(stdout) == 0;
+    const bool back = kept >= 0 && dup2(kept, STDOUT_FILENO) >= 0;
+    if (kept >= 0) close(kept);
+    return written && back ? 0 : cli_fail_file(CLI_RESOURCES, path, "written");
+}
+
 /* Runs a line as if it stood after "froe", with the demo's own seed, threads and --quiet. */
 static int run_line(const cli_common *common, const char *text, bool loud, json_t **report) {
     char line[LINE], *words[WORDS];
-    int count = 0;
-    if (snprintf(line, sizeof line, "%s --seed %llu --threads %llu%s", text, (unsigned long long)common->seed,
-                 (unsigned long long)common->threads, loud ? "" : " --quiet") >= LINE)
+    int count = 0, kept = -1;
+    const char *target = strstr(text, " >"), *file = target ? target + 2 : NULL;
+    if (snprintf(line, sizeof line, "%.*s --seed %llu --threads %llu%s", (int)(target ? target - text : LINE), text,
+                 (unsigned long long)common->seed, (unsigned long long)common->threads,
+                 loud && !file ? "" : " --quiet") >= LINE)
         return cli_fail(CLI_USE, NULL, "A line of the demo is too long.");
     for (char *rest = line, *word; count < WORDS && (word = strtok_r(rest, " ", &rest)) != NULL;) words[count++] = word;
     if (loud) printf("$ froe %s\n", text);
     const cli_command *command = cli_command_named(words[0]);
     if (!command) return cli_refuse_command(words[0]);
     *report = NULL;
-    const int code = cli_run(command, count - 1, words + 1, report);
+    int code = file ? redirect(file, &kept) : 0;
+    if (!code) code = cli_run(command, count - 1, words + 1, report);
+    if (file) {
+        const int back = restore(file, kept);
+        code = code ? code : back;
+    }
     if (loud) putchar('\n');
     return code;
 }

@@ -47,7 +47,14 @@ static int picture_of(const demo_step *step, const char **name) {
     return 0;
 }
 
-static void put_figure(FILE *out, const demo_step *step) {
+static void put_commands(FILE *out, const demo_step *first, const demo_step *last) {
+    html_command_begin(out);
+    for (; first <= last; first++) html_command(out, first->command);
+    html_command_end(out);
+}
+
+/* The figure of a picture, above the lines from `first` on that make it. */
+static void put_figure(FILE *out, const demo_step *first, const demo_step *step) {
     const char *name = NULL;
     const int length = picture_of(step, &name);
     fputs("<figure>\n<div class=\"sheet\"><picture>", out);
@@ -55,14 +62,14 @@ static void put_figure(FILE *out, const demo_step *step) {
     fprintf(out, "<img src=\"%.*s\" loading=\"lazy\" alt=\"", length, name);
     html_text(out, step->text);
     fprintf(out, "\"></picture></div>\n<figcaption>%s</figcaption>\n", step->caption);
-    html_command(out, step->command);
+    put_commands(out, first, step);
     fputs("</figure>\n", out);
 }
 
 /* The tree of one build: what it is like, how its decisions were made, and what was promised. */
 static void put_tree(FILE *out, const demo_step *step, const json_t *report) {
     fputs("<div class=\"card\">\n", out);
-    html_command(out, step->command);
+    put_commands(out, step, step);
     html_pairs(out, report, tree_fields);
     fputs("<h3>How exact decisions were made</h3>\n", out);
     html_pairs(out, report, exactness_fields);
@@ -89,28 +96,21 @@ static void put_tables(FILE *out, const demo_scene *scene, const demo_result *re
     }
 }
 
-static void put_commands(FILE *out, const demo_scene *scene) {
-    fputs("<details><summary>All commands of this section</summary>\n<pre class=\"all\">", out);
-    for (const demo_step *step = scene->steps; step->command; step++) {
-        fputs("froe ", out);
-        html_text(out, step->command);
-        fputc('\n', out);
-    }
-    fputs("</pre>\n</details>\n", out);
-}
-
 static void put_scene(FILE *out, const demo_scene *scene, const demo_result *result) {
-    int count = 0, audited = 0, shown = 0;
+    int audited = 0;
+    const demo_step *first = scene->steps;
     fputs("<section>\n", out);
     html_element(out, "h2", scene->title);
     fprintf(out, "<p>%s</p>\n<div class=\"grid\">\n", scene->text);
-    for (const demo_step *step = scene->steps; step->command; step++, count++)
-        if (step->caption) put_figure(out, step), shown++;
+    for (const demo_step *step = scene->steps; step->command; step++) {
+        audited += json_is_true(json_object_get(result->report[step - scene->steps], "ok"));
+        if (!step->caption) continue;
+        put_figure(out, first, step);
+        first = step + 1;
+    }
     fputs("</div>\n", out);
-    for (int i = 0; i < count; i++) audited += json_is_true(json_object_get(result->report[i], "ok"));
     if (audited) fprintf(out, "<p>The check of each of these %d trees passed.</p>\n", audited);
     put_tables(out, scene, result);
-    if (count > shown) put_commands(out, scene);
     if (scene->credit) html_element(out, "small", scene->credit);
     fputs("</section>\n", out);
 }

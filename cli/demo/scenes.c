@@ -5,6 +5,7 @@
 #define HOUSE_CREDIT                                                                                                   \
     "The house is FZK-Haus by the Karlsruhe Institute of Technology (KIT), Institute for Automation and Applied "      \
     "Informatics (IAI)."
+#define COUNTRIES_CREDIT "The countries are from world-atlas 2.0.2, ISC; Natural Earth, public domain."
 
 const demo_scene demo_scenes[] = {
     {
@@ -40,6 +41,38 @@ const demo_scene demo_scenes[] = {
             },
     },
     {
+        .title = "Where is this point?",
+        .text =
+            "Eleven places on a map of 177 countries: which country is each in? Answers are exact, on borders, too. "
+            "The place in the sea has none.",
+        .files = {"countries-110m.json", "towns.csv"},
+        .steps =
+            {
+                {"locate countries-110m.json --wrap --groups --queries towns.csv --columns lon,lat,town,name "
+                 ">answers.csv",
+                 NULL},
+                {"draw countries-110m.json --wrap -o answers.svg --show objects --no-legend --marks answers.csv",
+                 "The first line asks, and the second draws what was asked and answered.",
+                 "A map of the world with ten marked places and the names of their countries"},
+            },
+        .credit = COUNTRIES_CREDIT,
+    },
+    {
+        .title = "What does a ray hit?",
+        .text = "From a place in the living room, 1.4 metres above the floor, 90 rays go out in all directions. Each "
+                "ends at the first of 35,906 triangles that it meets.",
+        .files = {"sight.csv"},
+        .steps =
+            {
+                {"ray fzk-haus.glb --queries sight.csv --columns ox,oy,oz,point >hits.csv", NULL},
+                {"draw fzk-haus.glb -o hits.svg --section y=1.4 --window=-0.5,0,-10.5,12.5,3,0.5 --show objects "
+                 "--no-legend --marks hits.csv",
+                 "A section through the house, with the rays in it.",
+                 "Floor plan of the house; rays from one room end at its walls, windows and furniture"},
+            },
+        .credit = HOUSE_CREDIT,
+    },
+    {
         .title = "When do moving things meet?",
         .text = "548 cars and bicycles drive for some seconds through Bologna. froe finds every contact between them, "
                 "and the exact moments at which it begins and ends.",
@@ -62,7 +95,7 @@ const demo_scene demo_scenes[] = {
                 "space partition is a tree; it tells what is in front of what, and finds what is near a place without "
                 "looking at the rest. Cuts that divide few objects make small trees. Every tree can be checked, in "
                 "exact arithmetic.",
-        .files = {"freedoom-e1m1.geojson", "countries-110m.json"},
+        .files = {"freedoom-e1m1.geojson"},
         .steps =
             {
                 {"build freedoom-e1m1.geojson -o floor.froe", NULL},
@@ -74,7 +107,7 @@ const demo_scene demo_scenes[] = {
                 {"export floor.froe -o floor-pieces.geojson", NULL},
                 {"build countries-110m.json --wrap -o countries.froe", NULL},
                 {"check countries.froe", NULL},
-                {"draw countries.froe -o countries.svg --width 1200", "The countries of the world.",
+                {"draw countries.froe -o countries.png --scale 1.5", "The countries of the world.",
                  "A map of the world with the cells of its partition"},
                 {"build fzk-haus.glb -o house.froe", NULL},
                 {"check house.froe", NULL},
@@ -85,7 +118,7 @@ const demo_scene demo_scenes[] = {
         .methods = "freedoom-e1m1.geojson",
         .dim = 2,
         .credit = "The floor plan is that of map E1M1 of Freedoom 0.12.1, BSD-3-Clause, © Contributors to the Freedoom "
-                  "project. The countries are from world-atlas 2.0.2, ISC; Natural Earth, public domain. " HOUSE_CREDIT,
+                  "project. " COUNTRIES_CREDIT " " HOUSE_CREDIT,
     },
     {0},
 };

@@ -17,9 +17,17 @@ void html_element(FILE *out, const char *tag, const char *text) {
     fprintf(out, "</%s>\n", tag);
 }
 
+void html_command_begin(FILE *out) {
+    fputs("<div class=\"command\"><code>", out);
+}
+
 void html_command(FILE *out, const char *words) {
-    fputs("<div class=\"command\"><code>froe ", out);
+    fputs("froe ", out);
     html_text(out, words);
+    fputc('\n', out);
+}
+
+void html_command_end(FILE *out) {
     fputs("</code></div>\n", out);
 }
 

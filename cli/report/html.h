@@ -13,8 +13,11 @@ void html_end(FILE *out);
 void html_text(FILE *out, const char *text);
 /** An element that holds text only. */
 void html_element(FILE *out, const char *tag, const char *text);
-/** A command line, "froe" and these words, with a button that copies it once html_copying() has been written. */
+/** Command lines, "froe" and these words each, between a beginning and an end, with a button that copies them once
+ * html_copying() has been written. */
+void html_command_begin(FILE *out);
 void html_command(FILE *out, const char *words);
+void html_command_end(FILE *out);
 void html_copying(FILE *out);
 /** A number for reading: thousands set apart, reals with three digits; or text. */
 void html_value(FILE *out, const json_t *value);

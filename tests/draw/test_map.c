@@ -5,7 +5,7 @@
 
 /* A square ring with a square hole, of one feature, and a bent line of another. */
 static froe_scene *features(double factor, double up) {
-    static const double ring[] = {0, 0, 8, 0, 8, 0, 8, 8, 8, 8, 0, 8, 0, 8, 0, 0,
+    static const double ring[] = {0, 0, 8, 0, 8, 8, 0, 8, 8, 8, 8, 0, 0, 0, 0, 8,
                                   3, 3, 3, 5, 3, 5, 5, 5, 5, 5, 5, 3, 5, 3, 3, 3};
     static const double bent[] = {10, 0, 14, 8, 14, 8, 18, 0};
     double moved[sizeof ring / sizeof *ring];
