@@ -4,8 +4,8 @@
 #include <stdbool.h>
 
 /** A command line of froe without the leading "froe", its words parted by single blanks; what it prints may go to a
- * file, ">FILE" at its end. A picture has a caption and a text for readers who do not see it; its file is the word after
- * -o or --animate. The lines since the picture before it belong to it. */
+ * file, ">FILE" at its end. A picture has a caption and a text for readers who do not see it; its file is the word
+ * after -o or --animate. The lines since the picture before it belong to it. */
 typedef struct demo_step {
     const char *command;
     const char *caption, *text;
