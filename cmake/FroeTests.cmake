@@ -156,6 +156,7 @@ set_tests_properties(project/flags PROPERTIES ENVIRONMENT CC=${CMAKE_C_COMPILER}
 froe_test(project index ${scripts}/check-index)
 froe_test(project names ${scripts}/check-names)
 froe_test(project messages ${scripts}/check-messages)
+froe_test(project prose ${scripts}/check-prose)
 froe_test(project root ${scripts}/check-root)
 file(GLOB transcripts CONFIGURE_DEPENDS tests/project/*.test)
 foreach(transcript ${transcripts})
