@@ -12,6 +12,8 @@ froe_status froe_read(const char *path, const froe_read_options *options, froe_s
     SUPPORT_FLOATS_OWN;
     const froe_status status = formats_check_reading("froe_read", path, options, out, diag);
     if (status) return status;
-    if (froe_reads_own(path)) return froe_read_own(path, options, out, report, diag);
-    return formats_read(choose_library, io_read_ogr, path, options, out, report, diag);
+    froe_read_options o = options ? *options : froe_read_defaults();
+    if (!o.image) o.image = io_read_image;
+    if (froe_reads_own(path)) return froe_read_own(path, &o, out, report, diag);
+    return formats_read(choose_library, io_read_ogr, path, &o, out, report, diag);
 }

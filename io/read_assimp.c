@@ -2,16 +2,14 @@
  * file: no post-processing step of assimp runs, for those that weld, drop or split do
  * so within tolerances. Its coordinates are single precision; node transforms are
  * multiplied out in double. Nodes are walked with an explicit stack. */
-#include "formats/input/colour.h"
+#include "assimp_paint.h"
 #include "readers.h"
-#include <assimp/GltfMaterial.h>
 #include <assimp/cimport.h>
 #include <assimp/commonMetaData.h>
 #include <assimp/material.h>
 #include <assimp/metadata.h>
 #include <assimp/scene.h>
 #include <assimp/version.h>
-#include <math.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <string.h>
@@ -40,9 +38,12 @@ typedef struct visit {
     double parent[12];
 } visit;
 
+/* What faces of a node with a material belong to: a group, or one for each colour. */
 typedef struct material_group {
     unsigned material;
     uint32_t group;
+    struct aiString name; /* of the material */
+    formats_paint colours;
 } material_group;
 
 typedef struct model {
@@ -51,7 +52,10 @@ typedef struct model {
     ARRAY(visit) stack;
     ARRAY(double) points;         /* transformed vertices of a mesh, 3 each */
     ARRAY(double) corners;        /* of a face, 3 each */
+    ARRAY(double) places;         /* of its texture, 2 each */
     ARRAY(material_group) groups; /* of the current node */
+    ARRAY(assimp_paint) paints;   /* per material */
+    formats_images images;
     uint64_t faces, faces_done;
     bool linear; /* colours are shares of light (glTF), not of sRGB */
 } model;
@@ -60,7 +64,48 @@ static froe_status corrupt(model *w, const char *sentence) {
     return support_fail(w->sink->diag, FROE_E_FORMAT, "%s: %s", support_short(w->sink->path), sentence);
 }
 
-static froe_status add_face(model *w, const struct aiMesh *mesh, const struct aiFace *face) {
+/* What the faces of a node with a material belong to. Each name of a material is one group, or with `boxes` each node.
+ * */
+static froe_status find_material(model *w, unsigned material, material_group **out) {
+    for (size_t i = 0; i < w->groups.count; ++i)
+        if (w->groups.data[i].material == material) return *out = w->groups.data + i, FROE_OK;
+    material_group own = {.material = material, .group = FROE_NONE};
+    if (material < w->scene->mNumMaterials)
+        aiGetMaterialString(w->scene->mMaterials[material], AI_MATKEY_NAME, &own.name);
+    for (size_t i = 0; i < w->groups.count; ++i)
+        if (w->sink->boxes || !strcmp(w->groups.data[i].name.data, own.name.data)) own.group = w->groups.data[i].group;
+    if (!array_push(&w->sink->alloc, &w->groups, own)) return support_fail_memory(w->sink->diag);
+    *out = w->groups.data + w->groups.count - 1;
+    return FROE_OK;
+}
+
+/* The group of faces that have no colour of their own becomes that of the objects to come. */
+static froe_status enter_material(model *w, const struct aiNode *node, material_group *own) {
+    w->sink->group = own->group;
+    if (own->group != FROE_NONE) return FROE_OK;
+    const uint32_t colour = own->material < w->paints.count ? w->paints.data[own->material].colour : 0;
+    const froe_group group = {.name = node->mName.data, .material = own->name.data, .colour = colour};
+    const froe_status status = formats_sink_group(w->sink, &group);
+    own->group = w->sink->group;
+    return status;
+}
+
+/* The group of a face by its colour. */
+static froe_status enter_colour(model *w, const struct aiNode *node, const struct aiMesh *mesh,
+                                const struct aiFace *face, material_group *own) {
+    w->places.count = 0;
+    if (!array_reserve(&w->sink->alloc, &w->places, 2 * (size_t)face->mNumIndices))
+        return support_fail_memory(w->sink->diag);
+    const uint32_t colour =
+        assimp_paint_face(w->paints.data + own->material, mesh, face, w->corners.data, w->places.data);
+    if (!colour) return enter_material(w, node, own);
+    own->colours.name = node->mName.data;
+    own->colours.material = own->name.data;
+    return formats_paint_enter(w->sink, &own->colours, colour);
+}
+
+static froe_status add_face(model *w, const struct aiNode *node, const struct aiMesh *mesh, const struct aiFace *face,
+                            material_group *own, bool coloured) {
     w->corners.count = 0;
     for (unsigned i = 0; i < face->mNumIndices; ++i) {
         unsigned at = face->mIndices[i];
@@ -69,55 +114,13 @@ static froe_status add_face(model *w, const struct aiMesh *mesh, const struct ai
             return support_fail_memory(w->sink->diag);
     }
     if (!face->mNumIndices) return ++w->sink->report.skipped, FROE_OK;
-    return formats_sink_face(w->sink, w->corners.data, face->mNumIndices);
+    const froe_status status = coloured ? enter_colour(w, node, mesh, face, own) : enter_material(w, node, own);
+    return status ? status : formats_sink_face(w->sink, w->corners.data, face->mNumIndices);
 }
 
-static const char *material_name(model *w, unsigned index, struct aiString *name) {
-    *name = (struct aiString){.length = 0};
-    if (index < w->scene->mNumMaterials) aiGetMaterialString(w->scene->mMaterials[index], AI_MATKEY_NAME, name);
-    return name->data;
-}
-
-/* 0: there is none, or it is made up by assimp, or a picture says it. */
-static uint32_t material_colour(model *w, unsigned index) {
-    struct aiColor4D c;
-    struct aiString name;
-    if (index >= w->scene->mNumMaterials || !strcmp(material_name(w, index, &name), AI_DEFAULT_MATERIAL_NAME)) return 0;
-    const struct aiMaterial *material = w->scene->mMaterials[index];
-    if (aiGetMaterialTextureCount(material, aiTextureType_DIFFUSE) ||
-        aiGetMaterialTextureCount(material, aiTextureType_BASE_COLOR))
-        return 0;
-    if (aiGetMaterialColor(material, AI_MATKEY_BASE_COLOR, &c) &&
-        aiGetMaterialColor(material, AI_MATKEY_COLOR_DIFFUSE, &c))
-        return 0;
-    struct aiString blending = {.length = 0};
-    float opacity = 1;
-    /* aiGetMaterialFloat() is inline in the header and not in the library: without optimisation it does not link. */
-    if (aiGetMaterialString(material, AI_MATKEY_GLTF_ALPHAMODE, &blending))
-        aiGetMaterialFloatArray(material, AI_MATKEY_OPACITY, &opacity, NULL);
-    else if (!strcmp(blending.data, "BLEND")) /* in glTF only these materials are transparent */
-        opacity = c.a;
-    double rgba[4] = {c.r, c.g, c.b, opacity};
-    for (int k = 0; w->linear && k < 3; k++) /* from shares of light to sRGB (IEC 61966-2-1) */
-        rgba[k] = rgba[k] <= 0.0031308 ? 12.92 * rgba[k] : 1.055 * pow(rgba[k], 1 / 2.4) - 0.055;
-    return formats_colour(rgba);
-}
-
-/* One group for each node and name of a material, or with `boxes` for each node. */
-static froe_status enter_node_group(model *w, const struct aiNode *node, unsigned material) {
-    struct aiString name, other;
-    material_name(w, material, &name);
-    for (size_t i = 0; i < w->groups.count; ++i) {
-        const material_group *known = w->groups.data + i;
-        bool same = w->sink->boxes || known->material == material ||
-                    !strcmp(material_name(w, known->material, &other), name.data);
-        if (same) return w->sink->group = known->group, FROE_OK;
-    }
-    froe_group group = {.name = node->mName.data, .material = name.data, .colour = material_colour(w, material)};
-    froe_status status = formats_sink_group(w->sink, &group);
-    if (status) return status;
-    const material_group added = {material, w->sink->group};
-    return array_push(&w->sink->alloc, &w->groups, added) ? FROE_OK : support_fail_memory(w->sink->diag);
+static void leave_node_groups(model *w) {
+    for (size_t i = 0; i < w->groups.count; ++i) formats_paint_free(w->sink, &w->groups.data[i].colours);
+    w->groups.count = 0;
 }
 
 /* m holds the rows of a 3 x 4 matrix. A mesh without faces is a cloud of points. */
@@ -126,7 +129,10 @@ static froe_status add_mesh(model *w, const struct aiNode *node, unsigned index,
     const struct aiMesh *mesh = w->scene->mMeshes[index];
     enum { FACES_PER_REPORT = 8192 };
     const bool cloud = !mesh->mNumFaces;
-    froe_status status = enter_node_group(w, node, mesh->mMaterialIndex);
+    const bool coloured = !w->sink->boxes && mesh->mMaterialIndex < w->paints.count &&
+                          assimp_paint_varies(w->paints.data + mesh->mMaterialIndex, mesh);
+    material_group *own = NULL;
+    froe_status status = find_material(w, mesh->mMaterialIndex, &own);
     if (status) return status;
     if (!array_reserve(&w->sink->alloc, &w->points, (size_t)mesh->mNumVertices * 3))
         return support_fail_memory(w->sink->diag);
@@ -138,11 +144,22 @@ static froe_status add_mesh(model *w, const struct aiNode *node, unsigned index,
     }
     for (unsigned i = 0; i < (cloud ? mesh->mNumVertices : mesh->mNumFaces) && !status; ++i) {
         if (!cloud) w->sink->number = i;
-        status =
-            cloud ? formats_sink_point(w->sink, w->points.data + 3 * (size_t)i) : add_face(w, mesh, &mesh->mFaces[i]);
+        const struct aiFace point = {.mNumIndices = 1, .mIndices = &i};
+        status = add_face(w, node, mesh, cloud ? &point : &mesh->mFaces[i], own, coloured);
         if (status || w->faces_done++ % FACES_PER_REPORT) continue;
         const double half = w->faces ? 0.5 * (double)w->faces_done / (double)w->faces : 0.5;
         status = formats_sink_progress(w->sink, 0.5 + half); /* the import itself was the first half */
+    }
+    return status;
+}
+
+static froe_status read_paints(model *w, const char *path) {
+    const unsigned count = w->scene->mNumMaterials;
+    froe_status status =
+        array_reserve(&w->sink->alloc, &w->paints, count) ? FROE_OK : support_fail_memory(w->sink->diag);
+    for (unsigned i = 0; i < count && !status; ++i) {
+        status = assimp_paint_read(w->sink, path, w->scene, i, w->linear, &w->images, w->paints.data + i);
+        w->paints.count += !status;
     }
     return status;
 }
@@ -169,7 +186,7 @@ static froe_status walk_nodes(model *w) {
         if (node->mNumMeshes) {
             status = formats_sink_feature(w->sink, w->sink->report.features);
             w->sink->inside = node->mName.data;
-            w->groups.count = 0;
+            leave_node_groups(w);
         }
         for (unsigned i = 0; i < node->mNumMeshes && !status; ++i) status = add_mesh(w, node, node->mMeshes[i], m);
         for (unsigned i = node->mNumChildren; i-- > 0 && !status;) status = push(w, node->mChildren[i], m);
@@ -259,13 +276,18 @@ froe_status io_read_assimp(const formats_source *source, formats_sink *sink) {
     w.linear = !strncmp(sink->report.format, "glTF", 4);
     sink->unit = "face";
     sink->report.layers = 1;
-    status = scene->mRootNode ? walk_nodes(&w) : corrupt(&w, "The file has no nodes.");
+    status = read_paints(&w, source->file);
+    if (!status) status = scene->mRootNode ? walk_nodes(&w) : corrupt(&w, "The file has no nodes.");
     if (!status) status = formats_sink_end_feature(sink);
     sink->inside = NULL; /* it belongs to assimp's scene */
     array_free(&sink->alloc, &w.stack);
     array_free(&sink->alloc, &w.points);
     array_free(&sink->alloc, &w.corners);
+    leave_node_groups(&w);
     array_free(&sink->alloc, &w.groups);
+    array_free(&sink->alloc, &w.places);
+    array_free(&sink->alloc, &w.paints);
+    formats_images_free(&sink->alloc, &w.images);
     aiReleaseImport(scene);
     return status;
 }

@@ -30,12 +30,24 @@ static const char *name_of_group(const vector_render *r, uint32_t group, bool ma
     return material ? g.material : g.name;
 }
 
-/* Per group: the first with its name, or its material. */
+/* Per group: the first with its name, or its material; by a hash table, as there may be a group for each colour. */
 static uint32_t *first_of_name(const vector_render *r, bool material) {
-    const size_t groups = froe_scene_group_count(r->scene);
-    uint32_t *out = support_calloc(&r->alloc, groups, sizeof *out);
-    for (uint32_t g = 0; out && g < groups; g++)
-        while (out[g] < g && strcmp(name_of_group(r, out[g], material), name_of_group(r, g, material)) != 0) out[g]++;
+    const uint32_t groups = (uint32_t)froe_scene_group_count(r->scene);
+    size_t slots = 16;
+    while (slots < 2 * (size_t)groups) slots *= 2;
+    uint32_t *out = support_calloc(&r->alloc, groups, sizeof *out),
+             *table = support_calloc(&r->alloc, slots, sizeof *table); /* 1 more, 0: free */
+    for (uint32_t g = 0; out && table && g < groups; g++) {
+        const char *name = name_of_group(r, g, material);
+        uint32_t hash = 2166136261u; /* FNV-1a */
+        for (const char *c = name; *c; c++) hash = (hash ^ (unsigned char)*c) * 16777619u;
+        size_t at = hash & (slots - 1);
+        while (table[at] && strcmp(name_of_group(r, table[at] - 1, material), name) != 0) at = (at + 1) & (slots - 1);
+        if (!table[at]) table[at] = g + 1;
+        out[g] = table[at] - 1;
+    }
+    if (!table) support_free(&r->alloc, out, groups * sizeof *out), out = NULL;
+    support_free(&r->alloc, table, slots * sizeof *table);
     return out;
 }
 

@@ -42,9 +42,24 @@ void cli_warn_scene(const cli_common *common, const char *path, const froe_scene
         features, features > 1 ? "s" : "", *name ? name : number);
 }
 
+/* What was read otherwise than the file means it. */
+static void warn(const cli_common *common, const char *name, const froe_read_report *r) {
+    if (common->quiet) return;
+    if (r->no_degrees)
+        (void)cli_fail(0, name,
+                       "warning: Coordinates of a %s are degrees, and these cannot be any: the coordinate system is "
+                       "unknown. A member \"crs\" of the file that is null says that, too.",
+                       r->format);
+    if (r->unread)
+        (void)cli_fail(0, name,
+                       "warning: Of %llu textures %llu are missing or unreadable, first of all '%s'. Their faces have "
+                       "the colours of their materials.",
+                       (unsigned long long)r->textures, (unsigned long long)r->unread, r->unread_name);
+}
+
 int cli_read_scene(const cli_common *common, const cli_scene_args *args, froe_scene **scene, froe_read_report *report) {
     cli_spool spool;
-    cli_io io;
+    cli_io io = {NULL};
     int code = cli_spool_open(args->path, args->format, &spool);
     if (code) return code;
     const bool own = froe_reads_own(spool.path); /* without GDAL and assimp */
@@ -62,17 +77,17 @@ int cli_read_scene(const cli_common *common, const cli_scene_args *args, froe_sc
         options.progress = cli_progress_step;
         options.user = &bar;
         froe_diagnostic diag;
-        if (!own) cli_crash_begin(&spool);
-        const froe_status status = (own ? froe_read_own : io.read)(spool.path, &options, scene, report, &diag);
-        if (!own) cli_crash_end();
+        froe_status status = own ? froe_read_own(spool.path, &options, scene, report, &diag) : FROE_OK;
+        const bool textured = own && !status && report->textures; /* images are read by GDAL */
+        if (textured && !cli_open_io(&io)) froe_scene_free(*scene);
+        if (!own || (textured && io.read)) {
+            cli_crash_begin(&spool);
+            status = io.read(spool.path, &options, scene, report, &diag);
+            cli_crash_end();
+        }
         cli_progress_end(&bar);
         if (status) code = cli_fail_status(CLI_READING, spool.name, status, &diag);
-        if (!status && report->no_degrees && !common->quiet)
-            (void)cli_fail(
-                0, spool.name,
-                "warning: Coordinates of a %s are degrees, and these cannot be any: the coordinate system is "
-                "unknown. A member \"crs\" of the file that is null says that, too.",
-                report->format);
+        if (!status) warn(common, spool.name, report);
         if (!status) cli_warn_scene(common, spool.name, *scene);
     }
     cli_spool_free(&spool);

@@ -12,7 +12,7 @@ static formats_paint_entry *find_entry(formats_paint *paint, uint32_t colour) {
 
 /* At most half of the table is used. */
 static bool grow(formats_sink *sink, formats_paint *paint) {
-    formats_paint larger = {.used = paint->used};
+    formats_paint larger = {.used = paint->used, .name = paint->name, .material = paint->material};
     const size_t size = paint->table.count ? 2 * paint->table.count : 64;
     if (!array_reserve(&sink->alloc, &larger.table, size)) return false;
     larger.table.count = size;
@@ -29,7 +29,7 @@ froe_status formats_paint_enter(formats_sink *sink, formats_paint *paint, uint32
     if (2 * (paint->used + 1) > paint->table.count && !grow(sink, paint)) return support_fail_memory(sink->diag);
     formats_paint_entry *entry = find_entry(paint, colour);
     if (!entry->colour) {
-        const froe_group group = {.colour = colour};
+        const froe_group group = {.name = paint->name, .material = paint->material, .colour = colour};
         const froe_status status = formats_sink_group(sink, &group);
         if (status) return status;
         *entry = (formats_paint_entry){colour, sink->group};

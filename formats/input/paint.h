@@ -1,4 +1,4 @@
-/* paint.h: faces that have colours of their own, in files that have no materials: a group for each colour. */
+/* paint.h: faces that have colours of their own: a group for each colour, all with one name and material. */
 #ifndef FROE_FORMATS_PAINT_H
 #define FROE_FORMATS_PAINT_H
 #include "formats/input/sink.h"
@@ -11,6 +11,7 @@ typedef struct formats_paint_entry {
 typedef struct formats_paint {
     ARRAY(formats_paint_entry) table; /**< of 2^k entries; colour 0: free */
     size_t used;
+    const char *name, *material; /**< of the groups; NULL: none */
 } formats_paint;
 
 /** The group of a colour (0xRRGGBBAA; 0: none) becomes the group of the objects to come. FROE_E_MEMORY,

@@ -22,6 +22,8 @@ typedef struct formats_sink {
     bool halves;                /**< two, of x <= 0 and of x >= 0, where one would be wider than 180 */
     froe_progress_fn *progress; /**< may be NULL */
     void *user;
+    froe_image_fn *image; /**< may be NULL */
+    void *image_user;
     froe_read_report report; /**< counts */
 
     /* of the objects to come; readers write them, formats_sink_feature() resets them */

@@ -149,7 +149,9 @@ froe_status formats_read(formats_choose_fn *choose, formats_reader *maps, const 
                          .boxes = o->boxes,
                          .halves = o->boxes && o->wrap,
                          .progress = o->progress,
-                         .user = o->user};
+                         .user = o->user,
+                         .image = o->image,
+                         .image_user = o->image_user};
     support_locale locale;
     if (!support_locale_enter(&locale)) return support_fail_memory(diag);
     formats_source source = {.file = path, .path = sink.path, .options = o, .beyond = maps && is_beyond(path)};

@@ -1,9 +1,10 @@
-/* mtl.c: the material library of Wavefront OBJ, as far as faces are painted by it: a name, the diffuse colour and
- * how opaque it is.
+/* mtl.c: the material library of Wavefront OBJ, as far as faces are painted by it: a name, the diffuse colour, its
+ * texture, and how opaque it is.
  *
  *     newmtl tiles
  *     Kd 0.7 0.3 0.2
  *     d 1                 or Tr 0
+ *     map_Kd -clamp on -s 2 2 1 -o 0 0.5 0 tiles of clay.png
  */
 #include "formats/read/mtl.h"
 #include "formats/input/colour.h"
@@ -16,12 +17,24 @@
 
 enum { PATH_ROOM = 4096, MOST_BYTES = 1 << 24 };
 
-uint32_t formats_material_colour(const formats_materials *materials, const char *name) {
-    for (size_t i = materials->count; i-- > 0;) {
-        const formats_material *m = materials->data + i;
-        if (!strcmp(m->name, name)) return m->coloured && !m->painted ? formats_colour(m->rgba) : 0;
-    }
-    return 0;
+const formats_material *formats_material_find(const formats_materials *materials, const char *name) {
+    for (size_t i = materials->count; i-- > 0;)
+        if (!strcmp(materials->data[i].name, name)) return materials->data + i;
+    return NULL;
+}
+
+uint32_t formats_material_colour(const formats_material *m) {
+    return m && m->coloured && !m->textured ? formats_colour(m->rgba) : 0;
+}
+
+uint32_t formats_material_texel(const formats_material *m, const double *corners, const double *places, size_t count) {
+    double texel[4];
+    if (!formats_texture_mean(&m->texture, corners, places, count, texel)) return 0;
+    /* Tints are shares of sRGB. Black ones are what programs write that do not tint. */
+    const bool tinted = m->coloured && (m->rgba[0] > 0 || m->rgba[1] > 0 || m->rgba[2] > 0);
+    for (int k = 0; k < 3; k++) texel[k] = formats_level(texel[k]) / 255.0 * (tinted ? m->rgba[k] : 1);
+    texel[3] *= m->rgba[3];
+    return formats_step_colour(formats_colour(texel));
 }
 
 /* What follows the word at the beginning of a line; NULL: the line begins with another. */
@@ -49,8 +62,47 @@ static void read_share(double *share, const char *at, bool clear) {
     if (end != at) *share = clear ? 1 - value : value;
 }
 
-froe_status formats_materials_read(formats_sink *sink, const char *path, const char *name,
-                                   formats_materials *materials) {
+/* Options, then the name of the image, which may have blanks. */
+static void read_texture(formats_material *m, const char *at) {
+    formats_texture *t = &m->texture;
+    m->textured = true;
+    while (*at == '-') {
+        const size_t length = strcspn(at, " \t");
+        const bool scale = !strncmp(at, "-s", length), offset = !strncmp(at, "-o", length),
+                   numbers = scale || offset || !strncmp(at, "-t", length) || !strncmp(at, "-mm", length);
+        const char *value = at + length + strspn(at + length, " \t");
+        int k = 0;
+        for (char *end; numbers && k < 3; k++, value = end + strspn(end, " \t")) {
+            const double x = strtod(value, &end);
+            if (end == value || !strchr(" \t", *end)) break;
+            if (k < 2 && scale) t->scale[k] = x;
+            if (k < 2 && offset) t->offset[k] = x;
+        }
+        if (!numbers && !strncmp(at, "-clamp", length))
+            t->wrap[0] = t->wrap[1] = strncmp(value, "on", 2) ? FORMATS_REPEAT : FORMATS_CLAMP;
+        if (!numbers) value += strcspn(value, " \t"), value += strspn(value, " \t");
+        at = value;
+    }
+    size_t kept = strlen(at);
+    while (kept && strchr(" \t\r", at[kept - 1])) kept--;
+    if (kept >= sizeof m->image) kept = 0;
+    memcpy(m->image, at, kept);
+    m->image[kept] = '\0';
+    for (char *c = m->image; *c; c++) *c = *c == '\\' ? '/' : *c;
+}
+
+static froe_status read_images(formats_sink *sink, const char *path, formats_materials *materials, size_t first,
+                               formats_images *images) {
+    froe_status status = FROE_OK;
+    for (size_t i = first; i < materials->count && !status && !sink->boxes; i++) {
+        formats_material *m = materials->data + i;
+        if (m->textured) status = formats_image_find(sink, path, m->image, NULL, 0, images, &m->texture.image);
+    }
+    return status;
+}
+
+froe_status formats_materials_read(formats_sink *sink, const char *path, const char *name, formats_materials *materials,
+                                   formats_images *images) {
     char library[PATH_ROOM];
     struct stat about;
     formats_text text = {0};
@@ -61,6 +113,7 @@ froe_status formats_materials_read(formats_sink *sink, const char *path, const c
     if (above || length <= 0 || length >= PATH_ROOM || stat(library, &about) || !S_ISREG(about.st_mode) ||
         about.st_size > MOST_BYTES)
         return FROE_OK;
+    const size_t first = materials->count;
     const formats_source source = {.file = library, .path = library, .size = (uint64_t)about.st_size};
     froe_status status = formats_load(&source, sink, false, &text);
     for (char *line = text.data, *next; !status && line && *line; line = next) {
@@ -71,17 +124,18 @@ froe_status formats_materials_read(formats_sink *sink, const char *path, const c
             size_t kept = strlen(at);
             while (kept && strchr(" \t\r", at[kept - 1])) kept--;
             if (kept >= FORMATS_MATERIAL_NAME) kept = FORMATS_MATERIAL_NAME - 1;
-            formats_material m = {.rgba = {0, 0, 0, 1}};
+            formats_material m = {.rgba = {0, 0, 0, 1}, .texture = {.scale = {1, 1}}};
             memcpy(m.name, at, kept);
             if (!array_push(&sink->alloc, materials, m)) status = support_fail_memory(sink->diag);
         } else if (materials->count) {
             formats_material *last = materials->data + materials->count - 1;
             if ((at = after(line, "Kd"))) read_colour(last, at);
-            if (after(line, "map_Kd")) last->painted = true;
+            if ((at = after(line, "map_Kd"))) read_texture(last, at);
             if ((at = after(line, "d"))) read_share(last->rgba + 3, at, false);
             if ((at = after(line, "Tr"))) read_share(last->rgba + 3, at, true);
         }
     }
     array_free(&sink->alloc, &text);
+    if (status != FROE_E_MEMORY) status = read_images(sink, path, materials, first, images);
     return status == FROE_E_MEMORY ? status : FROE_OK;
 }

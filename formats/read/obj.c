@@ -1,12 +1,15 @@
 /* obj.c: Wavefront OBJ in double precision: vertices, points, lines and faces,
  * groups (o, g) and materials (usemtl, coloured by mtllib). Free-form curves and surfaces are skipped and
  * counted. Where nothing names a vertex, the vertices are points. Each pair of an object's name and a material is one
- * group, wherever in the file its faces are.
+ * group, wherever in the file its faces are; where corners have colours (v x y z r g b, shares of sRGB), or the
+ * material a texture, one for each colour of a face.
  *
  *     o roof
  *     usemtl tiles
  *     f 1/1/1 2/2/1 -1//1        indices from 1; negative: from the last vertex back
  */
+#include "formats/input/colour.h"
+#include "formats/input/paint.h"
 #include "formats/read/mtl.h"
 #include "formats/read/readers.h"
 #include "support/decimal/decimal.h"
@@ -19,13 +22,19 @@ enum { NAME_ROOM = FORMATS_MATERIAL_NAME, BUCKETS = 4096 };
 /* A group met before, and the next with the same hash. */
 typedef struct known {
     char name[NAME_ROOM], material[NAME_ROOM];
-    uint32_t group, next1; /* next1: index + 1, 0: none */
+    uint32_t group, next1; /* group: FROE_NONE before there is one; next1: index + 1, 0: none */
+    formats_paint colours; /* groups of faces with colours of their own */
 } known;
 
 typedef struct obj {
     formats_sink *sink;
     const char *path;
     formats_materials materials;
+    formats_images images;
+    ARRAY(uint32_t) shades;        /* per point, up to the last that has one: its colour; 0: none */
+    ARRAY(uint32_t) own_shades;    /* of an element's corners */
+    ARRAY(double) places;          /* in textures, 2 each */
+    ARRAY(double) corner_places;   /* of an element's corners; not all have one: none */
     char *line;                    /* the current one, ended by a NUL */
     uint64_t number;               /* of the line, from 1 */
     ARRAY(double) points, corners; /* 3 each */
@@ -33,6 +42,8 @@ typedef struct obj {
     uint32_t first1[BUCKETS]; /* heads of the chains */
     char name[NAME_ROOM], material[NAME_ROOM];
     bool regroup, refeature; /* name or material, name changed since the last element */
+    size_t current;          /* of `groups`; the current pair of names, if regroup is not set */
+    const formats_material *paint;
 } obj;
 
 static froe_status broken_obj(obj *o, const char *sentence) {
@@ -46,9 +57,11 @@ static froe_status out_of_memory(obj *o) {
 
 /* ---------------------------------------------------------------- groups -- */
 
-static froe_status enter_named_group(obj *o) {
-    o->sink->group = FROE_NONE;
-    if (!*o->name && !*o->material) return FROE_OK;
+/* Looks for the entry of the name and material. */
+static bool find_group(obj *o) {
+    if (!o->regroup) return true;
+    o->paint = formats_material_find(&o->materials, o->material);
+    o->regroup = false;
     uint32_t hash = 2166136261u; /* FNV-1a of both names, with a byte between them that no text has */
     for (const char *c = o->name; *c; ++c) hash = (hash ^ (unsigned char)*c) * 16777619u;
     hash = (hash ^ 255u) * 16777619u;
@@ -56,20 +69,40 @@ static froe_status enter_named_group(obj *o) {
     const uint32_t bucket = hash % BUCKETS;
     for (uint32_t at = o->first1[bucket]; at; at = o->groups.data[at - 1].next1) {
         const known *k = o->groups.data + at - 1;
-        if (strcmp(k->name, o->name) || strcmp(k->material, o->material)) continue;
-        o->sink->group = k->group;
-        return FROE_OK;
+        o->current = at - 1;
+        if (!strcmp(k->name, o->name) && !strcmp(k->material, o->material)) return true;
     }
-    froe_group group = {
-        .name = o->name, .material = o->material, .colour = formats_material_colour(&o->materials, o->material)};
-    froe_status status = formats_sink_group(o->sink, &group);
-    if (status) return status;
-    known added = {.group = o->sink->group, .next1 = o->first1[bucket]};
+    known added = {.group = FROE_NONE, .next1 = o->first1[bucket]};
     memcpy(added.name, o->name, NAME_ROOM);
     memcpy(added.material, o->material, NAME_ROOM);
-    if (!array_push(&o->sink->alloc, &o->groups, added)) return out_of_memory(o);
+    if (!array_push(&o->sink->alloc, &o->groups, added)) return false;
+    o->current = o->groups.count - 1;
     o->first1[bucket] = (uint32_t)o->groups.count;
-    return FROE_OK;
+    return true;
+}
+
+/* The colour of the current element by its corners or its texture; 0: it has none of its own. */
+static uint32_t own_colour(const obj *o, size_t count) {
+    const uint32_t mean = formats_paint_mean(o->own_shades.data, o->own_shades.count);
+    if (mean) return formats_step_colour(mean);
+    if (!o->paint || !o->paint->textured || o->corner_places.count < 2 * count) return 0;
+    return formats_material_texel(o->paint, o->corners.data, o->corner_places.data, count);
+}
+
+static froe_status enter_group_of(obj *o, size_t count) {
+    if (!find_group(o)) return out_of_memory(o);
+    known *k = o->groups.data + o->current;
+    const uint32_t colour = o->sink->boxes ? 0 : own_colour(o, count);
+    if (colour) {
+        k->colours.name = o->name, k->colours.material = o->material;
+        return formats_paint_enter(o->sink, &k->colours, colour);
+    }
+    o->sink->group = k->group;
+    if (k->group != FROE_NONE || (!*o->name && !*o->material)) return FROE_OK;
+    const froe_group group = {.name = o->name, .material = o->material, .colour = formats_material_colour(o->paint)};
+    const froe_status status = formats_sink_group(o->sink, &group);
+    k->group = o->sink->group;
+    return status;
 }
 
 /* What follows a word, without blanks around it, filled up with zeros. */
@@ -83,31 +116,49 @@ static void copy_rest(char *to, size_t room, const char *from) {
 
 /* -------------------------------------------------------------- elements -- */
 
-/* Gathers the corners named on a line. */
+/* The place in textures that follows the vertex of a corner: "/7", perhaps with a normal. */
+static froe_status read_place(obj *o, const char *at) {
+    const int64_t places = (int64_t)(o->places.count / 2);
+    char *end;
+    if (*at != '/' || at[1] == '/') return FROE_OK;
+    int64_t index = strtoll(at + 1, &end, 10);
+    if (index < 0) index += places + 1;
+    if (end == at + 1 || index < 1 || index > places) return FROE_OK; /* no geometry: it has no colour by that */
+    return array_append(&o->sink->alloc, &o->corner_places, o->places.data + 2 * (index - 1), 2) ? FROE_OK
+                                                                                                 : out_of_memory(o);
+}
+
+/* Gathers the corners named on a line, with what colours them. */
 static froe_status read_corners(obj *o, const char *at, size_t *count) {
+    const froe_allocator *alloc = &o->sink->alloc;
     int64_t vertices = (int64_t)(o->points.count / 3);
-    o->corners.count = 0;
+    o->corners.count = o->own_shades.count = o->corner_places.count = 0;
     for (*count = 0; at += strspn(at, " \t\r"), *at; ++*count) {
         char *end;
         int64_t index = strtoll(at, &end, 10);
         if (end == at) return broken_obj(o, "An index is not a number.");
         if (index < 0) index += vertices + 1;
         if (index < 1 || index > vertices) return broken_obj(o, "An index names a vertex that does not exist.");
-        if (!array_append(&o->sink->alloc, &o->corners, o->points.data + 3 * (index - 1), 3)) return out_of_memory(o);
+        const size_t point = (size_t)index - 1;
+        if (!array_append(alloc, &o->corners, o->points.data + 3 * point, 3)) return out_of_memory(o);
+        if (o->shades.count && !array_push(alloc, &o->own_shades, point < o->shades.count ? o->shades.data[point] : 0))
+            return out_of_memory(o);
+        const froe_status status = read_place(o, end);
+        if (status) return status;
         at = end + strcspn(end, " \t\r"); /* texture and normal */
     }
     return FROE_OK;
 }
 
-/* Begins a feature when the name is new, a group when name or material is; then adds the element. */
+/* Begins a feature when the name is new; then adds the element. */
 static froe_status read_element(obj *o, char kind, const char *at) {
     size_t count;
     formats_sink *sink = o->sink;
     froe_status status = read_corners(o, at, &count);
     if (!status && o->refeature) status = formats_sink_feature(sink, o->number);
-    if (!status && (o->regroup || o->refeature)) status = enter_named_group(o);
+    if (!status) status = enter_group_of(o, count);
     if (status) return status;
-    o->refeature = o->regroup = false;
+    o->refeature = false;
     sink->number = o->number;
     const double *p = o->corners.data;
     if (!count || (kind == 'l' && count < 2)) return ++sink->report.skipped, FROE_OK;
@@ -122,6 +173,22 @@ static bool starts(const char *line, const char *word) {
     return !strncmp(line, word, length) && (strchr(" \t\r", line[length]) != NULL);
 }
 
+/* The colour behind the coordinates of a vertex: three shares. A single number there is a weight. */
+static froe_status read_shade(obj *o, const char *at) {
+    double rgba[4] = {0, 0, 0, 1};
+    const size_t points = o->points.count / 3;
+    for (int k = 0; k < 3; ++k) {
+        char *end;
+        rgba[k] = strtod(at, &end);
+        if (end == at) return FROE_OK;
+        at = end;
+    }
+    if (!array_reserve(&o->sink->alloc, &o->shades, points - o->shades.count)) return out_of_memory(o);
+    while (o->shades.count < points) o->shades.data[o->shades.count++] = 0;
+    o->shades.data[points - 1] = formats_colour(rgba);
+    return FROE_OK;
+}
+
 static froe_status read_line(obj *o) {
     char *line = o->line + strspn(o->line, " \t");
     if (starts(line, "v")) {
@@ -132,13 +199,20 @@ static froe_status read_line(obj *o) {
             p[k] = support_decimal(from, &end);
             if (end == from) return broken_obj(o, "A vertex needs three coordinates.");
         }
-        return array_append(&o->sink->alloc, &o->points, p, 3) ? FROE_OK : out_of_memory(o);
+        return array_append(&o->sink->alloc, &o->points, p, 3) ? read_shade(o, end) : out_of_memory(o);
+    }
+    if (starts(line, "vt")) {
+        double place[2] = {0, 0};
+        char *end = line + 2;
+        for (int k = 0; k < 2; ++k) place[k] = strtod(end, &end);
+        return array_append(&o->sink->alloc, &o->places, place, 2) ? FROE_OK : out_of_memory(o);
     }
     if (starts(line, "f") || starts(line, "l") || starts(line, "p")) return read_element(o, *line, line + 1);
     if (starts(line, "mtllib")) {
         char name[1024];
         copy_rest(name, sizeof name, line + 6);
-        return formats_materials_read(o->sink, o->path, name, &o->materials);
+        o->regroup = true;
+        return formats_materials_read(o->sink, o->path, name, &o->materials, &o->images);
     }
     if (starts(line, "curv") || starts(line, "curv2") || starts(line, "surf"))
         return ++o->sink->report.skipped, FROE_OK;
@@ -165,6 +239,13 @@ static char *cut_line(obj *o, char *at) {
     return at + 1;
 }
 
+static froe_status read_cloud_point(obj *o, size_t i) {
+    o->own_shades.count = o->corner_places.count = 0;
+    if (i < o->shades.count && !array_push(&o->sink->alloc, &o->own_shades, o->shades.data[i])) return out_of_memory(o);
+    const froe_status status = enter_group_of(o, 1);
+    return status ? status : formats_sink_point(o->sink, o->points.data + 3 * i);
+}
+
 froe_status formats_read_obj(const formats_source *source, formats_sink *sink) {
     enum { LINES_PER_REPORT = 16384 };
     const froe_allocator *alloc = &sink->alloc;
@@ -179,7 +260,7 @@ froe_status formats_read_obj(const formats_source *source, formats_sink *sink) {
         formats_report_format(sink, "float64", "OBJ");
         sink->report.layers = 1;
         sink->unit = "line";
-        o->refeature = true;
+        o->refeature = o->regroup = true;
         uint64_t reported = 0;
         for (char *at = text.data, *end = at + text.count; at < end && !status;) {
             at = cut_line(o, at);
@@ -190,15 +271,20 @@ froe_status formats_read_obj(const formats_source *source, formats_sink *sink) {
         }
         const bool cloud = !sink->report.features; /* vertices, and nothing that names them */
         if (!status && cloud) status = formats_sink_feature(sink, 0);
-        for (size_t i = 0; i < o->points.count && cloud && !status; i += 3)
-            status = formats_sink_point(sink, o->points.data + i);
+        for (size_t i = 0; i < o->points.count && cloud && !status; i += 3) status = read_cloud_point(o, i / 3);
         if (!status && !o->points.count)
             status = support_fail(sink->diag, FROE_E_FORMAT, "%s: The file has no vertices, and is not OBJ.",
                                   support_short(source->path));
         array_free(alloc, &o->points);
         array_free(alloc, &o->corners);
+        for (size_t i = 0; i < o->groups.count; ++i) formats_paint_free(sink, &o->groups.data[i].colours);
         array_free(alloc, &o->groups);
         array_free(alloc, &o->materials);
+        array_free(alloc, &o->shades);
+        array_free(alloc, &o->own_shades);
+        array_free(alloc, &o->places);
+        array_free(alloc, &o->corner_places);
+        formats_images_free(alloc, &o->images);
     }
     support_free(alloc, o, sizeof *o);
     array_free(alloc, &text);

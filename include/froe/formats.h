@@ -23,6 +23,17 @@ typedef enum froe_faces {
     FROE_FACES_POLYGONS = 1   /**< exactly planar, convex and simple polygons stay whole; others are triangulated */
 } froe_faces;
 
+/** An image: rows from the top, 4 bytes a pixel: red, green, blue (sRGB) and opacity. */
+typedef struct froe_image {
+    uint32_t width, height; /**< at least 1 each */
+    uint8_t *pixels;        /**< of the allocator, 4 * width * height bytes */
+} froe_image;
+
+/** Reads an image: the file `path`, or where bytes are given these, as a file's would be. It may be smaller than in the
+ * file. False: it cannot be read, or memory is short; then nothing is left to be freed. */
+typedef bool froe_image_fn(void *user, const char *path, const void *bytes, size_t count, const froe_allocator *alloc,
+                           froe_image *out);
+
 typedef struct froe_read_options {
     size_t size;                 /**< set by froe_read_defaults() */
     const char *name;            /**< what messages call the file; NULL: the path */
@@ -34,6 +45,9 @@ typedef struct froe_read_options {
                                       features wider than 180 degrees give two, one on each side of Greenwich */
     froe_progress_fn *progress;  /**< may be NULL; false cancels */
     void *user;                  /**< for progress */
+    froe_image_fn *image;        /**< reads textures, whose means faces are coloured by; NULL (default): none is read.
+                                      froe_read() of froe/io.h takes one of its own then, by GDAL */
+    void *image_user;            /**< for image */
     const froe_allocator *alloc; /**< of the scene and of the reader's own arrays; NULL: malloc */
 } froe_read_options;
 FROE_API froe_read_options froe_read_defaults(void); /**< all layers, triangles, shapes */
@@ -53,6 +67,9 @@ typedef struct froe_read_report {
     uint64_t skipped;      /**< geometries without extent to read: of no known sort, empty, lines of one point */
     uint64_t no_geometry;  /**< features that have none */
     uint64_t wrapped;      /**< features that were cut at the antimeridian */
+    uint64_t textures;     /**< images that materials name */
+    uint64_t unread;       /**< of these: not there, not at or below the folder of the file, or unreadable */
+    char unread_name[64];  /**< the first of them */
     bool no_degrees;       /**< the format promises longitudes and latitudes in degrees, and the coordinates cannot be
                                 any (beyond 180 or 90): the scene has no coordinate system */
     double seconds;        /**< from call to return, by the wall clock */
@@ -67,7 +84,9 @@ typedef struct froe_read_report {
  *                   a column `tag` (a whole number below 2^64) becomes the tag, others are ignored.
  *                   Decimal numbers become the nearest doubles, whatever the locale.
  *   OFF, OBJ, PLY   dimension 3, double precision (binary PLY: its own). In OBJ each pair of an
- *                   object's (o, g) name and a material is a group, coloured by the MTL beside it.
+ *                   object's (o, g) name and a material is a group, coloured by the MTL beside it. Where
+ *                   corners have colours or a material has a texture (map_Kd), so is each colour of a
+ *                   face: the mean of its corners, or of its part of the texture, in 64 steps a channel.
  *
  * `face` of an object is the lowest id among those of the same source polygon. With `boxes` every
  * feature gives one box. The caller frees the scene. `options`, `report` and `diag` may be NULL. The time is

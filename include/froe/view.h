@@ -354,7 +354,7 @@ FROE_API const double *froe_picture_ring(const froe_picture *picture, size_t rin
 typedef enum froe_line {
     FROE_LINE_BORDER = 1,     /**< used by one polygon, or by more than two */
     FROE_LINE_SILHOUETTE = 2, /**< between a polygon seen from the front and one seen from behind */
-    FROE_LINE_OBJECT = 4,     /**< between groups of different names, or of one name and material */
+    FROE_LINE_OBJECT = 4,     /**< between groups of different names, or of one name, material and colour */
     FROE_LINE_MATERIAL = 8,   /**< between groups of one name and different materials */
     FROE_LINE_CREASE = 16,    /**< between planes at an angle */
     FROE_LINE_MESH = 32,      /**< any other edge between patches */

@@ -35,7 +35,10 @@ static froe_line kind_of_pair(view_sightlines *sights, uint32_t edge, uint32_t a
     froe_line change = p == q ? (froe_line)0 : FROE_LINE_OBJECT;
     if (p != q && p != FROE_NONE && q != FROE_NONE) {
         const froe_group of_a = froe_scene_group(s->scene, p), of_b = froe_scene_group(s->scene, q);
-        if (!strcmp(of_a.name, of_b.name) && strcmp(of_a.material, of_b.material) != 0) change = FROE_LINE_MATERIAL;
+        const bool name = !strcmp(of_a.name, of_b.name), material = !strcmp(of_a.material, of_b.material);
+        if (name && !material) change = FROE_LINE_MATERIAL;
+        if (name && material && of_a.colour != of_b.colour)
+            change = (froe_line)0; /* parts of one, by colours of faces */
     }
     if (wanted & change) return change;
     const double c = cosine(s->scene, a, b) * (turned ? -1 : 1);
