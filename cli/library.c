@@ -3,7 +3,7 @@
 #ifdef CLI_LINKED
 
 int cli_open_io(cli_io *out) {
-    *out = (cli_io){froe_read, froe_render_dxf};
+    *out = (cli_io){froe_read, froe_export_map, froe_render_dxf};
     return 0;
 }
 
@@ -34,8 +34,8 @@ static int open_library(const char *name, const char *what, const char *const *n
 }
 
 int cli_open_io(cli_io *out) {
-    static const char *const names[] = {"froe_read", "froe_render_dxf", NULL};
-    return open_library(CLI_IO_FILE, "reads maps and models and writes DXF", names, out);
+    static const char *const names[] = {"froe_read", "froe_export_map", "froe_render_dxf", NULL};
+    return open_library(CLI_IO_FILE, "reads and writes maps, reads models and writes DXF", names, out);
 }
 
 int cli_open_draw(cli_draw *out) {

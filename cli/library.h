@@ -7,6 +7,7 @@
 
 typedef struct cli_io {
     __typeof__(froe_read) *read;
+    __typeof__(froe_export_map) *export_map;
     __typeof__(froe_render_dxf) *render_dxf;
 } cli_io;
 

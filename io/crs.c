@@ -74,6 +74,12 @@ static froe_status describe(formats_sink *sink, OGRSpatialReferenceH system) {
     return status;
 }
 
+/* GeoPackages have two systems that stand for none (OGC 12-128r18, table 6). */
+static bool is_undefined(OGRSpatialReferenceH system) {
+    const char *name = OSRGetName(system);
+    return name && (!strcmp(name, "Undefined geographic SRS") || !strcmp(name, "Undefined Cartesian SRS"));
+}
+
 static const char *name_of(OGRSpatialReferenceH system) {
     const char *name = system ? OSRGetName(system) : "none";
     return name ? name : "without a name";
@@ -88,6 +94,7 @@ static bool same(OGRSpatialReferenceH a, OGRSpatialReferenceH b) {
 froe_status io_crs_take(io_crs *crs, formats_sink *sink, OGRLayerH layer) {
     OGRSpatialReferenceH system = crs->promise == IO_CRS_NONE ? NULL : OGR_L_GetSpatialRef(layer), made = NULL;
     froe_status status = FROE_OK;
+    if (system && is_undefined(system)) system = NULL;
     if (!system && crs->promise == IO_CRS_GUESSED) {
         made = system = OSRNewSpatialReference(NULL);
         (void)OSRImportFromEPSG(made, 4326); /* there is a database */

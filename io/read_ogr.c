@@ -1,47 +1,22 @@
-/* read_ogr.c: plane maps in all formats of OGR. Messages of GDAL go to
- * a handler of this thread: the first failure becomes the diagnostic. */
+/* read_ogr.c: plane maps in all formats of OGR. The first failure that GDAL tells of becomes the diagnostic. */
 #include "crs.h"
 #include "formats/input/csv_header.h"
+#include "heard.h"
 #include "ogr_shapes.h"
 #include "readers.h"
 #include <cpl_conv.h>
-#include <cpl_error.h>
 #include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <gdal.h>
-#include <pthread.h>
 #include <stdio.h>
 #include <string.h>
-
-/* ---------------------------------------------------------------- errors -- */
-
-typedef struct heard {
-    const char *path; /* which froe names itself */
-    bool failed;
-    char text[160];
-} heard;
-
-static void CPL_STDCALL hear(CPLErr class, CPLErrorNum number, const char *text) {
-    (void)number;
-    heard *h = CPLGetErrorHandlerUserData();
-    bool about_axes = !strncmp(text, "PROJ", 4); /* froe takes coordinates as they are */
-    if (class < CE_Failure || h->failed || about_axes) return;
-    h->failed = true;
-    snprintf(h->text, sizeof h->text, "%s", strstr(text, h->path) ? "" : text);
-    for (char *c = h->text; *c; ++c)
-        if (*c == '\n' || *c == '\r') *c = ' ';
-}
-
-static void register_drivers(void) {
-    GDALAllRegister();
-}
 
 /* -------------------------------------------------------------- features -- */
 
 typedef struct map {
     const formats_source *source;
     formats_sink *sink;
-    heard heard;
+    io_heard heard;
     GDALDatasetH data;
     io_shapes shapes;
     bool container;  /* a folder or an archive */
@@ -53,29 +28,14 @@ typedef struct map {
 } map;
 
 static froe_status map_fail(map *m, froe_status status, const char *sentence) {
-    const char *path = support_short(m->source->path);
-    if (m->heard.failed && *m->heard.text)
-        return support_fail(m->sink->diag, status, "%s: OGR reports '%.120s'.", path, m->heard.text);
-    return support_fail(m->sink->diag, status, "%s: %s", path, sentence);
-}
-
-/* Names for a message, as many as fit. */
-typedef struct name_list {
-    char text[128];
-    size_t used, count;
-} name_list;
-
-static void put_name(name_list *names, const char *name) {
-    const size_t room = sizeof names->text - names->used;
-    const int length = snprintf(names->text + names->used, room, "%s%s", names->count++ ? ", " : "", name);
-    if (length > 0) names->used += (size_t)length < room ? (size_t)length : room - 1;
+    return io_gdal_fail(&m->heard, m->sink->diag, status, m->source->path, sentence);
 }
 
 /* Says that nothing in it is a map; an archive is looked into. */
 static froe_status refuse_content(map *m, const char *name) {
     char **files = m->container && !m->source->beyond ? VSIReadDir(name) : NULL;
-    name_list names = {.count = 0};
-    for (char **file = files; file && *file; file++) put_name(&names, *file);
+    io_names names = {.count = 0};
+    for (char **file = files; file && *file; file++) io_names_put(&names, *file);
     CSLDestroy(files);
     if (names.count)
         return support_fail(m->sink->diag, FROE_E_FORMAT,
@@ -184,8 +144,8 @@ static froe_status add_layers(map *m) {
     const int layers = GDALDatasetGetLayerCount(m->data);
     const bool several = !wanted && m->container && layers > 1; /* files that have nothing to do with each other */
     if (several || (wanted && !one)) {
-        name_list names = {.count = 0};
-        for (int i = 0; i < layers; ++i) put_name(&names, OGR_L_GetName(GDALDatasetGetLayer(m->data, i)));
+        io_names names = {.count = 0};
+        for (int i = 0; i < layers; ++i) io_names_put(&names, OGR_L_GetName(GDALDatasetGetLayer(m->data, i)));
         return several ? support_fail(m->sink->diag, FROE_E_OPTIONS,
                                       "%.60s: A layer must be named, because there are several: %s.",
                                       support_short(m->source->path), names.text)
@@ -224,7 +184,6 @@ static const char *gdal_name(const formats_source *source, support_extension *in
 }
 
 froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
-    static pthread_once_t once = PTHREAD_ONCE_INIT;
     /* columns with geometry have many names */
     static const char *const wkt[] = {"GEOM_POSSIBLE_NAMES=WKT,geometry,geom", NULL};
     static const char *const places[] = {"X_POSSIBLE_NAMES=x,lon,lng,long,longitude,easting",
@@ -241,8 +200,7 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
     sink->unit = "feature";
     froe_status status = formats_sink_open(sink, 2);
     if (status) return status;
-    CPLPushErrorHandlerEx(hear, &m.heard);
-    pthread_once(&once, register_drivers);
+    io_gdal_begin(&m.heard);
     m.data = GDALOpenEx(name, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL,
                         is_csv ? formats_csv_has_geometry(source) ? wkt : places : NULL, NULL);
     if (!m.data) status = refuse_content(&m, name);
@@ -253,8 +211,7 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
     }
     io_crs_free(&m.crs);
     if (m.data) GDALClose(m.data);
-    CPLPopErrorHandler();
-    CPLErrorReset();
+    io_gdal_end();
     io_shapes_free(&sink->alloc, &m.shapes);
     return status;
 }

@@ -4,9 +4,9 @@
 #include "command.h"
 #include "exit.h"
 #include "files.h"
+#include "library.h"
 #include "progress.h"
 #include "report/report.h"
-#include <froe/io.h>
 
 typedef struct export_args {
     cli_common common;
@@ -20,7 +20,7 @@ static const char *const whats[] = {
     [FROE_EXPORT_FRAGMENTS] = "fragments", [FROE_EXPORT_CELLS] = "cells", [FROE_EXPORT_CUTS] = "cuts", NULL};
 
 static const cli_option options[] = {
-    CLI_OUTPUT_OPTIONS(export_args, "FILE", ".geojson (plane), .obj (space) or .csv (any dimension)", .required = true),
+    CLI_OUTPUT_OPTIONS(export_args, "FILE", ".geojson, .gpkg, .fgb, .shp (plane), .obj (space) or .csv (any dimension)", .required = true),
     {"what", 0, CLI_CHOICE, offsetof(export_args, what), "PART", .help = "fragments (default), cells or cuts",
      .choices = whats},
     {"window", 0, CLI_REALS, offsetof(export_args, window), "LO,HI",
@@ -37,7 +37,9 @@ static const cli_part parts[] = {CLI_TREE_PART(export_args),
 static int run_export(const void *given) {
     const export_args *args = given;
     froe_tree *tree;
+    cli_io io = {.export_map = froe_export};
     int code = cli_check_tree_outputs(&args->tree, args->output.path);
+    if (!code && !froe_exports_own(args->output.path)) code = cli_open_io(&io);
     if (!code) code = cli_open_tree(&args->common, &args->tree, NULL, &tree);
     if (code) return code;
     const size_t numbers = 2 * (size_t)froe_scene_dim(froe_tree_scene(tree));
@@ -51,7 +53,7 @@ static int run_export(const void *given) {
         froe_diagnostic diag;
         o.progress = cli_progress_step;
         o.user = &bar;
-        const froe_status status = froe_export(tree, args->output.path, (froe_export_what)args->what, &o, &diag);
+        const froe_status status = io.export_map(tree, args->output.path, (froe_export_what)args->what, &o, &diag);
         cli_progress_end(&bar);
         if (status) code = cli_output_fail(&args->output, status, &diag);
     }

@@ -2,7 +2,7 @@
 #include "formats/write/shapes.h"
 #include <string.h>
 
-static void put_attribute(formats_writer *w, const formats_attribute *a,
+static void put_attribute(formats_writer *w, const froe_attribute *a,
                           void (*put_text)(formats_writer *, const char *)) {
     if (a->text) {
         put_text(w, a->text);
@@ -13,14 +13,14 @@ static void put_attribute(formats_writer *w, const formats_attribute *a,
 
 /* --------------------------------------------------------------- GeoJSON -- */
 
-static void geojson_begin(formats_writer *w, const froe_scene *scene, const formats_shape *like) {
+static void geojson_begin(formats_writer *w, const froe_scene *scene, const froe_part *like) {
     (void)like;
     formats_geojson_begin(w, scene);
 }
 
-static void geojson_shape(formats_writer *w, const formats_shape *s, bool first) {
+static void geojson_shape(formats_writer *w, const froe_part *s, bool first) {
     static const char *const types[] = {"MultiPoint", "LineString", "Polygon", "Polygon"};
-    bool point = s->sort == FORMATS_POINTS && s->corners == 1, polygon = s->sort == FORMATS_POLYGON;
+    bool point = s->sort == FROE_PART_POINTS && s->corners == 1, polygon = s->sort == FROE_PART_POLYGON;
     formats_put(w, first ? "\n" : ",\n");
     formats_put(w, "{\"type\":\"Feature\",\"properties\":{");
     for (int i = 0; i < s->attribute_count; ++i) {
@@ -54,12 +54,12 @@ static void geojson_shape(formats_writer *w, const formats_shape *s, bool first)
 
 /* ------------------------------------------------------------------- OBJ -- */
 
-static void obj_begin(formats_writer *w, const froe_scene *scene, const formats_shape *like) {
+static void obj_begin(formats_writer *w, const froe_scene *scene, const froe_part *like) {
     (void)scene, (void)like;
     formats_put(w, "# written by froe; group names carry the attributes\n");
 }
 
-static void obj_shape(formats_writer *w, const formats_shape *s, bool first) {
+static void obj_shape(formats_writer *w, const froe_part *s, bool first) {
     (void)first;
     formats_put(w, "g");
     for (int i = 0; i < s->attribute_count; ++i) {
@@ -77,8 +77,8 @@ static void obj_shape(formats_writer *w, const formats_shape *s, bool first) {
     }
     static const char *const words[] = {"p", "l", "f", "f"};
     size_t whole[2] = {0, s->corners};
-    const size_t *starts = s->sort == FORMATS_SURFACE ? s->starts : whole;
-    size_t faces = s->sort == FORMATS_SURFACE ? s->faces : 1;
+    const size_t *starts = s->sort == FROE_PART_SURFACE ? s->starts : whole;
+    size_t faces = s->sort == FROE_PART_SURFACE ? s->faces : 1;
     for (size_t f = 0; f < faces; ++f) {
         formats_put(w, words[s->sort]);
         for (size_t i = starts[f]; i < starts[f + 1]; ++i) {
@@ -91,7 +91,7 @@ static void obj_shape(formats_writer *w, const formats_shape *s, bool first) {
 
 /* ------------------------------------------------------------------- CSV -- */
 
-static void wkt_run(formats_writer *w, const formats_shape *s, size_t first, size_t end, bool close) {
+static void wkt_run(formats_writer *w, const froe_part *s, size_t first, size_t end, bool close) {
     formats_put(w, "(");
     for (size_t i = first; i < end; ++i) {
         if (i > first) formats_put(w, ",");
@@ -104,7 +104,7 @@ static void wkt_run(formats_writer *w, const formats_shape *s, size_t first, siz
     formats_put(w, ")");
 }
 
-static void csv_begin(formats_writer *w, const froe_scene *scene, const formats_shape *like) {
+static void csv_begin(formats_writer *w, const froe_scene *scene, const froe_part *like) {
     (void)scene;
     for (int i = 0; i < like->attribute_count; ++i) {
         formats_put_csv(w, like->attributes[i].name);
@@ -113,7 +113,7 @@ static void csv_begin(formats_writer *w, const froe_scene *scene, const formats_
     formats_put(w, like->dim <= 3 ? "WKT\n" : "corners\n");
 }
 
-static void csv_shape(formats_writer *w, const formats_shape *s, bool first) {
+static void csv_shape(formats_writer *w, const froe_part *s, bool first) {
     static const char *const types[] = {"MULTIPOINT", "LINESTRING", "POLYGON", "POLYHEDRALSURFACE"};
     (void)first;
     for (int i = 0; i < s->attribute_count; ++i) {
@@ -124,12 +124,12 @@ static void csv_shape(formats_writer *w, const formats_shape *s, bool first) {
     if (s->dim > 3) {
         wkt_run(w, s, 0, s->corners, false);
     } else {
-        formats_put(w, s->sort == FORMATS_POINTS && s->corners == 1 ? "POINT" : types[s->sort]);
+        formats_put(w, s->sort == FROE_PART_POINTS && s->corners == 1 ? "POINT" : types[s->sort]);
         formats_put(w, s->dim == 3 ? " Z " : " ");
-        if (s->sort == FORMATS_POLYGON) formats_put(w, "(");
-        if (s->sort != FORMATS_SURFACE) wkt_run(w, s, 0, s->corners, s->sort == FORMATS_POLYGON);
-        if (s->sort == FORMATS_POLYGON) formats_put(w, ")");
-        for (size_t f = 0; s->sort == FORMATS_SURFACE && f < s->faces; ++f) {
+        if (s->sort == FROE_PART_POLYGON) formats_put(w, "(");
+        if (s->sort != FROE_PART_SURFACE) wkt_run(w, s, 0, s->corners, s->sort == FROE_PART_POLYGON);
+        if (s->sort == FROE_PART_POLYGON) formats_put(w, ")");
+        for (size_t f = 0; s->sort == FROE_PART_SURFACE && f < s->faces; ++f) {
             formats_put(w, f ? ",(" : "((");
             wkt_run(w, s, s->starts[f], s->starts[f + 1], true);
             formats_put(w, f + 1 < s->faces ? ")" : "))");

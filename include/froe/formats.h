@@ -126,10 +126,53 @@ typedef struct froe_export_options {
 } froe_export_options;
 FROE_API froe_export_options froe_export_defaults(void);
 
+/** Does froe_export() write files with this ending? False for NULL. */
+FROE_API bool froe_exports_own(const char *path);
+
+typedef enum froe_part_sort {
+    FROE_PART_POINTS = 0,
+    FROE_PART_LINE = 1,    /**< two corners */
+    FROE_PART_POLYGON = 2, /**< corners in order; the first is not repeated */
+    FROE_PART_SURFACE = 3  /**< in space: polygons around a solid */
+} froe_part_sort;
+
+/** A whole number, a text, or nothing. */
+typedef struct froe_attribute {
+    const char *name;
+    const char *text; /**< NULL: a number */
+    uint64_t number;
+    bool missing;
+} froe_attribute;
+
+enum { FROE_PART_ATTRIBUTES = 12 };
+
+/** A fragment, a cell or a cut, with its attributes. */
+typedef struct froe_part {
+    froe_part_sort sort;
+    froe_kind kind; /**< of the object that a fragment belongs to; of cells and cuts FROE_KIND_COUNT */
+    int dim;
+    const double *coords; /**< dim doubles a corner */
+    size_t corners;
+    const size_t *starts; /**< surfaces: polygon f has the corners starts[f] .. starts[f+1] - 1 */
+    size_t faces;         /**< surfaces: how many polygons */
+    froe_attribute attributes[FROE_PART_ATTRIBUTES];
+    int attribute_count;
+} froe_part;
+
+/** A part without geometry, with the names of the attributes of all parts; those that are texts have a text. */
+FROE_API froe_part froe_part_like(froe_export_what what);
+typedef bool froe_part_fn(void *user, const froe_part *part);
+/** Calls fn for each fragment, cell or cut, in an order that is the same each time; what it is given lasts as long as
+ * the call. False ends that, with FROE_OK. Memory does not grow with the tree. options may be NULL. FROE_E_ARG: no such
+ * `what`. FROE_E_UNSUPPORTED: cells and cuts above dimension 3. FROE_E_OPTIONS, FROE_E_CANCELLED, FROE_E_MEMORY. */
+FROE_API froe_status froe_tree_parts(const froe_tree *tree, froe_export_what what, const froe_export_options *options,
+                                     froe_part_fn *fn, void *user, froe_diagnostic *diag);
+
 /** Writes a part of a tree for other programs, by extension: .geojson or .json (dimension 2), .obj
  * (dimension 3), .csv (any; geometry as WKT in dimensions 2 and 3). Atomic, streaming: memory does not
- * grow with the tree. options may be NULL. FROE_E_UNSUPPORTED: extension and dimension do not go
- * together. FROE_E_IO: cannot be written, disk full. FROE_E_CANCELLED. */
+ * grow with the tree. GeoJSON names the coordinate system of the scene, unless that is WGS 84. options may be NULL.
+ * FROE_E_UNSUPPORTED: extension and dimension do not go together, or the coordinate system has no code, and the file
+ * is GeoJSON. FROE_E_IO: cannot be written, disk full. FROE_E_CANCELLED. */
 FROE_API froe_status froe_export(const froe_tree *tree, const char *path, froe_export_what what,
                                  const froe_export_options *options, froe_diagnostic *diag);
 

@@ -49,6 +49,18 @@ extern "C" {
 FROE_API froe_status froe_read(const char *path, const froe_read_options *options, froe_scene **out,
                                froe_read_report *report, froe_diagnostic *diag);
 
+/** Writes a part of a tree as froe_export() does, or in the plane for programs of maps, by extension: .gpkg
+ * (GeoPackage), .fgb (FlatGeobuf) or .shp (Shapefile, with its .dbf, .shx, .cpg and .prj), by the writers of OGR. The
+ * one layer is called as the file is, has the attributes of froe_tree_parts(), and names the coordinate system of the
+ * scene. Atomic: `path` holds the old file or the new one, whole; the files of a Shapefile are replaced one after the
+ * other. options may be NULL. Twice the time of froe_tree_parts(), and that of OGR.
+ *
+ * FROE_E_UNSUPPORTED: another extension or dimension; a GeoPackage with other layers, which would be lost; a Shapefile
+ * of several kinds of shapes, with a name of more than 254 bytes or a number of more than 18 digits; a tag of 2^63 or
+ * more. FROE_E_IO: cannot be written, disk full. FROE_E_CANCELLED, FROE_E_MEMORY, FROE_E_OPTIONS, FROE_E_ARG. */
+FROE_API froe_status froe_export_map(const froe_tree *tree, const char *path, froe_export_what what,
+                                     const froe_export_options *options, froe_diagnostic *diag);
+
 /** The lines of the picture of froe_render() as a drawing in DXF (of AutoCAD 2004), by GDAL. They are those of an SVG
  * of the same options, as polylines with 15 digits, in units of the page, y upwards from its lower left corner. With a
  * page in millimetres the drawing says so, and otherwise it names no unit. Each kind of line has a layer:

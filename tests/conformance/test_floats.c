@@ -542,6 +542,11 @@ static void read_again(floats_run *r, const char *path, froe_faces faces) {
     froe_scene_free(scene);
 }
 
+static bool note_part(void *user, const froe_part *part) {
+    floats_note(user, part->coords, part->corners * (size_t)part->dim * sizeof *part->coords);
+    return true;
+}
+
 static void write_and_read(floats_run *r, const char *kind, const char *path, const char *export) {
     froe_export_options o = froe_export_defaults();
     froe_scene *scene = scene_of(r, kind, 20);
@@ -552,8 +557,12 @@ static void write_and_read(floats_run *r, const char *kind, const char *path, co
     floats_note_file(r, path);
     read_again(r, path, FROE_FACES_POLYGONS);
     for (int what = 0; tree && export && what < 3; what++) {
-        MUST(r, froe_export(tree, export, (froe_export_what)what, &o, NULL));
+        if (froe_exports_own(export))
+            MUST(r, froe_export(tree, export, (froe_export_what)what, &o, NULL));
+        else
+            MUST(r, froe_export_map(tree, export, (froe_export_what)what, &o, NULL));
         floats_note_file(r, export);
+        MUST(r, froe_tree_parts(tree, (froe_export_what)what, &o, note_part, r, NULL));
     }
     froe_tree_free(tree);
     froe_scene_free(scene);
@@ -563,6 +572,7 @@ static void files(floats_run *r, void *user) {
     (void)user;
     write_and_read(r, "denormal", "floats.geojson", "floats-out.geojson");
     write_and_read(r, "mixed", "floats.geojson", "floats-out.csv");
+    write_and_read(r, "denormal", "floats.geojson", "floats-out.fgb");
     write_and_read(r, "denormal-3d", "floats.obj", "floats-out.obj");
     write_and_read(r, "triangles", "floats.off", "floats-out.obj");
     write_and_read(r, "balls", "floats.csv", NULL);

@@ -1,0 +1,46 @@
+/* heard.c: see heard.h. */
+#include "heard.h"
+#include <cpl_error.h>
+#include <gdal.h>
+#include <pthread.h>
+#include <stdio.h>
+#include <string.h>
+
+static void CPL_STDCALL hear(CPLErr class, CPLErrorNum number, const char *text) {
+    (void)number;
+    io_heard *h = CPLGetErrorHandlerUserData();
+    bool about_axes = !strncmp(text, "PROJ", 4); /* froe takes coordinates as they are */
+    if (class < CE_Failure || h->failed || about_axes) return;
+    h->failed = true;
+    snprintf(h->text, sizeof h->text, "%s", strstr(text, h->path) ? "" : text);
+    for (char *c = h->text; *c; ++c)
+        if (*c == '\n' || *c == '\r') *c = ' ';
+}
+
+static void register_drivers(void) {
+    GDALAllRegister();
+}
+
+void io_gdal_begin(io_heard *heard) {
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    CPLPushErrorHandlerEx(hear, heard);
+    pthread_once(&once, register_drivers);
+}
+
+void io_gdal_end(void) {
+    CPLPopErrorHandler();
+    CPLErrorReset();
+}
+
+froe_status io_gdal_fail(const io_heard *heard, froe_diagnostic *diag, froe_status status, const char *path,
+                         const char *sentence) {
+    if (heard->failed && *heard->text)
+        return support_fail(diag, status, "%s: OGR reports '%.120s'.", support_short(path), heard->text);
+    return support_fail(diag, status, "%s: %s", support_short(path), sentence);
+}
+
+void io_names_put(io_names *names, const char *name) {
+    const size_t room = sizeof names->text - names->used;
+    const int length = snprintf(names->text + names->used, room, "%s%s", names->count++ ? ", " : "", name);
+    if (length > 0) names->used += (size_t)length < room ? (size_t)length : room - 1;
+}

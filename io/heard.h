@@ -1,0 +1,29 @@
+/* heard.h: what all uses of GDAL share: its drivers, and its messages, which go to a handler of the thread. */
+#ifndef FROE_IO_HEARD_H
+#define FROE_IO_HEARD_H
+
+#include "formats/input/sink.h"
+
+/** The first failure of which GDAL has told. */
+typedef struct io_heard {
+    const char *path; /**< set by the owner: what froe names itself, and no message needs to */
+    bool failed;
+    char text[160]; /**< "" where it names the path */
+} io_heard;
+
+/** Registers the drivers, once, and listens until io_gdal_end(). */
+void io_gdal_begin(io_heard *heard);
+void io_gdal_end(void);
+
+/** A failure about `path`: what was heard, or else the sentence. */
+froe_status io_gdal_fail(const io_heard *heard, froe_diagnostic *diag, froe_status status, const char *path,
+                         const char *sentence);
+
+/** Names for a message, as many as fit. */
+typedef struct io_names {
+    char text[128];
+    size_t used, count;
+} io_names;
+void io_names_put(io_names *names, const char *name);
+
+#endif

@@ -1,0 +1,190 @@
+/* Parts of trees, one by one and in the formats of OGR: every kind of shape, what stops, and what is left then. */
+#include "support.h"
+
+#include <cpl_conv.h>
+#include <dirent.h>
+#include <gdal.h>
+#include <ogr_api.h>
+#include <unistd.h>
+
+static froe_tree *tree_of(const char *kind, size_t n) {
+    froe_scene *scene = NULL;
+    froe_tree *tree = NULL;
+    froe_diagnostic why;
+    if (froe_generate(kind, n, 1, NULL, &scene, &why) || froe_build(scene, NULL, &tree, &why))
+        fail_msg("%s", why.message);
+    froe_scene_free(scene);
+    return tree;
+}
+
+static size_t temporary_files(void) {
+    DIR *folder = opendir(".");
+    size_t count = 0;
+    assert_non_null(folder);
+    for (struct dirent *entry; (entry = readdir(folder));) count += strncmp(entry->d_name, ".froe", 5) == 0;
+    closedir(folder);
+    return count;
+}
+
+/* ------------------------------------------------------------------- parts -- */
+
+typedef struct tally {
+    size_t count, most;
+    double sum;
+} tally;
+
+static bool count_part(void *user, const froe_part *part) {
+    tally *t = user;
+    const froe_part like = froe_part_like(part->kind == FROE_KIND_COUNT ? FROE_EXPORT_CELLS : FROE_EXPORT_FRAGMENTS);
+    assert_int_equal(part->attribute_count, like.attribute_count);
+    for (int i = 0; i < like.attribute_count; i++) {
+        assert_string_equal(part->attributes[i].name, like.attributes[i].name);
+        assert_int_equal(part->attributes[i].text != NULL, like.attributes[i].text != NULL);
+    }
+    for (size_t i = 0; i < part->corners * (size_t)part->dim; i++) t->sum += part->coords[i];
+    return ++t->count < t->most;
+}
+
+static bool give_up(void *user, double done) {
+    (void)user, (void)done;
+    return false;
+}
+
+static void parts_are_given_until_it_is_enough(void **state) {
+    (void)state;
+    froe_tree *tree = tree_of("segments", 2000);
+    const froe_report report = froe_tree_report(tree);
+    for (int what = 0; what < 3; what++) {
+        tally all = {.most = SIZE_MAX}, again = all, few = {.most = 5};
+        assert_int_equal(froe_tree_parts(tree, (froe_export_what)what, NULL, count_part, &all, NULL), FROE_OK);
+        assert_int_equal(froe_tree_parts(tree, (froe_export_what)what, NULL, count_part, &again, NULL), FROE_OK);
+        assert_int_equal(froe_tree_parts(tree, (froe_export_what)what, NULL, count_part, &few, NULL), FROE_OK);
+        assert_true(all.count == again.count && all.sum == again.sum && few.count == 5);
+        if (what == FROE_EXPORT_FRAGMENTS) assert_int_equal(all.count, report.fragments);
+        if (what == FROE_EXPORT_CELLS) assert_true(all.count <= report.leaves && all.count > report.leaves / 2);
+    }
+    froe_export_options o = froe_export_defaults(), wrong = {0};
+    tally all = {.most = SIZE_MAX};
+    o.progress = give_up;
+    assert_int_equal(froe_tree_parts(tree, FROE_EXPORT_FRAGMENTS, &o, count_part, &all, NULL), FROE_E_CANCELLED);
+    assert_true(all.count < report.fragments);
+    assert_int_equal(froe_tree_parts(tree, (froe_export_what)3, NULL, count_part, &all, NULL), FROE_E_ARG);
+    assert_int_equal(froe_tree_parts(tree, FROE_EXPORT_CUTS, &wrong, count_part, &all, NULL), FROE_E_OPTIONS);
+    assert_int_equal(froe_tree_parts(tree, FROE_EXPORT_CUTS, NULL, NULL, NULL, NULL), FROE_E_ARG);
+    assert_int_equal(froe_tree_parts(NULL, FROE_EXPORT_CUTS, NULL, count_part, &all, NULL), FROE_E_ARG);
+    froe_tree_free(tree);
+}
+
+/* -------------------------------------------------------------------- maps -- */
+
+/* One of each kind: what OGR reads from the file is the type, and the WKT. */
+static void every_kind_has_its_shape(void **state) {
+    (void)state;
+    static const struct {
+        froe_kind kind;
+        double coords[6];
+        size_t corners;
+        OGRwkbGeometryType type;
+        const char *wkt;
+    } cases[] = {
+        {FROE_POINT, {1, 2}, 1, wkbPoint, "POINT (1 2)"},
+        {FROE_SEGMENT, {1, 2, 3, 4.5}, 2, wkbLineString, "LINESTRING (1 2,3.0 4.5)"},
+        {FROE_SEGMENT, {1, 2, 1, 2}, 2, wkbLineString, "LINESTRING (1 2,1 2)"},
+        {FROE_BOX, {1, 2, 3, 4}, 2, wkbPolygon, NULL},
+        {FROE_HULL, {1, 2, 3, 4, 1, 4}, 3, wkbMultiPoint, NULL},
+    };
+    static const char *const endings[] = {"gpkg", "fgb", "shp"};
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++)
+        for (size_t e = 0; e < 3; e++) {
+            char path[32], *wkt = NULL;
+            froe_scene *scene;
+            froe_tree *tree;
+            froe_diagnostic why;
+            const size_t starts[2] = {0, cases[c].corners};
+            froe_objects o = froe_objects_defaults();
+            o.kind = cases[c].kind, o.count = 1, o.coords = cases[c].coords;
+            if (o.kind == FROE_HULL) o.starts = starts;
+            assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+            assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
+            assert_int_equal(froe_build(scene, NULL, &tree, NULL), FROE_OK);
+            snprintf(path, sizeof path, "kind.%s", endings[e]);
+            if (froe_export_map(tree, path, FROE_EXPORT_FRAGMENTS, NULL, &why)) fail_msg("%s", why.message);
+            GDALDatasetH data = GDALOpenEx(path, GDAL_OF_VECTOR, NULL, NULL, NULL);
+            assert_non_null(data);
+            OGRLayerH layer = GDALDatasetGetLayer(data, 0);
+            OGRFeatureH feature = OGR_L_GetNextFeature(layer);
+            assert_int_equal(OGR_L_GetGeomType(layer), cases[c].type);
+            OGR_G_ExportToWkt(OGR_F_GetGeometryRef(feature), &wkt);
+            if (cases[c].wkt) assert_string_equal(wkt, cases[c].wkt);
+            if (cases[c].type == wkbPolygon) { /* rings may begin anywhere and turn either way */
+                OGREnvelope box;
+                OGR_G_GetEnvelope(OGR_F_GetGeometryRef(feature), &box);
+                assert_true(box.MinX == 1 && box.MinY == 2 && box.MaxX == 3 && box.MaxY == 4);
+                assert_true(OGR_G_Area(OGR_F_GetGeometryRef(feature)) == 4);
+            }
+            CPLFree(wkt);
+            OGR_F_Destroy(feature);
+            GDALClose(data);
+            froe_tree_free(tree);
+            froe_scene_free(scene);
+        }
+    assert_int_equal(temporary_files(), 0);
+}
+
+static void what_is_cancelled_leaves_the_old_file(void **state) {
+    (void)state;
+    static const char *const paths[] = {"old.gpkg", "old.fgb", "old.shp"};
+    froe_tree *small = tree_of("segments", 10), *large = tree_of("segments", 3000);
+    froe_export_options o = froe_export_defaults(), wrong = {0};
+    o.progress = give_up;
+    for (int i = 0; i < 3; i++) {
+        froe_scene *before, *after;
+        froe_diagnostic why;
+        if (froe_export_map(small, paths[i], FROE_EXPORT_FRAGMENTS, NULL, &why)) fail_msg("%s", why.message);
+        assert_int_equal(froe_read(paths[i], NULL, &before, NULL, NULL), FROE_OK);
+        assert_int_equal(froe_export_map(large, paths[i], FROE_EXPORT_FRAGMENTS, &o, &why), FROE_E_CANCELLED);
+        assert_int_equal(froe_export_map(large, paths[i], FROE_EXPORT_FRAGMENTS, &wrong, &why), FROE_E_OPTIONS);
+        assert_int_equal(froe_export_map(large, paths[i], (froe_export_what)7, NULL, &why), FROE_E_ARG);
+        assert_int_equal(froe_read(paths[i], NULL, &after, NULL, NULL), FROE_OK);
+        assert_int_equal(froe_scene_object_count(before), froe_scene_object_count(after));
+        froe_scene_free(before);
+        froe_scene_free(after);
+    }
+    assert_int_equal(froe_export_map(NULL, "x.gpkg", FROE_EXPORT_CELLS, NULL, NULL), FROE_E_ARG);
+    assert_int_equal(froe_export_map(small, NULL, FROE_EXPORT_CELLS, NULL, NULL), FROE_E_ARG);
+    assert_int_equal(froe_export_map(small, "x.csv", FROE_EXPORT_CELLS, NULL, NULL), FROE_OK); /* by the core */
+    assert_int_equal(temporary_files(), 0);
+    froe_tree_free(small);
+    froe_tree_free(large);
+}
+
+/* Names that are no UTF-8 come out as text, whose broken bytes are marked. */
+static void broken_names_are_marked(void **state) {
+    (void)state;
+    const double x[4] = {0, 0, 1, 1};
+    froe_objects o = froe_objects_defaults();
+    froe_scene *scene;
+    froe_tree *tree;
+    o.kind = FROE_SEGMENT, o.count = 1, o.coords = x;
+    assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+    assert_int_equal(froe_scene_add_group(scene, &(froe_group){.name = "a\xff\xc3\xa9"}, &o.group), FROE_OK);
+    assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
+    assert_int_equal(froe_build(scene, NULL, &tree, NULL), FROE_OK);
+    assert_int_equal(froe_export_map(tree, "names.gpkg", FROE_EXPORT_FRAGMENTS, NULL, NULL), FROE_OK);
+    froe_tree_free(tree);
+    froe_scene_free(scene);
+    assert_int_equal(froe_read("names.gpkg", NULL, &scene, NULL, NULL), FROE_OK);
+    assert_string_equal(froe_scene_group(scene, 0).name, "a\xef\xbf\xbd\xc3\xa9");
+    froe_scene_free(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(parts_are_given_until_it_is_enough),
+        cmocka_unit_test(every_kind_has_its_shape),
+        cmocka_unit_test(what_is_cancelled_leaves_the_old_file),
+        cmocka_unit_test(broken_names_are_marked),
+    };
+    GDALAllRegister();
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
