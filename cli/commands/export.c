@@ -20,7 +20,8 @@ static const char *const whats[] = {
     [FROE_EXPORT_FRAGMENTS] = "fragments", [FROE_EXPORT_CELLS] = "cells", [FROE_EXPORT_CUTS] = "cuts", NULL};
 
 static const cli_option options[] = {
-    CLI_OUTPUT_OPTIONS(export_args, "FILE", ".geojson, .gpkg, .fgb, .shp (plane), .obj (space) or .csv (any dimension)", .required = true),
+    CLI_OUTPUT_OPTIONS(export_args, "FILE", ".geojson, .gpkg, .fgb, .shp (plane), .obj (space) or .csv (any dimension)",
+                       .required = true),
     {"what", 0, CLI_CHOICE, offsetof(export_args, what), "PART", .help = "fragments (default), cells or cuts",
      .choices = whats},
     {"window", 0, CLI_REALS, offsetof(export_args, window), "LO,HI",
