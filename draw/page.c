@@ -113,7 +113,8 @@ static double scale_bar(const draw_page *page, cairo_t *cr, const draw_legend *l
     const double across = length * name.each / legend->length * legend->unit;
     if (!(across >= 2 && across < page->inner_width)) return right;
     draw_number(number, length);
-    snprintf(label, sizeof label, "%s %.32s", number, name.unit);
+    const bool one = length == 1 && strcmp(name.unit, "units") == 0;
+    snprintf(label, sizeof label, "%s %.32s", number, one ? "unit" : name.unit);
     const double left = right - across, tick = 0.35 * page->text;
     draw_set_color(cr, DRAW_INK, 1);
     cairo_set_line_width(cr, 1.2 * page->unit);

@@ -268,14 +268,18 @@ static void enter_group(svg_writer *w, const froe_render_path *path) {
     w->group = next;
 }
 
-/* Shown for the i-th of `count` equal times, again and again; the first also where nothing moves. */
+/* Shown for the i-th of `count` equal times, again and again; the first also where nothing moves, or where the reader
+ * wants less motion. */
 static void put_times(vector_output *output, const vector_frame *f) {
     const vector_digits from = vector_real(6, (double)f->i / (double)f->count),
                         to = vector_real(6, (double)(f->i + 1) / (double)f->count);
-    vector_print(
-        output,
-        "<g%s>\n<animate attributeName=\"display\" calcMode=\"discrete\" dur=\"%ss\" repeatCount=\"indefinite\" ",
-        f->i ? " display=\"none\"" : "", vector_real(6, f->seconds).text);
+    if (f->i == 0)
+        vector_print(output, "<style>@media (prefers-reduced-motion: reduce) "
+                             "{ .first { display: inline !important } .other { display: none !important } }</style>\n");
+    vector_print(output,
+                 "<g class=%s>\n<animate attributeName=\"display\" calcMode=\"discrete\" dur=\"%ss\" "
+                 "repeatCount=\"indefinite\" ",
+                 f->i ? "\"other\" display=\"none\"" : "\"first\"", vector_real(6, f->seconds).text);
     if (f->i == 0)
         vector_print(output, "values=\"inline;none\" keyTimes=\"0;%s\"/>\n", to.text);
     else if (f->i + 1 < f->count)

@@ -117,8 +117,8 @@ typedef struct froe_draw_options {
     size_t mark_count;
     const uint32_t *accented; /**< FLAT, SECTIONS: objects that are drawn on top in the accent colour; NULL: none */
     size_t accented_count;
-    bool locator; /**< FLAT, with a window: the whole scene, small, in the corner, and where the window is; default
-                       false */
+    bool locator; /**< FLAT, SECTIONS, with a window: the whole scene, small, in a corner, and where the window is;
+                       default false */
     const froe_allocator *alloc; /**< of working memory (Cairo's own apart); NULL (default): malloc */
     froe_progress_fn *progress;  /**< may be NULL */
     void *user;                  /**< for progress */
