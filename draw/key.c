@@ -1,5 +1,5 @@
-/* key.c: the small drawing beside a sheet of sections that shows where they cut the scene, or, as a locator, where their
- * window is in the whole scene. */
+/* key.c: the small drawing beside a sheet of sections that shows where they cut the scene, or, as a locator, where
+ * their window is in the whole scene. */
 #include "exploded/solid.h"
 #include "lettering.h"
 #include "paint.h"
