@@ -238,7 +238,7 @@ static void an_animation_shows_each_picture_for_its_time(void **state) {
     char *text = read_file("turn.svg", &size);
     assert_int_equal(size, report.bytes);
     assert_int_equal(occurrences(text, "<animate "), 4);
-    assert_int_equal(occurrences(text, "<g display=\"none\">"), 3);
+    assert_int_equal(occurrences(text, "<g class=\"other\" display=\"none\">"), 3);
     assert_int_equal(occurrences(text, "<path "), report.paths);
     assert_int_equal(occurrences(text, "<g"), occurrences(text, "</g>"));
     assert_int_equal(froe_render_animation(tree, "turn.png", &o, cameras, 4, 2, NULL, &why), FROE_E_OPTIONS);
