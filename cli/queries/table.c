@@ -37,7 +37,7 @@ int cli_table_open(const cli_common *common, const cli_table_args *args, const c
     const int code = cli_columns_open(args->columns, kind->standard, kind->known, rows, dim, &out->columns);
     if (code) return code;
     const bool point = cli_columns_show(&out->columns, CLI_FIELD_POINT);
-    const bool ray = strstr(kind->known, "normal") != NULL; /* the command asks for rays */
+    const bool ray = kind->shape == CLI_SHAPE_HIT;
     out->nearest = out->shape == CLI_SHAPE_NEAREST || (point && !ray);
     out->hit = out->shape == CLI_SHAPE_HIT || (point && ray) || cli_columns_show(&out->columns, CLI_FIELD_NORMAL) ||
                (cli_columns_show(&out->columns, CLI_FIELD_DISTANCE) && ray);
