@@ -26,13 +26,16 @@ static num_ratio exact_square(num_context *context, const double *point, const g
     return s;
 }
 
-/* Most triangles of space, without a search. */
+/* Most triangles of space and segments of the plane, without a search. */
 static bool find_feature(num_context *context, const double *point, const geom_body *body, geom_distance *d) {
-    if (body->dim != 3 || body->count != 3 || context->first != NUM_FILTER || !num_rounding_trusted()) return false;
-    const double *const corner[3] = {geom_body_point(body, 0), geom_body_point(body, 1), geom_body_point(body, 2)};
+    const bool flat = body->dim == 2 && body->count == 2;
+    if (!flat && (body->dim != 3 || body->count != 3)) return false;
+    if (context->first != NUM_FILTER || !num_rounding_trusted()) return false;
+    const double *corner[3] = {geom_body_point(body, 0), geom_body_point(body, 1)};
+    if (!flat) corner[2] = geom_body_point(body, 2);
     geom_feature f;
-    if (num_filtered_call(context, geom_feature_nearest(point, corner, &f) ? 1 : NUM_UNSURE) == NUM_UNSURE)
-        return false;
+    const bool found = flat ? geom_feature_of_segment(point, corner, &f) : geom_feature_nearest(point, corner, &f);
+    if (num_filtered_call(context, found ? 1 : NUM_UNSURE) == NUM_UNSURE) return false;
     d->count = f.count;
     d->square = f.square;
     memcpy(d->corner, f.corner, sizeof d->corner);

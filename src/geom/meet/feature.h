@@ -1,16 +1,17 @@
-/* feature.h: the corner, edge or interior of a triangle of space that is nearest to a point (Ericson: Real-time
- * collision detection, 2005, 5.1.5), decided by filters. */
+/* feature.h: the corner, edge or interior of a triangle of space or of a segment of the plane that is nearest to a point
+ * (Ericson: Real-time collision detection, 2005, 5.1.2 and 5.1.5), decided by filters. */
 #ifndef FROE_GEOM_MEET_FEATURE_H
 #define FROE_GEOM_MEET_FEATURE_H
 #include "num/ball.h"
 #include <stdbool.h>
 
 typedef struct geom_feature {
-    int count;               /**< of corners: 1 a corner, 2 an edge, 3 the interior */
+    int count;               /**< of corners: 1 a corner, 2 an edge or segment, 3 a triangle */
     const double *corner[3]; /**< the nearest point is in the relative interior of their hull */
     num_ball square;         /**< an image of the squared distance */
 } geom_feature;
 
 /** False: doubles cannot tell. Keeps pointers to corners. */
 bool geom_feature_nearest(const double *point, const double *const corner[3], geom_feature *out);
+bool geom_feature_of_segment(const double *point, const double *const corner[2], geom_feature *out);
 #endif

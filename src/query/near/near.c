@@ -2,8 +2,8 @@
  *
  * The k best so far form a heap with the worst on top, compared exactly. When there are k of them, what is further
  * away than the worst is passed over: places by their bounds, objects by those of their bounding boxes, and the
- * rest by comparing distances, whose images decide but for ties. Of points there are candidates, few more than k
- * (near_points.c), which are sorted. */
+ * rest by comparing distances, whose images decide but for ties. Of points, and on packed trees of the plane, there are
+ * candidates, few more than k, which are sorted. */
 #include "query/near/near.h"
 #include "base/floats.h"
 #include "query/check.h"
@@ -91,19 +91,24 @@ static froe_status find_neighbours(froe_query *q, size_t k, double bound, froe_d
     return status;
 }
 
-/* The nearest of the candidates, sorted. */
-static froe_status find_points(froe_query *q, size_t k, double bound, bool *done, froe_diagnostic *diag) {
+/* The nearest of the candidates, sorted, where there is a quick way to have candidates. */
+static froe_status find_candidates(froe_query *q, size_t k, double bound, bool *done, froe_diagnostic *diag) {
     query_near *n = &q->near;
-    const froe_status status = query_near_points(q, k, bound, done, diag);
+    const froe_scene *s = q->tree->scene;
+    froe_status status = query_near_points(q, k, bound, done, diag);
+    if (!status && !*done && q->packed) {
+        status = query_near_packed(q, k, bound);
+        *done = true;
+    }
     if (status || !*done) return status;
     if (!array_reserve(&q->alloc, &n->found, n->candidates.count) ||
         !array_reserve(&q->alloc, &n->order, n->candidates.count))
         return FROE_E_MEMORY;
     for (size_t i = 0; i < n->candidates.count; i++) {
         const query_candidate *c = n->candidates.data + i;
-        const geom_body body = geom_body_at(q->tree->scene->dim, c->at);
+        const geom_body body = c->at ? geom_body_at(s->dim, c->at) : scene_body(s, c->object);
         query_neighbour *x = n->found.data + n->found.count;
-        x->square = c->square;
+        x->square = c->at ? c->square : (double)NAN;
         x->object = c->object;
         if (!measure_neighbour(q, &body, bound, x)) continue;
         n->order.data[n->order.count++] = (uint32_t)n->found.count++;
@@ -130,7 +135,7 @@ froe_status froe_query_near(froe_query *query, const double *point, size_t k, do
     memcpy(n->point, point, (size_t)dim * sizeof *point);
     n->limit = INFINITY;
     bool done = false;
-    if (k) status = find_points(query, k, bound, &done, diag);
+    if (k) status = find_candidates(query, k, bound, &done, diag);
     if (!status && !done) status = find_neighbours(query, k, bound, diag);
     query->stats.exact += query->numbers.stats.exact - exact;
     n->out.count = 0;

@@ -2,6 +2,7 @@
  *
  *     near_walk.c     the lists of a tree, those of the nearest regions first: an iterator
  *     near_points.c   where all objects are points: candidates, few more than k, by doubles side by side
+ *     near_packed.c   segments and points of a packed tree of the plane: candidates, by blocks of 16-bit units
  *     near.c          the k nearest objects in them
  *
  * It speaks for these. */
@@ -24,10 +25,10 @@ typedef struct query_place {
     uint32_t node;
 } query_place;
 
-/** A point that may be among the nearest. */
+/** An object that may be among the nearest. */
 typedef struct query_candidate {
-    double square; /**< of its distance, scaled and rounded */
-    const double *at;
+    double square;    /**< of a lower bound of its distance, scaled; of a point with `at`: of its distance, rounded */
+    const double *at; /**< coordinates of a point; NULL: those of the scene count */
     uint32_t object;
 } query_candidate;
 
@@ -62,6 +63,13 @@ froe_status query_near_next(struct froe_query *query, struct tree_objects *list)
  * to query->near.point, or all within the bound if there are fewer, and whatever doubles do not tell from them.
  * FROE_E_MEMORY. */
 froe_status query_near_points(struct froe_query *query, size_t k, double bound, bool *done, froe_diagnostic *diag);
+/** On a packed tree of the plane: query->near.candidates has the k nearest to query->near.point, or all within the bound
+ * if there are fewer, and what 16-bit units do not tell from them; none twice. FROE_E_MEMORY. */
+froe_status query_near_packed(struct froe_query *query, size_t k, double bound);
+/** Puts a square among the k least, for which there is room, and lowers the limit to the greatest of k. */
+void query_near_keep(query_near *n, double square, size_t k);
+/** Drops candidates beyond the limit. */
+void query_near_sift(query_near *n);
 /** A power of 2 that brings the greatest coordinate near 1: then squares neither overflow nor, where it matters,
  * underflow. */
 double query_near_scale(const froe_scene *scene, const double *point);

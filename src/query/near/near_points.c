@@ -37,8 +37,8 @@ static double box_square(const query_near *n, const query_contents *c, uint32_t 
 
 /* ----------------------------------------------------------------- k best -- */
 
-/* Puts a square on the heap of the k least, the greatest on top, in place of that if there are k. */
-static void keep_point(query_near *n, double square, size_t k) {
+/* The k least are a heap, the greatest on top. */
+void query_near_keep(query_near *n, double square, size_t k) {
     double *heap = n->best.data;
     size_t i;
     if (n->best.count < k) {
@@ -56,8 +56,7 @@ static void keep_point(query_near *n, double square, size_t k) {
     if (n->best.count == k && query_near_reach(heap[0]) < n->limit) n->limit = query_near_reach(heap[0]);
 }
 
-/* Drops candidates beyond the limit. */
-static void sift(query_near *n) {
+void query_near_sift(query_near *n) {
     size_t kept = 0;
     for (size_t i = 0; i < n->candidates.count; i++)
         if (n->candidates.data[i].square <= n->limit) n->candidates.data[kept++] = n->candidates.data[i];
@@ -69,7 +68,8 @@ static bool scan(froe_query *q, const query_pieces *pieces, const tree_objects *
     const size_t dim = (size_t)q->tree->scene->dim;
     const double *at = pieces->points + list->first * dim;
     const size_t room = list->count < k ? list->count : k;
-    if (n->candidates.count > 2 * k + 64) sift(n); /* without ties there are little more than 2 k and one list */
+    if (n->candidates.count > 2 * k + 64)
+        query_near_sift(n); /* without ties there are little more than 2 k and one list */
     if (!array_reserve(&q->alloc, &n->candidates, list->count) || !array_reserve(&q->alloc, &n->best, room))
         return false;
     for (uint32_t i = 0; i < list->count; i++, at += dim) {
@@ -77,7 +77,7 @@ static bool scan(froe_query *q, const query_pieces *pieces, const tree_objects *
         for (size_t j = 0; j < dim; j++) square += square_of(at[j] * n->scale - n->scaled[j]);
         if (!(square <= n->limit)) continue;
         n->candidates.data[n->candidates.count++] = (query_candidate){square, at, tree_object(list, i)};
-        keep_point(n, square, k);
+        query_near_keep(n, square, k);
     }
     q->stats.tests += list->count;
     return true;
@@ -132,6 +132,6 @@ froe_status query_near_points(froe_query *q, size_t k, double bound, bool *done,
         if (at.bound <= n->limit) memory = descend_nearer_child(q, contents, pieces, at.node, k);
     }
     if (!memory) return FROE_E_MEMORY;
-    sift(n);
+    query_near_sift(n);
     return FROE_OK;
 }

@@ -22,6 +22,12 @@ typedef struct packed_visit {
     uint32_t block, end, count;
 } packed_visit;
 
+/** A subtree to be searched later for what is near, and how far the point is from its region along the axes, scaled. */
+typedef struct packed_far {
+    double gap[2];
+    uint32_t node;
+} packed_far;
+
 enum { PACKED_FLIGHT = 16 }; /* vertical rays in flight */
 
 /** What a context has for packed trees. */
@@ -31,8 +37,10 @@ typedef struct packed_work {
     ARRAY(packed_visit) visits;
     ARRAY(packed_unsure) unsure;
     ARRAY(uint32_t) candidates;
-    ARRAY(uint16_t) bits; /**< of a row of pairs */
-    uint32_t *climbs;     /**< stacks of PACKED_FLIGHT vertical rays, of height + 2 nodes each */
+    ARRAY(uint16_t) bits;  /**< of a row of pairs */
+    ARRAY(packed_far) far; /**< room for the height of the tree */
+    ARRAY(float) squares;  /**< of distances in a leaf */
+    uint32_t *climbs;      /**< stacks of PACKED_FLIGHT vertical rays, of height + 2 nodes each */
     size_t climb_size;
     uint64_t decided; /**< fragments that kernels left open, for tests and benches */
 } packed_work;

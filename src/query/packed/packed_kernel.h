@@ -1,4 +1,5 @@
-/* packed_kernel.h: sixteen fragments of a block at a time, beside a window, a vertical ray, or another fragment.
+/* packed_kernel.h: sixteen fragments of a block at a time, beside a window, a vertical ray, a point, or another
+ * fragment.
  *
  *      sure no  <------- unsure ------->  sure yes
  *     ----------|-----------------------|----------->
@@ -58,6 +59,9 @@ typedef struct packed_kernels {
                      packed_heights *out);
     /** Words 0 .. (count - 1) / 16 of the row are written. */
     void (*pairs)(const packed_header *block, uint32_t count, uint32_t i, packed_row *out);
+    /** Squared distances of all fragments from a point, all in units: near the truth as near_packed.c has it, for a
+     * point with coordinates up to 2^60. There is room for `count` and PACKED_LANES more. Returns the least. */
+    float (*nearest)(const packed_header *block, uint32_t count, const float *point, float *squares);
 } packed_kernels;
 
 extern const packed_kernels packed_kernels_plain;

@@ -21,7 +21,8 @@ froe_status packed_work_new(const froe_tree *t, packed_work **out) {
     work->kernels = packed_kernels_at(0);
     work->climb_size = t->report.height + 2;
     work->climbs = support_calloc(&t->alloc, PACKED_FLIGHT * work->climb_size, sizeof *work->climbs);
-    if (!work->climbs || !array_reserve(&t->alloc, &work->stack, t->report.height + 2)) {
+    if (!work->climbs || !array_reserve(&t->alloc, &work->stack, t->report.height + 2) ||
+        !array_reserve(&t->alloc, &work->far, t->report.height + 2)) {
         packed_work_free(work, &t->alloc);
         return FROE_E_MEMORY;
     }
@@ -36,6 +37,8 @@ void packed_work_free(packed_work *work, const froe_allocator *alloc) {
     array_free(alloc, &work->unsure);
     array_free(alloc, &work->candidates);
     array_free(alloc, &work->bits);
+    array_free(alloc, &work->far);
+    array_free(alloc, &work->squares);
     support_free(alloc, work->climbs, PACKED_FLIGHT * work->climb_size * sizeof *work->climbs);
     support_free(alloc, work, sizeof *work);
 }
