@@ -64,7 +64,7 @@ static const char *next_word(ply *p, char *word) {
 }
 
 /* To the next line; false at the end of the file, or of its text: a zero byte. */
-static bool next_line(ply *p) {
+static bool skip_line(ply *p) {
     p->at += strcspn(p->at, "\r\n");
     if (!*p->at) return false;
     if (*p->at == '\r') ++p->at;
@@ -132,7 +132,7 @@ static froe_status read_ply_header(ply *p) {
     bool formatted = false;
     char word[WORD_ROOM];
     while (!status) {
-        if (!next_line(p)) return broken(p, "The header has no end.");
+        if (!skip_line(p)) return broken(p, "The header has no end.");
         next_word(p, word);
         if (!strcmp(word, "end_header")) break;
         if (!strcmp(word, "format")) {
@@ -147,7 +147,7 @@ static froe_status read_ply_header(ply *p) {
             status = read_property(p);
         }
     }
-    next_line(p); /* data begins behind the line, even when it is empty */
+    skip_line(p); /* data begins behind the line, even when it is empty */
     return status || formatted ? status : broken(p, "The header names no format.");
 }
 
@@ -193,7 +193,7 @@ static froe_status read_item(ply *p, const element *e, double *by_role) {
             if (to->role == INDICES && !array_push(&p->sink->alloc, &p->indices, value)) return out_of_memory(p);
         }
     }
-    if (p->text) next_line(p); /* some programs write more numbers than the header declares */
+    if (p->text) skip_line(p); /* some programs write more numbers than the header declares */
     return FROE_OK;
 }
 

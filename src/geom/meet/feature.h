@@ -1,4 +1,4 @@
-/* feature.h: the corner, edge or interior of a triangle of space or of a segment of the plane that is nearest to a point
+/* feature.h: the corner, edge or interior nearest to a point, of a triangle of space or a segment of the plane
  * (Ericson: Real-time collision detection, 2005, 5.1.2 and 5.1.5), decided by filters. */
 #ifndef FROE_GEOM_MEET_FEATURE_H
 #define FROE_GEOM_MEET_FEATURE_H

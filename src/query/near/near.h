@@ -63,8 +63,8 @@ froe_status query_near_next(struct froe_query *query, struct tree_objects *list)
  * to query->near.point, or all within the bound if there are fewer, and whatever doubles do not tell from them.
  * FROE_E_MEMORY. */
 froe_status query_near_points(struct froe_query *query, size_t k, double bound, bool *done, froe_diagnostic *diag);
-/** On a packed tree of the plane: query->near.candidates has the k nearest to query->near.point, or all within the bound
- * if there are fewer, and what 16-bit units do not tell from them; none twice. FROE_E_MEMORY. */
+/** On a packed tree of the plane: query->near.candidates has the k nearest to query->near.point, or all within the
+ * bound if there are fewer, and what 16-bit units do not tell from them; none twice. FROE_E_MEMORY. */
 froe_status query_near_packed(struct froe_query *query, size_t k, double bound);
 /** Puts a square among the k least, for which there is room, and lowers the limit to the greatest of k. */
 void query_near_keep(query_near *n, double square, size_t k);

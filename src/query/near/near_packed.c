@@ -1,9 +1,9 @@
 /* near_packed.c: the k nearest of the objects of a packed tree of the plane.
  *
- *     +----+------+----+     Depth first, the nearer child before the other; what waits knows the gaps between the point
- *     |    |   gap|    |     and its region along the axes, which cuts enlarge one at a time (Arya and Mount: Algorithms
- *     |  x<--dx-->|far |     for fast vector quantization, 1993). In a leaf a kernel has the distances of all fragments
- *     +----+------+----+     in units of the cell. Each stands between two bounds:
+ *     +----+------+----+     Depth first, the nearer child before the other. What waits knows the gaps between the
+ *     |    |   gap|    |     point and its region along the axes, which cuts enlarge one at a time (Arya and Mount:
+ *     |  x<--dx-->|far |     Algorithms for fast vector quantization, 1993). In a leaf a kernel has the distances of
+ *     +----+------+----+     all fragments in units of the cell. Each stands between two bounds:
  *
  *                   distance - slack  <=  truth  <=  distance + slack
  *
@@ -11,13 +11,13 @@
  * measured exactly in the end. For k > 1 the upper bounds are those of fragments where objects begin, so that no object
  * counts twice.
  *
- * The slack, in units. E is the error of the block, A the greatest of 65536 and the point's coordinates |x|, |y|, u =
- * 2^-24. Both ends of a fragment are off by up to E along each axis, so the fragment by less than 1.5 E. The point is
- * rounded by A u along each axis. Let v be the vector from p to the point and d that from p to q; v is rounded by 2 A u
- * along each axis, and |v| <= 3 A, |d| <= 1.5 A. So v . d is off by at most 2^-21 |v| |d|, t by 2^-21 (|v| / |d| + 2), and
- * t d by 2^-21 (3 A + 3 A). Clamped to [0, 1], t is no further off. The vector v - t d has roundings of 8 A u along each axis,
- * and its length, up to 5 A, those of 2 u of itself. All of that together is less than (1.5 + 12 + 11.4 + 2 + 48) A u < A
- * 2^-17.
+ * The slack, in units. E is the error of the block, A the greatest of 65536 and the point's coordinates |x|, |y|, and
+ * u = 2^-24. Both ends of a fragment are off by up to E along each axis, so the fragment by less than 1.5 E. The point
+ * is rounded by A u along each axis. Let v be the vector from p to the point and d that from p to q. v is rounded by
+ * 2 A u along each axis, |v| <= 3 A, and |d| <= 1.5 A. So v . d is off by at most 2^-21 |v| |d|, t by
+ * 2^-21 (|v| / |d| + 2), and t d by 2^-21 (3 A + 3 A). Clamped to [0, 1], t is no further off. The vector v - t d has
+ * roundings of 8 A u along each axis, and its length, up to 5 A, has those of 2 u of itself. All of that together is
+ * less than (1.5 + 3 + 48 + 12 + 10) A u < A 2^-17.
  *
  * Scaled squares are those of near_points.c, with its rules of rounding. */
 #include "query/context.h"
