@@ -1,5 +1,5 @@
-/* crash.c: see crash.h. The handler reaches nothing but static variables, and calls only functions that POSIX allows in
- * a handler. */
+/* crash.c: see crash.h. The handler reaches nothing but a static variable, and calls only functions that POSIX allows
+ * in one. */
 #define _XOPEN_SOURCE 700 /* sigaltstack */
 #include "args/crash.h"
 #include "exit.h"
@@ -12,36 +12,40 @@
 static const int signals[] = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL};
 enum { SIGNALS = sizeof signals / sizeof *signals };
 
-static char name[4096]; /* of the file */
-static cli_spool spooled;
-static struct sigaction before[SIGNALS];
-static char stack[1 << 16]; /* for the handler: the program's own may be full */
+/* What the handler needs. */
+static struct {
+    char name[4096]; /* of the file */
+    cli_spool spool;
+    struct sigaction before[SIGNALS];
+    char stack[1 << 16]; /* for the handler: the program's own may be full */
+} crash_guard;
 
 static void on_crash(int number) {
     static const char said[] =
         ": The library that reads this format crashed. The file is broken, or beyond the library.\n";
     (void)number;
+    const char *name = crash_guard.name;
     const bool told = write(STDERR_FILENO, "froe: ", strlen("froe: ")) > 0 &&
                       write(STDERR_FILENO, name, strlen(name)) > 0 && write(STDERR_FILENO, said, strlen(said)) > 0;
-    if (*spooled.folder) {
-        unlink(spooled.copy);
-        rmdir(spooled.folder);
+    if (*crash_guard.spool.folder) {
+        unlink(crash_guard.spool.copy);
+        rmdir(crash_guard.spool.folder);
     }
     _exit(told ? CLI_INPUT : CLI_RESOURCES);
 }
 
 void cli_crash_begin(const cli_spool *spool) {
-    const stack_t own = {.ss_sp = stack, .ss_size = sizeof stack};
+    const stack_t own = {.ss_sp = crash_guard.stack, .ss_size = sizeof crash_guard.stack};
     struct sigaction action;
-    snprintf(name, sizeof name, "%s", spool->name);
-    support_one_line(name);
-    spooled = *spool;
+    snprintf(crash_guard.name, sizeof crash_guard.name, "%s", spool->name);
+    support_one_line(crash_guard.name);
+    crash_guard.spool = *spool;
     memset(&action, 0, sizeof action);
     action.sa_handler = on_crash;
     action.sa_flags = (int)SA_RESETHAND | (sigaltstack(&own, NULL) ? 0 : SA_ONSTACK);
-    for (int i = 0; i < SIGNALS; i++) sigaction(signals[i], &action, &before[i]);
+    for (int i = 0; i < SIGNALS; i++) sigaction(signals[i], &action, &crash_guard.before[i]);
 }
 
 void cli_crash_end(void) {
-    for (int i = 0; i < SIGNALS; i++) sigaction(signals[i], &before[i], NULL);
+    for (int i = 0; i < SIGNALS; i++) sigaction(signals[i], &crash_guard.before[i], NULL);
 }
