@@ -40,8 +40,11 @@ build-bench: deps-bench
 bench: build-bench ## froe beside other programs of Debian: docs/evidence/benchmarks.md; SIZES="10000 10000000" for others
 	@bench/run --build $(BUILD)/bench
 
-bench-peers: build-bench ## and beside programs that have to be fetched, where they can be
-	@bench/run --build $(BUILD)/bench npm $(filter lines,$(notdir $(wildcard bench/parts/*))) pieces pictures
+# What cannot be installed is left out by the parts.
+bench-peers: deps-bench ## and beside programs that have to be fetched or are large, where they can be had
+	-@scripts/deps peers
+	@$(MAKE) --no-print-directory build-bench
+	@bench/run --build $(BUILD)/bench npm lines pieces pictures
 
 claims: build-bench ## what the sources claim, measured: docs/evidence/claims.md
 	@$(BUILD)/bench/bin/bench_claims docs/evidence/claims.md

@@ -1,0 +1,122 @@
+#!/usr/bin/env python3
+"""page_mesh.py MODEL[:y] OUT.off: a model as every program of the part `lines` is given it.
+
+The model (OFF, OBJ or binary glTF; :y when y points up) is turned so that parallel rays of view run along -z, y points
+up on a page of 1000 x 1000, and all of it fits. The page is centred at the origin. Coordinates are whole multiples of
+2^-12 of a pixel, which single precision holds: all programs get the same numbers. Vertices of one place are one.
+"""
+import json
+import math
+import struct
+import sys
+
+
+def read_off(path):
+    words = open(path).read().split()
+    count, faces = int(words[1]), int(words[2])
+    at = 4 + 3 * count
+    points = [tuple(map(float, words[4 + 3 * i:7 + 3 * i])) for i in range(count)]
+    polygons = []
+    for _ in range(faces):
+        n = int(words[at])
+        polygons.append([int(w) for w in words[at + 1:at + 1 + n]])
+        at += n + 1
+    return points, polygons
+
+
+def read_obj(path):
+    points, polygons = [], []
+    for line in open(path):
+        words = line.split()
+        if words[:1] == ["v"]:
+            points.append(tuple(map(float, words[1:4])))
+        if words[:1] == ["f"]:
+            polygons.append([int(w.split("/")[0]) - 1 for w in words[1:]])
+    return points, polygons
+
+
+def matrix_of(node):
+    if "matrix" in node:
+        m = node["matrix"]
+        return [[m[4 * c + r] for c in range(4)] for r in range(4)]
+    x, y, z, w = node.get("rotation", (0, 0, 0, 1))
+    s, t = node.get("scale", (1, 1, 1)), node.get("translation", (0, 0, 0))
+    turn = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]
+    return [[turn[r][c] * s[c] for c in range(3)] + [t[r]] for r in range(3)] + [[0, 0, 0, 1]]
+
+
+def read_glb(path):
+    data = open(path, "rb").read()
+    length = struct.unpack_from("<I", data, 12)[0]
+    scene, binary = json.loads(data[20:20 + length]), 28 + length
+
+    def values(number):
+        accessor = scene["accessors"][number]
+        view = scene["bufferViews"][accessor["bufferView"]]
+        n = {"SCALAR": 1, "VEC3": 3}[accessor["type"]]
+        form = {5126: "f", 5125: "I", 5123: "H", 5121: "B"}[accessor["componentType"]]
+        start = binary + view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
+        step = view.get("byteStride", n * struct.calcsize(form))
+        rows = [struct.unpack_from("<%d%s" % (n, form), data, start + i * step) for i in range(accessor["count"])]
+        return rows if n > 1 else [row[0] for row in rows]
+
+    points, polygons = [], []
+    stack = [(n, [[float(r == c) for c in range(4)] for r in range(4)])
+             for n in scene["scenes"][scene.get("scene", 0)]["nodes"]]
+    while stack:
+        number, above = stack.pop()
+        node = scene["nodes"][number]
+        own = matrix_of(node)
+        at = [[sum(above[r][k] * own[k][c] for k in range(4)) for c in range(4)] for r in range(4)]
+        stack += [(child, at) for child in node.get("children", ())]
+        for part in scene["meshes"][node["mesh"]]["primitives"] if "mesh" in node else ():
+            if part.get("mode", 4) != 4:
+                continue
+            first, corners = len(points), values(part["attributes"]["POSITION"])
+            points += [tuple(sum(at[r][k] * p[k] for k in range(3)) + at[r][3] for r in range(3)) for p in corners]
+            indices = values(part["indices"]) if "indices" in part else range(len(corners))
+            polygons += [[first + i for i in indices[k:k + 3]] for k in range(0, len(indices), 3)]
+    return points, polygons
+
+
+def unit(v):
+    length = math.sqrt(sum(x * x for x in v))
+    return [x / length for x in v]
+
+
+def cross(a, b):
+    return [a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3] for i in range(3)]
+
+
+def main():
+    name, out = sys.argv[1:]
+    path, y_up = name.removesuffix(":y"), name.endswith(":y")
+    points, polygons = {"off": read_off, "obj": read_obj, "glb": read_glb}[path.rsplit(".", 1)[1]](path)
+    back, up = (unit((3, 2, 5)), (0, 1, 0)) if y_up else (unit((3, -5, 2)), (0, 0, 1))
+    right = unit(cross(up, back))
+    axes = [right, cross(back, right), back]
+    seen = [[sum(a[k] * p[k] for k in range(3)) for a in axes] for p in points]
+    lo, hi = [min(p[k] for p in seen) for k in range(3)], [max(p[k] for p in seen) for k in range(3)]
+    scale = 960 / max(hi[k] - lo[k] for k in range(2))
+    numbers, kept, triangles = {}, [], []
+    places = []
+    for p in seen:
+        q = tuple(round((p[k] - (lo[k] + hi[k]) / 2) * scale * 4096) / 4096 for k in range(3))
+        places.append(numbers.setdefault(q, len(numbers)))
+        if len(kept) < len(numbers):
+            kept.append(q)
+    for p in polygons:
+        for i in range(1, len(p) - 1):
+            t = (places[p[0]], places[p[i]], places[p[i + 1]])
+            u, v = [[kept[t[i]][k] - kept[t[0]][k] for k in range(3)] for i in (1, 2)]
+            if any(x != 0 for x in cross(u, v)):
+                triangles.append(t)
+    with open(out, "w") as file:
+        file.write("OFF\n%d %d 0\n" % (len(kept), len(triangles)))
+        file.writelines("%.15g %.15g %.15g\n" % p for p in kept)
+        file.writelines("3 %d %d %d\n" % t for t in triangles)
+
+
+main()
