@@ -568,8 +568,23 @@ static void write_and_read(floats_run *r, const char *kind, const char *path, co
     froe_scene_free(scene);
 }
 
+static void draw_plan(floats_run *r) {
+    const froe_allocator memory = {floats_memory, r};
+    froe_render_options o = froe_render_defaults();
+    froe_scene *scene = scene_of(r, "triangles", 20);
+    froe_tree *tree = tree_of(r, scene, "autopartition", NULL);
+    o.alloc = &memory;
+    o.progress = floats_progress;
+    o.user = r;
+    MUST(r, froe_render_dxf(tree, "floats.dxf", &o, NULL, NULL));
+    floats_note_file(r, "floats.dxf");
+    froe_tree_free(tree);
+    froe_scene_free(scene);
+}
+
 static void files(floats_run *r, void *user) {
     (void)user;
+    draw_plan(r);
     write_and_read(r, "denormal", "floats.geojson", "floats-out.geojson");
     write_and_read(r, "mixed", "floats.geojson", "floats-out.csv");
     write_and_read(r, "denormal", "floats.geojson", "floats-out.fgb");

@@ -9,6 +9,11 @@ static bool note_path(void *user, const froe_render_path *path) {
     return true;
 }
 
+static bool note_line(void *user, const froe_stroke *line) {
+    return floats_bytes(user, line->points, 2 * line->count * sizeof *line->points) &&
+           floats_bytes(user, line->space, 3 * line->count * sizeof *line->space);
+}
+
 static void renderings(floats_run *r, void *user) {
     static const char *const files[] = {"floats.svg", "floats.pdf", "floats.eps", "floats.csv", "floats.geojson"};
     const froe_allocator memory = {floats_memory, r};
@@ -26,6 +31,7 @@ static void renderings(floats_run *r, void *user) {
         MUST(r, froe_render_write(tree, (froe_render_format)f, floats_bytes, r, &o, NULL, NULL));
     }
     MUST(r, froe_render_paths(tree, 100, note_path, r, &o, NULL, NULL));
+    MUST(r, froe_render_lines(tree, note_line, r, &o, NULL, NULL));
     MUST(r, froe_camera_turn(&o.camera, scene, 2, cameras, NULL));
     MUST(r, froe_render_animation(tree, files[0], &o, cameras, 2, 3, NULL, NULL));
     floats_note_file(r, files[0]);
