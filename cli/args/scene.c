@@ -59,7 +59,7 @@ static void warn(const cli_common *common, const char *name, const froe_read_rep
 
 int cli_read_scene(const cli_common *common, const cli_scene_args *args, froe_scene **scene, froe_read_report *report) {
     cli_spool spool;
-    cli_io io = {NULL};
+    cli_io io = {0};
     int code = cli_spool_open(args->path, args->format, &spool);
     if (code) return code;
     const bool own = froe_reads_own(spool.path); /* without GDAL and assimp */

@@ -1,4 +1,4 @@
-/* test_wires.c: segments and points of a scene in files: their colours, widths and order, and what the report counts. */
+/* test_wires.c: segments and points of a scene in files: their colours, widths and order, and how they are counted. */
 #include "support/memory.h"
 #include <froe/render.h>
 #include <stdio.h>
