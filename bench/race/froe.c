@@ -12,7 +12,7 @@
 #include <string.h>
 
 typedef struct settings { /* peer.own */
-    char name[64], method[32], kernels[16];
+    char name[64], what[96], method[32], kernels[16];
     uint32_t leaf;
     unsigned threads;
 } settings;
@@ -268,7 +268,9 @@ peer *race_froe(const char *spec, bool plain) {
         if (*at == '+') snprintf(s->kernels, sizeof s->kernels, "%.*s", (int)strcspn(at + 1, "/@+"), at + 1);
     }
     name_it(s, plain);
-    *p = (peer){s->name, s->method, 0, false, serves, make, drop, answer, tree_bytes, steps, s};
+    snprintf(s->what, sizeof s->what, "method %s, instructions %s", s->method,
+             s->kernels[0] ? s->kernels : packed_kernels_at(0)->name);
+    *p = (peer){s->name, s->what, 0, false, serves, make, drop, answer, tree_bytes, steps, s};
     return p;
 }
 

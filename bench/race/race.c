@@ -274,12 +274,14 @@ static void enter(run *r, const peer *p) {
     if (r->count < RACE_MOST && serves_any(r, p)) r->contestants[r->count++] = (race_contestant){p, NULL};
 }
 
+/* The method that is the first of its kind needs no name. */
 static void enter_froe(run *r, const char *list) {
+    const char *first = kinds[r->kind].froe;
     char spec[64];
-    for (size_t i = 0; *list; i++) {
-        const size_t length = strcspn(list, ",");
+    while (*list) {
+        const size_t length = strcspn(list, ","), method = strcspn(list, ",/@+");
         snprintf(spec, sizeof spec, "%.*s", (int)length, list);
-        enter(r, race_froe(spec, i == 0));
+        enter(r, race_froe(spec, method == strcspn(first, ",/@+") && !strncmp(list, first, method)));
         list += length + (list[length] == ',');
     }
 }
