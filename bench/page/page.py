@@ -406,7 +406,7 @@ plain C, on a million short segments and a million triangles of a city? The answ
         rows = []
         measure = "seconds of the clock"
         for kind in KINDS:
-            work = kind + ": make"
+            work = "threads, %s: make" % kind
             for scene in self.r.select(1, work, measure=measure):
                 size = self.r.select(2, work, scene=scene, measure=measure)[0]
                 for program in self.r.select(3, work, size, measure, scene):

@@ -36,8 +36,8 @@ class Results:
         if "head" in line:
             self.heads[part] = line["head"]
             return
-        if part == "paths":  # other runs of the same work
-            line["work"] = "paths, " + line["work"]
+        if part in ("paths", "threads"):  # other runs of the same work
+            line["work"] = part + ", " + line["work"]
         key = (line["work"], line["scene"], round(math.log10(line["objects"])), line["program"], line["measure"])
         self.order.append(key)
         self.objects[key[:3]] = line["objects"]
