@@ -148,7 +148,7 @@ static void put_contacts(formats_writer *w, const formats_animation *a, uint32_t
 static void put_style(formats_writer *w) {
     formats_put(w,
                 "<style>\n"
-                ".sheet { fill: #fff } .way, .grid { fill: none; stroke: #e2ded4 } .grid { stroke: #efece3 }\n"
+                ".sheet { fill: #fff } .way, .grid { fill: none; stroke: #d6d0c2 } .grid { stroke: #efece3 }\n"
                 ".move, .still { fill: none; stroke: #1f6580; stroke-width: 4; stroke-linecap: round }\n"
                 ".hit { stroke: #c0421f; stroke-width: 7 } .mark { fill: #c0421f } .now { fill: #1b2630 }\n"
                 "text { font: 12px system-ui, sans-serif; fill: #59646d } .still { display: none }\n"
