@@ -15,13 +15,15 @@ const demo_scene demo_scenes[] = {
         .files = {"fzk-haus.glb"},
         .steps =
             {
-                {"render fzk-haus.glb -o house-turning.svg --turntable 18 --animate --seconds 6 --preset web "
-                 "--size 900x640 --decimals 0 --min-area 3 --cull-back --line-kinds border,silhouette,object",
-                 "On a turntable: 18 drawings in one file, which any browser plays.",
-                 "A house with an orange roof turns around once in six seconds", "house.svg"},
-                {"render fzk-haus.glb -o house.svg --size 900x640",
-                 "One line, one drawing. It can be scaled, printed and edited.",
-                 "The house, seen from a corner and from above"},
+                {.command =
+                     "render fzk-haus.glb -o house-turning.svg --turntable 18 --animate --seconds 6 --preset web "
+                     "--size 900x640 --decimals 0 --min-area 3 --cull-back --line-kinds border,silhouette,object",
+                 .caption = "On a turntable: 18 drawings in one file, which any browser plays.",
+                 .text = "A house with an orange roof turns around once in six seconds",
+                 .still = "house.svg"},
+                {.command = "render fzk-haus.glb -o house.svg --size 900x640",
+                 .caption = "One line, one drawing. It can be scaled, printed and edited.",
+                 .text = "The house, seen from a corner and from above"},
             },
         .credit = HOUSE_CREDIT,
     },
@@ -32,12 +34,14 @@ const demo_scene demo_scenes[] = {
         .files = {"bracket.off"},
         .steps =
             {
-                {"render bracket.off -o bracket-lines.svg --preset technical --view iso --size 900x800 --line-width "
-                 "1.6",
-                 "A technical drawing: borders strong, edges fine, hidden ones dashed.",
-                 "Line drawing of an angle bracket with two holes and a ring; hidden edges are dashed"},
-                {"render bracket.off -o bracket.svg --view iso --size 900x800", "The same part in shades.",
-                 "The bracket with shaded faces"},
+                {.command = "render bracket.off -o bracket-lines.svg --preset technical --view iso --size 900x800 "
+                            "--line-width "
+                            "1.6",
+                 .caption = "A technical drawing: borders strong, edges fine, hidden ones dashed.",
+                 .text = "Line drawing of an angle bracket with two holes and a ring; hidden edges are dashed"},
+                {.command = "render bracket.off -o bracket.svg --view iso --size 900x800",
+                 .caption = "The same part in shades.",
+                 .text = "The bracket with shaded faces"},
             },
     },
     {
@@ -48,12 +52,13 @@ const demo_scene demo_scenes[] = {
         .files = {"countries-110m.json", "towns.csv"},
         .steps =
             {
-                {"locate countries-110m.json --wrap --groups --queries towns.csv --columns lon,lat,town,name "
-                 ">answers.csv",
-                 NULL},
-                {"draw countries-110m.json --wrap -o answers.svg --show objects --no-legend --marks answers.csv",
-                 "The first line asks, and the second draws what was asked and answered.",
-                 "A map of the world with ten marked places and the names of their countries"},
+                {.command =
+                     "locate countries-110m.json --wrap --groups --queries towns.csv --columns lon,lat,town,name "
+                     ">answers.csv"},
+                {.command =
+                     "draw countries-110m.json --wrap -o answers.svg --show objects --no-legend --marks answers.csv",
+                 .caption = "The first line asks, and the second draws what was asked and answered.",
+                 .text = "A map of the world with ten marked places and the names of their countries"},
             },
         .credit = COUNTRIES_CREDIT,
     },
@@ -64,11 +69,12 @@ const demo_scene demo_scenes[] = {
         .files = {"sight.csv"},
         .steps =
             {
-                {"ray fzk-haus.glb --queries sight.csv --columns ox,oy,oz,point >hits.csv", NULL},
-                {"draw fzk-haus.glb -o hits.svg --section y=1.4 --window=-0.5,0,-10.5,12.5,3,0.5 --show objects "
-                 "--no-legend --marks hits.csv",
-                 "A section through the house, with the rays in it.",
-                 "Floor plan of the house; rays from one room end at its walls, windows and furniture"},
+                {.command = "ray fzk-haus.glb --queries sight.csv --columns ox,oy,oz,point >hits.csv"},
+                {.command =
+                     "draw fzk-haus.glb -o hits.svg --section y=1.4 --window=-0.5,0,-10.5,12.5,3,0.5 --show objects "
+                     "--no-legend --marks hits.csv",
+                 .caption = "A section through the house, with the rays in it.",
+                 .text = "Floor plan of the house; rays from one room end at its walls, windows and furniture"},
             },
         .credit = HOUSE_CREDIT,
     },
@@ -79,12 +85,13 @@ const demo_scene demo_scenes[] = {
         .files = {"cars-bologna.mfjson"},
         .steps =
             {
-                {"simulate cars-bologna.mfjson --from 303000 --to 311000 --contacts contacts.csv --animate cars.svg "
-                 "--player cars.html --seconds 16",
-                 "Vehicles in contact are orange. The marks below are the times of contacts. <a "
-                 "href=\"cars.html\">Open "
-                 "the player</a> to stop at each.",
-                 "A map of streets on which some 500 vehicles move"},
+                {.command = "simulate cars-bologna.mfjson --from 303000 --to 311000 --contacts contacts.csv --animate "
+                            "cars.svg "
+                            "--player cars.html --seconds 16",
+                 .caption = "Vehicles in contact are orange. The marks below are the times of contacts. <a "
+                            "href=\"cars.html\">Open "
+                            "the player</a> to stop at each.",
+                 .text = "A map of streets on which some 500 vehicles move"},
             },
         .credit = "Traffic simulated with Eclipse SUMO on its network of Bologna, © German Aerospace Center (DLR) and "
                   "others, EPL-2.0 or GPL-2.0-or-later.",
@@ -98,21 +105,23 @@ const demo_scene demo_scenes[] = {
         .files = {"freedoom-e1m1.geojson"},
         .steps =
             {
-                {"build freedoom-e1m1.geojson -o floor.froe", NULL},
-                {"check floor.froe", NULL},
-                {"draw floor.froe -o floor.svg --no-legend",
-                 "The floor plan of a game. The deeper a cell lies in the tree, the darker it is. Walls are red from "
-                 "a cut on.",
-                 "A floor plan with cells coloured by depth"},
-                {"build countries-110m.json --wrap -o countries.froe", NULL},
-                {"check countries.froe", NULL},
-                {"draw countries.froe -o countries.png --scale 1.5 --no-legend", "The countries of the world.",
-                 "A map of the world with the cells of its partition"},
-                {"build fzk-haus.glb -o house.froe", NULL},
-                {"check house.froe", NULL},
-                {"draw house.froe -o house-exploded.png --style exploded --no-legend",
-                 "The house, pulled apart along the first cuts of its tree.",
-                 "The house in sixteen parts that float apart"},
+                {.command = "build freedoom-e1m1.geojson -o floor.froe"},
+                {.command = "check floor.froe"},
+                {.command = "draw floor.froe -o floor.svg --no-legend",
+                 .caption = "The floor plan of a game. The deeper a cell lies in the tree, the darker it is. Walls are "
+                            "red from "
+                            "a cut on.",
+                 .text = "A floor plan with cells coloured by depth"},
+                {.command = "build countries-110m.json --wrap -o countries.froe"},
+                {.command = "check countries.froe"},
+                {.command = "draw countries.froe -o countries.png --scale 1.5 --no-legend",
+                 .caption = "The countries of the world.",
+                 .text = "A map of the world with the cells of its partition"},
+                {.command = "build fzk-haus.glb -o house.froe"},
+                {.command = "check house.froe"},
+                {.command = "draw house.froe -o house-exploded.png --style exploded --no-legend",
+                 .caption = "The house, pulled apart along the first cuts of its tree.",
+                 .text = "The house in sixteen parts that float apart"},
             },
         .methods = "freedoom-e1m1.geojson",
         .dim = 2,
