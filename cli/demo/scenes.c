@@ -35,8 +35,7 @@ const demo_scene demo_scenes[] = {
         .steps =
             {
                 {.command = "render bracket.off -o bracket-lines.svg --preset technical --view iso --size 900x800 "
-                            "--line-width "
-                            "1.6",
+                            "--line-width 1.6",
                  .caption = "A technical drawing: borders strong, edges fine, hidden ones dashed.",
                  .text = "Line drawing of an angle bracket with two holes and a ring; hidden edges are dashed"},
                 {.command = "render bracket.off -o bracket.svg --view iso --size 900x800",
@@ -46,15 +45,13 @@ const demo_scene demo_scenes[] = {
     },
     {
         .title = "Where is this point?",
-        .text =
-            "Eleven places on a map of 177 countries: which country is each in? Answers are exact, on borders, too. "
-            "The place in the sea has none.",
+        .text = "Eleven places on a map of 177 countries: which country is each in? Answers are exact, on borders, "
+                "too. The place in the sea has none.",
         .files = {"countries-110m.json", "towns.csv"},
         .steps =
             {
-                {.command =
-                     "locate countries-110m.json --wrap --groups --queries towns.csv --columns lon,lat,town,name "
-                     ">answers.csv"},
+                {.command = "locate countries-110m.json --wrap --groups --queries towns.csv --columns "
+                            "lon,lat,town,name >answers.csv"},
                 {.command =
                      "draw countries-110m.json --wrap -o answers.svg --show objects --no-legend --marks answers.csv",
                  .caption = "The first line asks, and the second draws what was asked and answered.",
@@ -70,9 +67,8 @@ const demo_scene demo_scenes[] = {
         .steps =
             {
                 {.command = "ray fzk-haus.glb --queries sight.csv --columns ox,oy,oz,point >hits.csv"},
-                {.command =
-                     "draw fzk-haus.glb -o hits.svg --section y=1.4 --window=-0.5,0,-10.5,12.5,3,0.5 --show objects "
-                     "--no-legend --marks hits.csv",
+                {.command = "draw fzk-haus.glb -o hits.svg --section y=1.4 --window=-0.5,0,-10.5,12.5,3,0.5 --show "
+                            "objects --no-legend --marks hits.csv",
                  .caption = "A section through the house, with the rays in it.",
                  .text = "Floor plan of the house; rays from one room end at its walls, windows and furniture"},
             },
@@ -86,11 +82,9 @@ const demo_scene demo_scenes[] = {
         .steps =
             {
                 {.command = "simulate cars-bologna.mfjson --from 303000 --to 311000 --contacts contacts.csv --animate "
-                            "cars.svg "
-                            "--player cars.html --seconds 16",
+                            "cars.svg --player cars.html --seconds 16",
                  .caption = "Vehicles in contact are orange. The marks below are the times of contacts. <a "
-                            "href=\"cars.html\">Open "
-                            "the player</a> to stop at each.",
+                            "href=\"cars.html\">Open the player</a> to stop at each.",
                  .text = "A map of streets on which some 500 vehicles move"},
             },
         .credit = "Traffic simulated with Eclipse SUMO on its network of Bologna, © German Aerospace Center (DLR) and "
@@ -98,10 +92,10 @@ const demo_scene demo_scenes[] = {
     },
     {
         .title = "How it works",
-        .text = "froe cuts space in two, and each half again, until every cell holds next to nothing. Such a binary "
-                "space partition is a tree; it tells what is in front of what, and finds what is near a place without "
-                "looking at the rest. Cuts that divide few objects make small trees. Every tree can be checked, in "
-                "exact arithmetic.",
+        .text =
+            "froe cuts space in two, and each half again, until every cell holds next to nothing. Such a binary space "
+            "partition is a tree; it tells what is in front of what, and finds what is near a place without looking at "
+            "the rest. Cuts that divide few objects make small trees. Every tree can be checked, in exact arithmetic.",
         .files = {"freedoom-e1m1.geojson"},
         .steps =
             {
@@ -109,8 +103,7 @@ const demo_scene demo_scenes[] = {
                 {.command = "check floor.froe"},
                 {.command = "draw floor.froe -o floor.svg --no-legend",
                  .caption = "The floor plan of a game. The deeper a cell lies in the tree, the darker it is. Walls are "
-                            "red from "
-                            "a cut on.",
+                            "red from a cut on.",
                  .text = "A floor plan with cells coloured by depth"},
                 {.command = "build countries-110m.json --wrap -o countries.froe"},
                 {.command = "check countries.froe"},
