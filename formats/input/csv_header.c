@@ -93,7 +93,7 @@ formats_csv_header formats_csv_read_header(char **at, formats_csv_table *t) {
     support_csv_field field = {.last = false};
     t->separator = support_csv_separator(*at);
     for (t->columns = 0; !field.last; ++t->columns) {
-        if (t->columns == SUPPORT_CSV_COLUMNS) return FORMATS_CSV_OTHER;
+        if (t->columns == SUPPORT_CSV_COLUMNS) return t->columns = 0, FORMATS_CSV_OTHER;
         field = support_csv_next(at, t->separator);
         names[t->columns] = field.text;
     }
@@ -122,7 +122,7 @@ bool formats_csv_recognise(const formats_source *source) {
     formats_csv_table t = {.columns = 0};
     const bool named = !strcmp(source->extension.text, "csv") || !strcmp(source->extension.text, "tsv");
     return peek_header(source, &t) != FORMATS_CSV_OTHER ||
-           (named && !memchr(t.role, FORMATS_CSV_GEOMETRY, (size_t)t.columns));
+           (named && t.columns && !memchr(t.role, FORMATS_CSV_GEOMETRY, (size_t)t.columns));
 }
 
 bool formats_csv_has_geometry(const formats_source *source) {

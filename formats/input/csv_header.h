@@ -26,7 +26,7 @@ typedef struct formats_csv_table {
     char separator;
     froe_kind kind;
     int dim;
-    int columns;
+    int columns; /**< 0: more than can be read */
     unsigned char role[SUPPORT_CSV_COLUMNS];
     char found[80]; /**< the names of the columns, for a sentence */
 } formats_csv_table;

@@ -1,5 +1,6 @@
 /* Points, boxes and balls in CSV: headers in every guise, exact numbers, any locale. */
 #include "support.h"
+#include "support/text/csv.h"
 #include <locale.h>
 
 static froe_scene *table(const char *text, const char *format) {
@@ -130,6 +131,16 @@ static void headers_without_axes_are_told(void **state) {
                  "bad.csv: The header names town, population. Columns of points are x,y or x1,x2 or lon,lat or "
                  "easting,northing, of balls x,y,r, of boxes lo_x,lo_y,hi_x,hi_y.");
     refuse_table("x,z\n1,2\n", FROE_E_FORMAT, "The header names x, z. Columns");
+    char wide[4 * SUPPORT_CSV_COLUMNS + 40] = "x,y", *at = wide + 3; /* left to OGR */
+    for (int i = 2; i <= SUPPORT_CSV_COLUMNS; i++) at += sprintf(at, ",c");
+    at += sprintf(at, "\n1,2");
+    for (int i = 2; i <= SUPPORT_CSV_COLUMNS; i++) at += sprintf(at, ",");
+    write_text("wide.csv", wide);
+    froe_read_report report;
+    froe_scene *s = read_scene("wide.csv", &report);
+    assert_string_equal(report.format, "CSV");
+    assert_true(corner(s, 0, 0)[0] == 1 && corner(s, 0, 0)[1] == 2);
+    froe_scene_free(s);
     refuse_table("x,lat\n1,2\n", FROE_E_FORMAT, "The header names x, lat. Columns");
     refuse_table("a column with a long name,another one,and one more,one,x\n1,2,3,4,5\n", FROE_E_FORMAT,
                  "The header names a column with a long name, another one and 3 more. Columns");
