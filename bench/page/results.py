@@ -5,7 +5,9 @@ import statistics
 
 
 def shown(number):
-    """Two or three digits, as people write them."""
+    """Two or three digits, as people write them. None: no result."""
+    if number is None:
+        return ""
     if number == 0:
         return "0"
     if number >= 1e6:
