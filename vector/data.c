@@ -7,11 +7,16 @@ typedef struct data_writer {
     vector_output *output;
 } data_writer;
 
+/* Does the line lead back? A point does not. */
+static bool leads_back(const froe_stroke *s) {
+    return s->closed && s->count > 1;
+}
+
 /* Points of `dim` numbers, and the first once more where the line is closed: begin before and end behind each, and
  * `between` parts numbers. Those of the page are turned upwards. */
 static void put_points(const data_writer *w, const froe_stroke *s, int dim, const char *begin, const char *between,
                        const char *end) {
-    const size_t count = s->count + (s->closed && s->count > 1);
+    const size_t count = s->count + leads_back(s);
     for (size_t i = 0; i < count; i++) {
         const double *p = (dim == 2 ? s->points : s->space) + (size_t)dim * (i % s->count);
         vector_print(w->output, "%s%s", i ? "," : "", begin);
@@ -56,7 +61,7 @@ static void put_row(data_writer *w, const froe_stroke *s, const froe_object *own
     const vector_render *r = w->render;
     const froe_ids ids = r->options->ids;
     put_wkt(w, s, 2);
-    vector_print(w->output, ",%s,%d,%d,", froe_line_name(s->kind), s->hidden, s->closed);
+    vector_print(w->output, ",%s,%d,%d,", froe_line_name(s->kind), s->hidden, leads_back(s));
     const bool group = ids != FROE_IDS_NONE && owner->group != FROE_NONE;
     if (group) vector_print(w->output, "%u", owner->group);
     vector_print(w->output, ",");
@@ -81,7 +86,7 @@ static void put_feature(data_writer *w, const froe_stroke *s, const froe_object 
     const froe_ids ids = r->options->ids;
     vector_print(w->output, "%s{\"type\":\"Feature\",\"properties\":{\"kind\":\"%s\",\"hidden\":%s,\"closed\":%s",
                  r->report.paths ? ",\n" : "", froe_line_name(s->kind), s->hidden ? "true" : "false",
-                 s->closed ? "true" : "false");
+                 leads_back(s) ? "true" : "false");
     if (ids != FROE_IDS_NONE && owner->group != FROE_NONE) {
         vector_print(w->output, ",\"group\":%u,\"name\":\"", owner->group);
         vector_put_json(w->output, froe_scene_group(r->scene, owner->group).name);
