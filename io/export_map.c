@@ -24,7 +24,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { PATH_ROOM = 4096, TEXT_OF_DBF = 254 };
+enum { PATH_ROOM = 4096, MOST_SIBLINGS = 8, TEXT_OF_DBF = 254 };
 static const uint64_t number_of_dbf = 999999999999999999u; /* 18 digits: more would be read as a double */
 
 /** A format of OGR. */
@@ -60,6 +60,7 @@ typedef struct map_export {
     OGRwkbGeometryType type; /* of all parts; wkbNone: there are none so far, wkbUnknown: of several */
     uint64_t written;
     ARRAY(char) text;
+    char siblings[MOST_SIBLINGS][PATH_ROOM]; /* where the other files of a Shapefile go */
     froe_status status;
 } map_export;
 
@@ -243,24 +244,31 @@ static froe_status copy_file(map_export *m, const char *from, support_writer *ou
     if (in && ferror(in)) status = support_fail_file(m->diag, "written", m->path, EIO);
     if (in) fclose(in);
     support_free(&m->alloc, buffer, room);
-    return support_writer_close(out, status);
+    return status;
 }
 
-/* The other files of a Shapefile; those of an older one that the new one does not have are removed. */
-static froe_status copy_siblings(map_export *m) {
-    char from[PATH_ROOM], to[PATH_ROOM];
-    froe_status status = FROE_OK;
-    for (const char *const *ending = m->format->siblings; ending && *ending && !status; ending++) {
-        support_writer out;
-        with_ending(m->file, *ending, from);
-        with_ending(m->path, *ending, to);
-        if (access(from, R_OK) == 0) {
-            status = support_writer_open(&out, to, &m->alloc, m->diag);
-            if (!status) status = copy_file(m, from, &out);
-        } else if (unlink(to) && errno != ENOENT) {
-            status = support_fail_file(m->diag, "removed", to, errno);
-        }
+/* The other files of a Shapefile. All are copied before the first takes its place; those of an older Shapefile that the
+ * new one does not have are removed at last. */
+static froe_status take_places(map_export *m, support_writer *whole) {
+    support_writer out[MOST_SIBLINGS];
+    bool open[MOST_SIBLINGS] = {false};
+    char from[PATH_ROOM];
+    const char *const none = NULL, *const *endings = m->format->siblings ? m->format->siblings : &none;
+    froe_status status = copy_file(m, m->file, whole);
+    for (int i = 0; endings[i] && !status; i++) {
+        with_ending(m->file, endings[i], from);
+        with_ending(m->path, endings[i], m->siblings[i]);
+        if (access(from, R_OK) != 0) continue;
+        status = support_writer_open(out + i, m->siblings[i], &m->alloc, m->diag);
+        open[i] = !status;
+        if (!status) status = copy_file(m, from, out + i);
     }
+    for (int i = 0; endings[i]; i++)
+        if (open[i]) status = support_writer_close(out + i, status);
+    status = support_writer_close(whole, status);
+    for (int i = 0; endings[i] && !status; i++)
+        if (!open[i] && unlink(m->siblings[i]) && errno != ENOENT)
+            status = support_fail_file(m->diag, "removed", m->siblings[i], errno);
     return status;
 }
 
@@ -291,12 +299,16 @@ static froe_status make_folder(map_export *m) {
         snprintf(m->folder, sizeof m->folder, "%s/froe-XXXXXX", temporary && *temporary ? temporary : "/tmp");
         made = mkdtemp(m->folder) != NULL;
     }
-    if (!made) *m->folder = '\0';
+    if (!made) {
+        const int error = errno;
+        *m->folder = '\0';
+        return support_fail_file(m->diag, "written", m->path, error);
+    }
     snprintf(m->layer_name, sizeof m->layer_name, "%.*s",
              (int)(strlen(name) - strlen(support_path_extension(name).text) - 1), name);
     const int length = snprintf(m->file, sizeof m->file, "%s/%s", m->folder, name);
-    if (!made || length >= (int)sizeof m->file)
-        return support_fail_file(m->diag, "written", m->path, made ? ENAMETOOLONG : errno);
+    if (length < 0 || (size_t)length >= sizeof m->file)
+        return support_fail_file(m->diag, "written", m->path, ENAMETOOLONG);
     return FROE_OK;
 }
 
@@ -312,35 +324,47 @@ static void remove_folder(const map_export *m) {
     rmdir(m->folder);
 }
 
+static froe_status export_map(map_export *m, const froe_tree *tree, froe_export_what what,
+                              const froe_export_options *options) {
+    support_writer out;
+    froe_status status = support_writer_open(&out, m->path, &m->alloc, m->diag);
+    if (status) return status;
+    status = make_folder(m);
+    m->heard.path = m->folder;
+    io_gdal_begin(&m->heard);
+    if (!status) status = check_old(m);
+    if (!status) status = make_dataset(m, tree, what, options);
+    io_gdal_end();
+    status = status ? support_writer_close(&out, status) : take_places(m, &out);
+    remove_folder(m);
+    return status;
+}
+
 froe_status froe_export_map(const froe_tree *tree, const char *path, froe_export_what what,
                             const froe_export_options *options, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
     const froe_export_options defaults = froe_export_defaults();
+    const froe_allocator alloc = support_allocator(NULL);
     if (!tree || !path) return support_fail_null(diag, __func__);
-    map_export m = {.scene = froe_tree_scene(tree), .path = path, .diag = diag, .alloc = support_allocator(NULL)};
-    m.format = format_of(path);
+    const froe_scene *scene = froe_tree_scene(tree);
+    const map_format *format = format_of(path);
     if (froe_exports_own(path)) return froe_export(tree, path, what, options, diag);
-    if (!m.format)
+    if (!format)
         return support_fail_ending(diag, FROE_E_UNSUPPORTED, path, "exports",
                                    ".geojson, .gpkg, .fgb or .shp for maps, .obj for space, and .csv for all");
-    if (froe_scene_dim(m.scene) != 2)
+    if (froe_scene_dim(scene) != 2)
         return support_fail(diag, FROE_E_UNSUPPORTED, "%s: Maps have dimension 2, and this scene has %d.",
-                            support_short(path), froe_scene_dim(m.scene));
-    support_writer out;
+                            support_short(path), froe_scene_dim(scene));
     support_locale locale;
-    if (!support_locale_enter(&locale)) return support_fail_memory(diag);
-    froe_status status = support_writer_open(&out, path, &m.alloc, diag);
-    const bool opened = !status;
-    if (!status) status = make_folder(&m);
-    m.heard.path = m.folder;
-    io_gdal_begin(&m.heard);
-    if (!status) status = check_old(&m);
-    if (!status) status = make_dataset(&m, tree, what, options ? options : &defaults);
-    io_gdal_end();
-    if (!status) status = copy_siblings(&m);
-    if (opened) status = status ? support_writer_close(&out, status) : copy_file(&m, m.file, &out);
-    remove_folder(&m);
-    array_free(&m.alloc, &m.text);
+    map_export *m = support_calloc(&alloc, 1, sizeof *m); /* paths: too much for a small stack */
+    if (!m || !support_locale_enter(&locale)) {
+        support_free(&alloc, m, sizeof *m);
+        return support_fail_memory(diag);
+    }
+    m->scene = scene, m->path = path, m->format = format, m->diag = diag, m->alloc = alloc;
+    const froe_status status = export_map(m, tree, what, options ? options : &defaults);
     support_locale_leave(&locale);
+    array_free(&alloc, &m->text);
+    support_free(&alloc, m, sizeof *m);
     return status;
 }
