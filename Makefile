@@ -19,7 +19,7 @@ build: deps-build ## the libraries and the program, build/bin/froe
 	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=Release -DFROE_TESTS=OFF
 	@cmake --build $(BUILD) --parallel $(JOBS)
 
-demo: build ## floor plan, map and house: reports and pictures in build/demo/index.html
+demo: build ## drawings, answers, motion and partitions on one page: build/demo/index.html
 	@$(BUILD)/bin/froe demo -o $(BUILD)/demo
 
 test: deps-test ## everything the tests can find out, without benches

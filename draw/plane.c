@@ -34,7 +34,20 @@ static int section_axis(const draw_picture *picture) {
     return picture->space.dim == 3 ? draw_space_axis(&picture->space, picture->page.options->axis) : -1;
 }
 
-static void set_view(const draw_picture *picture, int axis, double at, draw_panel *out);
+/* axis: of the drawing; at: in the scene's coordinates. */
+static void set_view(const draw_picture *picture, int axis, double at, draw_panel *out) {
+    draw_view *view = &out->view;
+    *view = (draw_view){.space = picture->space, .axis = axis, .at = 0, .detail = picture->page.options->detail};
+    axes_of(axis, &view->across, &view->up);
+    view->hi = (draw_point){picture->wide[view->across], picture->wide[view->up]};
+    view->lo = (draw_point){-view->hi.x, -view->hi.y};
+    out->label[0] = 0;
+    if (axis < 0) return;
+    view->at = draw_space_map(&picture->space, axis, at);
+    char number[44];
+    draw_number(number, at);
+    snprintf(out->label, sizeof out->label, "%c = %s", "xyz"[picture->space.from[axis]], number);
+}
 
 /* Of a single view with a legend. */
 static draw_axis_room axis_room(const draw_picture *picture) {
@@ -56,21 +69,6 @@ froe_status draw_plane_plan(draw_picture *picture) {
     draw_page_plan(&picture->page, wide[up] / (wide[across] * picture->space.squeeze), room.left,
                    room.below + (picture->space.dim == 3 ? LABEL : 0));
     return FROE_OK;
-}
-
-/* axis: of the drawing; at: in the scene's coordinates. */
-static void set_view(const draw_picture *picture, int axis, double at, draw_panel *out) {
-    draw_view *view = &out->view;
-    *view = (draw_view){.space = picture->space, .axis = axis, .at = 0, .detail = picture->page.options->detail};
-    axes_of(axis, &view->across, &view->up);
-    view->hi = (draw_point){picture->wide[view->across], picture->wide[view->up]};
-    view->lo = (draw_point){-view->hi.x, -view->hi.y};
-    out->label[0] = 0;
-    if (axis < 0) return;
-    view->at = draw_space_map(&picture->space, axis, at);
-    char number[44];
-    draw_number(number, at);
-    snprintf(out->label, sizeof out->label, "%c = %s", "xyz"[picture->space.from[axis]], number);
 }
 
 /* Views in their places; returns how many. */

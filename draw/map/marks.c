@@ -26,19 +26,26 @@ static bool is_free(const mark_painter *pen, const label_box *b) {
     return b->left > 0 && b->right < pen->page->width && b->top > 0 && b->bottom < pen->page->height;
 }
 
-/* Beside the point, where there is room: right, left, above, below; right where there is none. */
-static bool mark_label(mark_painter *pen, const char *label, draw_point p) {
+/* A label of this length right of a point, left of it, above or below. */
+enum { PLACES = 4 };
+static label_box place_label(double text, double length, draw_point p, int place) {
     static const struct {
         double x, y, align;
-    } places[] = {{0.7, 0.3, 0}, {-0.7, 0.3, 1}, {0, -0.7, 0.5}, {0, 1.35, 0.5}};
+    } places[PLACES] = {{0.7, 0.3, 0}, {-0.7, 0.3, 1}, {0, -0.7, 0.5}, {0, 1.35, 0.5}};
+    const double left = p.x + places[place].x * text - places[place].align * length;
+    const double base = p.y + places[place].y * text;
+    return (label_box){left, base - 0.8 * text, left + length, base + 0.25 * text};
+}
+
+/* In the first place that is free, or else right of the point. */
+static bool mark_label(mark_painter *pen, const char *label, draw_point p) {
     const double text = pen->page->text, length = draw_text_length(pen->cr, label, text);
-    label_box box = {0};
-    size_t chosen = 0;
-    for (size_t i = sizeof places / sizeof *places; i-- > 0;) {
-        const double left = p.x + places[i].x * text - places[i].align * length, base = p.y + places[i].y * text;
-        const label_box here = {left, base - 0.8 * text, left + length, base + 0.25 * text};
-        if (i && !is_free(pen, &here)) continue;
-        if (i || is_free(pen, &here) || !chosen) box = here, chosen = i;
+    label_box box = place_label(text, length, p, 0);
+    for (int i = 0; i < PLACES; i++) {
+        const label_box here = place_label(text, length, p, i);
+        if (!is_free(pen, &here)) continue;
+        box = here;
+        break;
     }
     draw_text_backed(pen->cr, label, box.left, box.bottom - 0.25 * text, text, DRAW_PAPER, DRAW_INK);
     return array_push(&pen->page->alloc, &pen->taken, box);
@@ -118,12 +125,17 @@ froe_status draw_map_marks(const draw_page *page, cairo_t *cr, const draw_view *
     mark_painter pen = {.page = page, .cr = cr, .view = view};
     const froe_draw_options *o = page->options;
     bool ok = true;
+    const draw_point corner = draw_view_map(view, view->lo), other = draw_view_map(view, view->hi);
+    cairo_save(cr);
+    cairo_rectangle(cr, corner.x, other.y, other.x - corner.x, corner.y - other.y);
+    cairo_clip(cr);
     for (size_t i = 0; i < o->mark_count && ok; i++) {
         if (o->marks[i].kind == FROE_DRAW_MARK_LINE)
             ok = mark_line(&pen, o->marks + i);
         else
             mark_solid(&pen, o->marks + i);
     }
+    cairo_restore(cr);
     for (size_t i = 0; i < o->mark_count && ok && view->axis < 0; i++) { /* over all marks */
         const froe_draw_mark *m = o->marks + i;
         double end[3];
