@@ -45,6 +45,7 @@ enum {
     FREE,
     SMALL,
     SAMPLE,
+    CHECKS,
     COPY,
     TRIALS
 };
@@ -77,6 +78,7 @@ static const froe_option_info options[] = {
     [SMALL] = {"small", "cells of at most so many segments in the plane are finished from a table of sides", 48, 0, 48,
                NULL, true},
     [SAMPLE] = {"sample", "fragments scored per candidate, at most", 512, 8, 1e6, NULL, true},
+    [CHECKS] = {"checks", "planes per cell that are checked for what only seems to lie in them", 64, 0, 64, NULL, true},
     [COPY] = {"copy", "what it costs to list a solid once more, in comparisons with all of its cell; 0: none is spared",
               0.5, 0, 100, NULL, false},
     [TRIALS] = {"trials", "tests that refinement on trial is allowed, by the usual ones; 0: it is never taken back", 1,
@@ -294,6 +296,7 @@ static split_refine refine_of(const build_job *job) {
                           .quantiles = (uint32_t)job->option[QUANTILES],
                           .edges = (uint32_t)job->option[EDGES],
                           .sample = (uint32_t)job->option[SAMPLE],
+                          .checks = (uint32_t)job->option[CHECKS],
                           .weight = job->option[WEIGHT],
                           .copy = job->option[COPY],
                           .height = job->option[HEIGHT] * base_log2(n + 2),

@@ -22,7 +22,7 @@
 #include "build/method.h"
 #include "support/fail.h"
 
-enum { EFFORT, HEIGHT, TUNING, PEEL, GUARDS };
+enum { EFFORT, HEIGHT, TUNING, PEEL, GUARDS, MARKS };
 #define GROWTH 1.4                   /* fragments in place of one at which cells are thinned out: */
 enum { LEAST = 512, OBJECTS = 128 }; /* cells of so many, into cubes with the guards of so many */
 enum { EFFORT_LOG = 2, EFFORT_MIN = 3, LOW = 2 };
@@ -36,14 +36,15 @@ static const froe_option_info options[] = {
     [TUNING] = {0},
     [PEEL] = {"peel", "cells of so many pieces may take as many levels: fewer pieces", 0, 0, 1e9, NULL, true},
     [GUARDS] = {"guards", "left in a cube where a cell is thinned out; 0: cells are not", -1, -1, 1e9, NULL, true},
+    [MARKS] = {"marks", "pieces that only seem to lie in planes are marked", 1, 0, 1, NULL, true},
     {0},
 };
 
 static const split_effort presets[] = {
-    {.supports = 8, .starts = 4, .turns = 6, .sample = 512},
-    {.supports = 20, .starts = 16, .turns = 12, .sample = 2048},
-    {.supports = 40, .starts = 64, .turns = 20, .sample = 8192},
-    {.supports = 40, .starts = 64, .turns = 20, .sample = 8192, .again = true},
+    {.supports = 8, .starts = 4, .improved = 4, .turns = 6, .sample = 512},
+    {.supports = 20, .starts = 24, .improved = 4, .turns = 12, .sample = 2048},
+    {.supports = 80, .starts = 160, .improved = 40, .turns = 20, .sample = 8192},
+    {.supports = 80, .starts = 160, .improved = 40, .turns = 20, .sample = 8192, .again = true},
 };
 
 static void resolve_grain(const froe_scene *scene, uint32_t leaf, double *option) {
@@ -75,6 +76,7 @@ static froe_status grow_grain(build_job *job, const split_job *split, int effort
                          .effort = presets[effort],
                          .thin = {GROWTH, LEAST, (uint32_t)job->option[GUARDS]},
                          .peel = (uint32_t)job->option[PEEL],
+                         .deceived = job->option[MARKS] == 0,
                          .notes = &notes};
     if (c > 0) grain.height = c * base_log2(job->scene->object_count + 1.0) + 2;
     split_thin_notes thinned = {0};

@@ -10,7 +10,7 @@
 #define FROE_SPLIT_AXES_H
 #include "base/radix.h"
 #include "split/grow.h"
-#include "split/price.h"
+#include "split/score/price.h"
 
 typedef struct split_axes {
     ARRAY(double) low, high, flat; /**< of all fragments, ascending */

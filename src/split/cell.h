@@ -11,7 +11,7 @@
 #ifndef FROE_SPLIT_CELL_H
 #define FROE_SPLIT_CELL_H
 #include "split/grow.h"
-#include "split/price.h"
+#include "split/score/price.h"
 
 /** Ends a cell as a leaf with its list, and takes its fragments off the stack. */
 froe_status cell_leaf(split_work *work, const split_cell *cell, uint8_t flags);

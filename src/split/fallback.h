@@ -1,7 +1,7 @@
 /* fallback.h: cuts that certainly separate something, where better ones cannot be had. */
 #ifndef FROE_SPLIT_FALLBACK_H
 #define FROE_SPLIT_FALLBACK_H
-#include "split/view.h"
+#include "split/score/view.h"
 
 /** The support of some fragment, drawn by `draw`, takes that fragment at least out of the cell. False: there is none
  * (boxes, balls and hulls only). */

@@ -3,9 +3,9 @@
 #include "base/log2.h"
 #include "base/random.h"
 #include "split/cell.h"
-#include "split/contest.h"
 #include "split/fallback.h"
 #include "split/finish.h"
+#include "split/score/contest.h"
 #include <math.h>
 #include <string.h>
 
@@ -101,6 +101,28 @@ static void enter_edges(refine_search *s) {
         cut.id[2] = scene_corner(scene, other, third);
         if (cut.id[2] != cut.id[0] && cut.id[2] != cut.id[1]) enter_cut(s, &cut, NULL);
     }
+}
+
+/** Planes through an edge of an object and an outermost vertex of the scene, in the plane lines through a vertex and
+ * one: they run across walls that are flat only up to a rounding, where no other plane may do. As tests they are not
+ * counted, so that trials go as those of a scene without such walls. */
+static void enter_across(refine_search *s) {
+    const froe_scene *scene = s->set->scene;
+    const uint64_t tests = s->contest.work->tests;
+    split_view *view = &s->scratch->view;
+    const uint32_t last = (uint32_t)scene->dim - 1;
+    split_view_find_outermost(view, scene);
+    for (uint32_t i = 0; i < 2 * s->config->supports && !s->contest.done && !s->contest.failed; i++) {
+        uint64_t draw = draw_of(s, 400000 + i);
+        uint32_t object = object_of(s, base_below(draw, s->cell->count)), n = scene_corners(scene, object);
+        uint32_t corner = base_below(base_mix(draw + 1), n);
+        froe_cut cut = {.kind = FROE_CUT_VERTICES};
+        cut.id[0] = scene_corner(scene, object, corner);
+        if (last > 1) cut.id[1] = scene_corner(scene, object, corner + 1 < n ? corner + 1 : 0);
+        cut.id[last] = view->outermost[base_below(base_mix(draw + 2), view->outermost_count)];
+        if (n > 1 && cut.id[last] != cut.id[0] && cut.id[last] != cut.id[last - 1]) enter_cut(s, &cut, NULL);
+    }
+    s->contest.work->tests = tests;
 }
 
 static void enter_axes(refine_search *s, size_t quantiles) {
@@ -237,7 +259,7 @@ split_verdict split_refine_choose(const split_refine *config, split_work *work, 
     if (!s.contest.solids && (cell->attempt || single)) return last_resort(&s, cut);
     const bool strict = split_balance_due(config, cell->depth, base_log2(m));
     s.contest.terms = (split_terms){config->weight, strict && m > 4 ? 0.75 * m : (double)INFINITY};
-    split_contest_show(&s.contest, config->sample, config->seed);
+    split_contest_show(&s.contest, config->sample, config->seed, config->checks);
     if (s.contest.failed) return SPLIT_MEMORY;
     if (s.contest.solids) return choose_among_solids(&s, cut);
     if (config->free_cuts) {
@@ -258,6 +280,7 @@ split_verdict split_refine_choose(const split_refine *config, split_work *work, 
             enter_support(&s, m <= tries ? i : base_below(draw_of(&s, i), m));
         if (config->quantiles) enter_axes(&s, config->quantiles);
         if (strict && work->set.scene->dim == 3 && !s.contest.failed) enter_edges(&s);
+        if (scratch->view.marks) enter_across(&s);
     }
     if (s.contest.failed) return SPLIT_MEMORY;
     if (!s.contest.count) return last_resort(&s, cut);

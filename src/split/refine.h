@@ -11,8 +11,8 @@
 #ifndef FROE_SPLIT_REFINE_H
 #define FROE_SPLIT_REFINE_H
 #include "split/axes.h"
+#include "split/score/view.h"
 #include "split/separate.h"
-#include "split/view.h"
 
 typedef struct split_refine {
     uint32_t leaf; /**< capacity */
@@ -21,6 +21,7 @@ typedef struct split_refine {
     uint32_t quantiles; /**< axis-parallel planes tried per axis; 0: an autopartition */
     uint32_t edges;     /**< planes through an edge and a vertex tried per cell where balance is due; 3D */
     uint32_t sample;    /**< fragments scored per candidate, at most */
+    uint32_t checks;    /**< planes of a cell that are checked for fragments that only seem to lie in them, at most */
     double weight;      /**< of information against splits, in split_price_of() */
     double copy;        /**< what one more entry of a solid costs, in comparisons with all of its cell; 0: nothing */
     double height;      /**< cells deeper than this minus log_{4/3} m must be cut with balance; 0: no rule */

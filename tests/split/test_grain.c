@@ -41,7 +41,7 @@ static watch build_watching(mesh_kind kind, size_t n, void (*look)(watch *, spli
     base_task task;
     tree_meta meta = {0};
     froe_allocator alloc = support_allocator(NULL);
-    watch w = {.grain = {.seed = 5, .effort = {4, 4, 6, 256, false}, .height = 30}, .look = look, .random = {9}};
+    watch w = {.grain = {.seed = 5, .effort = {4, 4, 4, 6, 256, false}, .height = 30}, .look = look, .random = {9}};
     w.grain.notes = &w.notes;
     base_task_init(&task, 1, NULL, NULL);
     split_price_init(&w.price);
@@ -215,19 +215,26 @@ static double cost_of(watch *w, const split_work *work, const uint32_t id[3], co
 
 static void compare_pencil(watch *w, split_work *work, const split_cell *cell) {
     const split_terms terms = {0.1, 0.5 * cell->count};
-    uint32_t id[3], best, last = (uint32_t)work->set.scene->dim - 1;
+    uint32_t id[3], last = (uint32_t)work->set.scene->dim - 1;
     double least = INFINITY;
+    split_sweep_best best, none;
     assert_true(split_view_fill(&w->view, &work->set, cell, cell->count, 1, true));
     if (!drawn_span(w, work, cell, id)) return;
-    assert_true(split_sweep_pencil(&w->sweep, &work->set, &w->view, &w->price, &terms, id, &best));
+    const split_view_part part = split_view_part_of(&w->view, false);
+    const split_prices prices = split_prices_of(&w->price, &terms, part.count, 1);
+    assert_true(split_sweep_pencil(&w->sweep, &work->set, &w->view, &part, &prices, id, INFINITY, &best));
     for (size_t i = 0; i < w->view.vertices.count; i++) {
         id[last] = w->view.vertex.data[w->view.vertices.data[i]];
         double cost = id[last] == id[0] || id[last] == id[last - 1] ? (double)INFINITY : cost_of(w, work, id, &terms);
         if (cost < least) least = cost;
     }
-    id[last] = best;
-    w->wrong += best == FROE_NONE ? !isinf(least) : cost_of(w, work, id, &terms) != least;
+    id[last] = best.vertex;
+    w->wrong += best.vertex == FROE_NONE ? !isinf(least) : cost_of(w, work, id, &terms) != least || best.cost != least;
     w->compared++;
+    if (best.vertex == FROE_NONE) return;
+    /* below a limit there is the same, or nothing */
+    assert_true(split_sweep_pencil(&w->sweep, &work->set, &w->view, &part, &prices, id, best.cost, &none));
+    assert_int_equal(none.vertex, FROE_NONE);
 }
 
 static void a_pencil_has_the_best_of_its_planes(void **state) {
@@ -241,11 +248,12 @@ static void a_pencil_has_the_best_of_its_planes(void **state) {
 
 static void compare_axis(watch *w, split_work *work, const split_cell *cell) {
     const split_terms terms = {0.1, cell->count};
+    const split_prices prices = split_prices_of(&w->price, &terms, cell->count, 1);
     assert_true(split_view_fill(&w->view, &work->set, cell, cell->count, 1, true));
     for (int axis = 0; axis < work->set.scene->dim; axis++) {
-        uint32_t best;
+        split_sweep_best best;
         double least = INFINITY, found = INFINITY;
-        assert_true(split_sweep_axis(&w->sweep, &work->set, &w->view, &w->price, &terms, axis, &best));
+        assert_true(split_sweep_axis(&w->sweep, &work->set, &w->view, &prices, axis, &best));
         for (uint32_t i = 0; i < w->view.inside; i++) {
             const uint32_t vertex = w->view.vertex.data[w->view.vertices.data[i]];
             double value = scene_vertex(work->set.scene, vertex)[axis];
@@ -253,18 +261,37 @@ static void compare_axis(watch *w, split_work *work, const split_cell *cell) {
             split_tally tally = split_view_count(&w->view, &plane);
             double cost = split_tally_useful(tally) ? split_price_of(&w->price, &terms, tally, 1) : (double)INFINITY;
             least = cost < least ? cost : least;
-            if (vertex == best) found = cost;
+            if (vertex == best.vertex) found = cost;
         }
-        assert_true(found == least);
+        w->wrong += found != least;
         w->compared++;
     }
 }
 
-static void an_axis_has_the_best_of_its_planes(void **state) {
+/** But where several of its buckets seem better than they are. */
+static void an_axis_mostly_has_the_best_of_its_planes(void **state) {
+    static const mesh_kind kinds[] = {MESH_LOOSE, MESH_HILLS, MESH_MAP};
     (void)state;
-    build_watching(MESH_LOOSE, 200, compare_axis);
-    build_watching(MESH_HILLS, 200, compare_axis);
-    build_watching(MESH_MAP, 200, compare_axis);
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        const watch w = build_watching(kinds[i], 200, compare_axis);
+        assert_true(100 * w.wrong < w.compared);
+    }
+}
+
+/** Instructions of a processor give what plain C gives. */
+static void the_greater_of_four_numbers_is_the_same_everywhere(void **state) {
+    fuzz_source random = {3};
+    (void)state;
+    for (int i = 0; i < 100000; i++) {
+        const uint64_t a = fuzz_bits(&random), b = i % 5 ? fuzz_bits(&random) : a ^ UINT64_C(1) << i % 64;
+        assert_true(sweep_greater(a, b) == sweep_greater_plain(a, b));
+    }
+    for (uint32_t bucket = 1; bucket < SWEEP_MOST + 3; bucket++)
+        for (int negative = 0; negative < 2; negative++) {
+            const sweep_met met = sweep_met_of(bucket, negative);
+            assert_true(sweep_greater_plain(met, SWEEP_ALWAYS) == met && met != SWEEP_ALWAYS);
+            assert_int_equal(met & 0xffff, bucket + (negative ? SWEEP_NEGATIVE : 0));
+        }
 }
 
 /* ------------------------------------------------------------------ prices -- */
@@ -329,7 +356,7 @@ static void meshes_keep_the_height_asked_for(void **state) {
 /** Of grain at 2 log2 n + 2 levels. */
 static uint64_t height_of(froe_scene *scene, bool again) {
     split_grain_notes notes = {0, false};
-    split_grain grain = {.seed = 1, .effort = {4, 4, 6, 256, false}, .notes = &notes};
+    split_grain grain = {.seed = 1, .effort = {4, 4, 4, 6, 256, false}, .notes = &notes};
     grain.height = 2 * log2((double)froe_scene_object_count(scene)) + 2;
     split_method method = {.config = &grain,
                            .choose = split_grain_choose,
@@ -454,7 +481,8 @@ int main(void) {
         cmocka_unit_test(corners_lie_around_the_middle_and_know_their_vertices),
         cmocka_unit_test(splits_are_due_where_objects_cross),
         cmocka_unit_test(a_pencil_has_the_best_of_its_planes),
-        cmocka_unit_test(an_axis_has_the_best_of_its_planes),
+        cmocka_unit_test(an_axis_mostly_has_the_best_of_its_planes),
+        cmocka_unit_test(the_greater_of_four_numbers_is_the_same_everywhere),
         cmocka_unit_test(prices_know_splits_balance_and_limits),
         cmocka_unit_test(meshes_keep_the_height_asked_for),
         cmocka_unit_test(subtrees_too_high_are_grown_again),

@@ -18,15 +18,53 @@ static bool clip_chord(double chord[2][3], const double at[3], const double inwa
     return true;
 }
 
-static bool crosses(const split_view *f, const froe_scene *scene, uint32_t object, const split_view_plane *plane,
-                    uint32_t fragment) {
-    double chord[2][3];
-    const uint32_t corners = scene_corners(scene, object);
-    const double *n = plane->n;
-    bool some = true;
-    /* where the plane meets a fragment that has corners on both sides; in the plane a point, twice */
+/** An object in local coordinates, and its box with a margin: it is mostly small beside the cell, and then most
+ * fragments lie beside that. */
+typedef struct support_outline {
+    const split_view *view;
+    const froe_scene *scene;
+    const split_view_plane *plane;
+    uint32_t object, corners;
+    double lo[3], hi[3];
+} support_outline;
+
+static support_outline support_outline_of(const split_view *v, const froe_scene *scene, uint32_t object,
+                                          const split_view_plane *plane) {
+    support_outline out = {v, scene, plane, object, scene_corners(scene, object), {0}, {0}};
+    for (uint32_t i = 0; i < out.corners; i++) {
+        double at[3];
+        split_view_local(v, scene_point(scene, object, i), at);
+        for (int k = 0; k < 3; k++) {
+            out.lo[k] = !i || at[k] < out.lo[k] ? at[k] : out.lo[k];
+            out.hi[k] = !i || at[k] > out.hi[k] ? at[k] : out.hi[k];
+        }
+    }
+    for (int k = 0; k < 3; k++) out.lo[k] -= TOUCHING, out.hi[k] += TOUCHING;
+    return out;
+}
+
+/** Is there an axis on which the fragment ends before the object begins, or the other way round? */
+static bool beside(const support_outline *o, uint32_t fragment) {
+    const split_view *f = o->view;
     const double *const x[3] = {f->x.data, f->y.data, f->z.data};
-    uint32_t from = f->start.data[fragment], to = f->start.data[fragment + 1], found = 0;
+    const uint32_t *corner = f->corner.data, from = f->start.data[fragment], to = f->start.data[fragment + 1];
+    for (int k = 0; k < f->dim; k++) {
+        bool below = true, above = true;
+        for (uint32_t j = from; j < to; j++) {
+            const double at = x[k][corner[j]];
+            below &= at < o->lo[k];
+            above &= at > o->hi[k];
+        }
+        if (below || above) return true;
+    }
+    return false;
+}
+
+/** Where the plane meets a fragment that has corners on both sides; in the plane a point, twice. */
+static void chord_of(const split_view *f, const split_view_plane *plane, uint32_t fragment, double chord[2][3]) {
+    const double *const x[3] = {f->x.data, f->y.data, f->z.data}, *n = plane->n;
+    const uint32_t from = f->start.data[fragment], to = f->start.data[fragment + 1];
+    uint32_t found = 0;
     memset(chord, 0, 2 * sizeof *chord);
     for (uint32_t j = from; j < to && found < 2; j++) {
         uint32_t a = f->corner.data[j], b = f->corner.data[j + 1 < to ? j + 1 : from];
@@ -37,13 +75,20 @@ static bool crosses(const split_view *f, const froe_scene *scene, uint32_t objec
         found++;
     }
     if (found == 1) memcpy(chord[1], chord[0], sizeof chord[1]);
-    for (uint32_t i = 0; i < corners && some; i++) {
+}
+
+static bool crosses(const support_outline *o, uint32_t fragment) {
+    const double *n = o->plane->n;
+    double chord[2][3];
+    bool some = true;
+    chord_of(o->view, o->plane, fragment, chord);
+    for (uint32_t i = 0; i < o->corners && some; i++) {
         /* what bounds the object in its plane at its i-th corner: the edge from there, or the end of a segment */
         double at[3], next[3], e[3], inward[3];
-        split_view_local(f, scene_point(scene, object, i), at);
-        split_view_local(f, scene_point(scene, object, i + 1 < corners ? i + 1 : 0), next);
+        split_view_local(o->view, scene_point(o->scene, o->object, i), at);
+        split_view_local(o->view, scene_point(o->scene, o->object, i + 1 < o->corners ? i + 1 : 0), next);
         for (int k = 0; k < 3; k++) e[k] = inward[k] = next[k] - at[k];
-        if (f->dim == 3) {
+        if (o->view->dim == 3) {
             inward[0] = n[1] * e[2] - n[2] * e[1];
             inward[1] = n[2] * e[0] - n[0] * e[2];
             inward[2] = n[0] * e[1] - n[1] * e[0];
@@ -55,12 +100,8 @@ static bool crosses(const split_view *f, const froe_scene *scene, uint32_t objec
 
 uint32_t split_crossing_count(const split_view *f, const froe_scene *scene, uint32_t object,
                               const split_view_plane *plane) {
-    const uint32_t *start = f->start.data, *corner = f->corner.data;
+    const support_outline of = support_outline_of(f, scene, object, plane);
     uint32_t count = 0;
-    for (uint32_t i = 0; i < f->count; i++) {
-        unsigned seen = 0;
-        for (uint32_t j = start[i]; j < start[i + 1]; j++) seen |= f->side.data[corner[j]];
-        count += seen == 3 && crosses(f, scene, object, plane, i);
-    }
+    for (uint32_t i = 0; i < f->count; i++) count += f->sides.data[i] == 3 && !beside(&of, i) && crosses(&of, i);
     return count;
 }

@@ -7,7 +7,7 @@
  */
 #ifndef FROE_BUILD_GRAIN_CROSSING_H
 #define FROE_BUILD_GRAIN_CROSSING_H
-#include "split/view.h"
+#include "split/score/view.h"
 
 /** Of the fragments that a count has just found on both sides of the plane of `object`, how many cross the object
  * itself. In plain doubles: what only touches it may count or not. */

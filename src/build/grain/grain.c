@@ -13,12 +13,13 @@ static const double halving[] = {0.05, 0.15}; /* splits that one bit is worth wh
                                                  left, in the plane and in space; */
 #define PEELING 0.02                          /* and once it is not */
 #define DEAR 0.04                             /* splits for a bit that are worth looking again */
-enum { PEEL = 4, PEEL_MOST = 100, FEW = 4 };
+enum { PEEL = 4, PEEL_MOST = 100, FEW = 4, CHECKS = 16 };
 
 typedef struct scratch {
     split_view view;
     split_price price;
     split_sweep sweep;
+    split_grain_notebook notes;
 } scratch;
 
 froe_status split_grain_scratch_new(const void *config, split_work *work) {
@@ -112,11 +113,13 @@ static split_verdict balance_vertices(split_grain_search *s, froe_cut *cut) {
 /* ----------------------------------------------------------------- choice -- */
 
 static void hold(split_grain_search *s) {
-    split_contest_show(&s->contest, s->config->effort.sample, s->config->seed);
+    split_contest_show(&s->contest, s->config->effort.sample, s->config->seed, s->config->deceived ? 0 : CHECKS);
     if (s->contest.failed) return;
+    split_grain_begin(s);
     split_enter_supports(s);
     split_enter_axes(s);
     split_enter_through(s);
+    split_enter_late_supports(s);
     /* Scores the best of a sample on all fragments. Where corners lie closer together than doubles tell, a sample is
      * full of cuts that seem to split nothing and split all: if no finalist is worth its splits, supports are,
      * perhaps. */
@@ -125,10 +128,12 @@ static void hold(split_grain_search *s) {
     uint32_t count = c->count;
     if (c->view->weight == 1 || c->failed) return;
     memcpy(last, c->best, count * sizeof *last);
-    split_contest_show(c, c->cell->count, s->config->seed);
+    split_contest_show(c, c->cell->count, s->config->seed, 0);
     for (uint32_t i = 0; i < count && !c->failed; i++)
         if (split_grain_score(s, &last[i])) split_contest_enter(c, &last[i]);
-    if (!c->count || c->best[0].cost > 0) split_enter_supports(s);
+    if (c->count && c->best[0].cost <= 0) return;
+    split_enter_supports(s);
+    split_enter_late_supports(s);
 }
 
 /** Where the best cut makes more splits for each bit than the weight assumes, the contest is held once more with that
@@ -147,12 +152,13 @@ static void hold_at_actual_price(split_grain_search *s) {
 
 split_verdict split_grain_choose(const void *config, split_work *work, const split_cell *cell, froe_cut *cut) {
     scratch *own = work->scratch;
-    split_grain_search s = {.config = config, .sweep = &own->sweep};
+    split_grain_search s = {.config = config, .sweep = &own->sweep, .notes = &own->notes};
     split_contest *c = &s.contest;
     *c = (split_contest){.work = work, .cell = cell, .view = &own->view, .price = &own->price, .exact = true};
     if (cell->count <= s.config->leaf) return SPLIT_LEAF;
     if (s.config->leaf && split_one_point(&work->set, cell)) return SPLIT_INSEPARABLE;
     if (cell->attempt || cell->count == 1) return take_one(&s, cut);
+    c->deceived = s.config->deceived;
     c->terms = terms_of(s.config, work->set.scene->dim, cell);
     hold(&s);
     hold_at_actual_price(&s);

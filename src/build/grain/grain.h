@@ -18,6 +18,7 @@
 typedef struct split_effort {
     uint32_t supports; /**< supporting planes tried */
     uint32_t starts;   /**< edges from which triples are sought */
+    uint32_t improved; /**< of the best of these, vertices are exchanged */
     uint32_t turns;    /**< pencils swept from each */
     uint32_t sample;   /**< fragments scored, at most */
     bool again;        /**< look again where no cut is without splits */
@@ -35,6 +36,7 @@ typedef struct split_grain {
     split_effort effort;
     double height; /**< levels; 0: no limit */
     split_thin_rule thin;
+    bool deceived; /**< fragments that only seem to lie in planes are not marked */
     uint32_t peel; /**< cells of at most so many fragments are peeled without a limit */
     split_grain_notes *notes;
 } split_grain;

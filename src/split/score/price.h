@@ -4,8 +4,8 @@
  * of which it splits S, and takes the rest out of the search, gains
  *     g = xl(m) - xl(A) - xl(B) + S log2 m   bits,   xl(k) = k log2 k,
  * and costs S - w g. A side of more than `most` fragments costs more than any splits. */
-#ifndef FROE_SPLIT_PRICE_H
-#define FROE_SPLIT_PRICE_H
+#ifndef FROE_SPLIT_SCORE_PRICE_H
+#define FROE_SPLIT_SCORE_PRICE_H
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -52,5 +52,30 @@ static inline uint32_t split_tally_all(split_tally t) {
 /** Does the cut separate anything? Then each side has fewer fragments than the cell. */
 static inline bool split_tally_useful(split_tally t) {
     return t.on || (t.negative && t.positive);
+}
+
+/** What all prices of one cell have in common: it shows m fragments, of `weight` each. */
+typedef struct split_prices {
+    const split_price *table;
+    split_terms terms;
+    uint32_t m;
+    double weight, whole, each, bits; /**< xl(m), log2 m, log2 weight */
+} split_prices;
+
+split_prices split_prices_of(const split_price *table, const split_terms *terms, uint32_t m, double weight);
+/** k log2 k beyond the table. */
+double split_price_far(uint32_t k);
+static inline double split_xlog2(const split_price *price, uint32_t k) {
+    return k < SPLIT_PRICE_TABLE ? price->xlog2[k] : split_price_far(k);
+}
+/** split_price_of(), for less. */
+static inline double split_prices_cost(const split_prices *p, split_tally t) {
+    const double negative = split_xlog2(p->table, t.negative + t.both);
+    const double positive = split_xlog2(p->table, t.positive + t.both);
+    double gain = p->whole - negative - positive + t.both * p->each;
+    /* in bits, of the whole cell: xl(wk) = w xl(k) + wk log2 w, and m - A - B + S = on */
+    if (p->weight != 1) gain = p->weight * (gain + t.on * p->bits);
+    const double penalty = split_penalty(split_tally_larger(t) * p->weight, p->terms.most, p->m * p->weight);
+    return t.both * p->weight - p->terms.weight * gain + penalty;
 }
 #endif

@@ -1,5 +1,5 @@
 /* view.c: laying out a cell and counting beside planes. */
-#include "split/view.h"
+#include "split/score/view.h"
 #include "base/random.h"
 #include "base/sort.h"
 #include "split/axes.h"
@@ -19,6 +19,9 @@ void split_view_free(const froe_allocator *alloc, split_view *v) {
     array_free(alloc, &v->side);
     array_free(alloc, &v->start);
     array_free(alloc, &v->corner);
+    array_free(alloc, &v->item);
+    array_free(alloc, &v->marked);
+    array_free(alloc, &v->sides);
     array_free(alloc, &v->values);
     array_free(alloc, &v->low);
     array_free(alloc, &v->high);
@@ -150,6 +153,36 @@ static bool make_places(split_view *v, const split_set *set) {
     return true;
 }
 
+/** A step through n numbers that comes to each of them once, and spreads the first of them over all: next to n times
+ * the golden ratio, without a common divisor. */
+static uint32_t spreading_step(uint32_t n) {
+    for (uint32_t step = (uint32_t)(0.6180339887498949 * n);; step--) {
+        uint32_t a = n, b = step;
+        while (b) {
+            const uint32_t rest = a % b;
+            a = b;
+            b = rest;
+        }
+        if (a == 1 || step < 2) return step > 1 ? step : 1;
+    }
+}
+
+/** Fragments in the order of the cell; in views for sweeps so that the first few come from all over it. */
+static bool fill_fragments(split_view *v, const split_set *set, const split_cell *cell, bool all, uint64_t seed) {
+    const split_fragment *items = set->items.data + cell->first;
+    const uint32_t step = all && v->swept ? spreading_step(v->count) : 1;
+    if (!array_reserve(&set->alloc, &v->item, v->count)) return false;
+    for (uint32_t i = 0, next = 0; i < v->count; i++, next = (uint32_t)(((uint64_t)next + step) % v->count)) {
+        const uint32_t pick = all ? next : base_below(base_hash(seed, cell->path, 0x10000000 + i), cell->count);
+        v->item.data[v->item.count++] = pick;
+        if (!add_view_fragment(v, set, items + pick)) return false;
+        if (i < SPLIT_VIEW_FEW) v->few_corners = (uint32_t)v->x.count;
+    }
+    v->corners = (uint32_t)v->x.count;
+    v->inside = (uint32_t)v->vertices.count;
+    return true;
+}
+
 bool split_view_fill(split_view *v, const split_set *set, const split_cell *cell, uint32_t sample, uint64_t seed,
                      bool swept) {
     const split_fragment *items = set->items.data + cell->first;
@@ -164,17 +197,16 @@ bool split_view_fill(split_view *v, const split_set *set, const split_cell *cell
     v->pairs = v->round = false;
     for (size_t i = 0; i < v->vertices.count; i++) v->place[v->vertex.data[v->vertices.data[i]]] = FROE_NONE;
     v->x.count = v->vertex.count = v->vertices.count = v->start.count = v->corner.count = v->side.count = 0;
-    if (!reserve_view(v, &set->alloc, 2 * v->count)) return false;
+    v->item.count = v->marked.count = v->sides.count = v->marks = v->checked_count = 0;
+    if (!reserve_view(v, &set->alloc, 2 * v->count) || !array_reserve(&set->alloc, &v->marked, v->count) ||
+        !array_reserve(&set->alloc, &v->sides, v->count))
+        return false;
+    memset(v->marked.data, 0, v->count);
     v->pairs = set->scene->dim == 2 && all && !swept && fill_pairs(v, set, items);
     if (!v->pairs) {
         if (!make_places(v, set)) return false;
         v->start.data[v->start.count++] = 0;
-        for (uint32_t i = 0; i < v->count; i++) {
-            uint32_t pick = all ? i : base_below(base_hash(seed, cell->path, 0x10000000 + i), cell->count);
-            if (!add_view_fragment(v, set, items + pick)) return false;
-        }
-        v->corners = (uint32_t)v->x.count;
-        v->inside = (uint32_t)v->vertices.count;
+        if (!fill_fragments(v, set, cell, all, seed)) return false;
         if (!array_reserve(&set->alloc, &v->side, v->corners)) return false;
         if (swept && !add_outside(v, set, cell, seed)) return false;
     }
@@ -197,6 +229,42 @@ bool split_view_fill(split_view *v, const split_set *set, const split_cell *cell
         for (size_t i = 0; i < v->x.count; i++) x[k][i] = (x[k][i] - v->middle[k]) * v->scale;
     for (size_t i = 0; i < v->x.count && v->round; i++) v->radius.data[i] *= 0.5 * v->scale;
     return true;
+}
+
+split_view_part split_view_part_of(const split_view *v, bool few) {
+    const uint32_t outside = (uint32_t)v->x.count - v->corners;
+    if (!few || v->count <= SPLIT_VIEW_FEW) return (split_view_part){v->count, v->corners, outside, v->weight};
+    const double weight = v->weight * v->count / SPLIT_VIEW_FEW;
+    return (split_view_part){SPLIT_VIEW_FEW, v->few_corners,
+                             outside < 2 * SPLIT_VIEW_FEW ? outside : 2 * SPLIT_VIEW_FEW, weight};
+}
+
+bool split_view_add(split_view *v, const split_set *set, const uint32_t *vertices, uint32_t count) {
+    if (v->pairs) return true;
+    if (!reserve_view(v, &set->alloc, count)) return false;
+    for (uint32_t i = 0; i < count; i++) {
+        const uint32_t before = (uint32_t)v->x.count, at = add_view_vertex(v, set->scene, vertices[i]);
+        double local[3];
+        if (at < before) continue;
+        split_view_local(v, scene_vertex(set->scene, vertices[i]), local);
+        v->x.data[at] = local[0];
+        v->y.data[at] = local[1];
+        v->z.data[at] = local[2];
+    }
+    return true;
+}
+
+void split_view_find_outermost(split_view *v, const froe_scene *scene) {
+    if (v->outermost_count) return;
+    v->outermost_count = 2 * (uint32_t)scene->dim;
+    memset(v->outermost, 0, sizeof v->outermost);
+    for (uint32_t i = 1; i < scene->vertex_count; i++) {
+        const double *x = scene_vertex(scene, i);
+        for (int k = 0; k < scene->dim; k++) {
+            if (x[k] < scene_vertex(scene, v->outermost[2 * k])[k]) v->outermost[2 * k] = i;
+            if (x[k] > scene_vertex(scene, v->outermost[2 * k + 1])[k]) v->outermost[2 * k + 1] = i;
+        }
+    }
 }
 
 /* ----------------------------------------------------------------- planes -- */
@@ -311,9 +379,23 @@ static void find_view_sides(split_view *v, const split_view_plane *plane) {
         if (plane->known[k] < v->corners) side[plane->known[k]] = 0;
 }
 
+bool split_view_flat(const split_view *v, const split_view_plane *plane, uint32_t i) {
+    const uint32_t from = v->pairs ? 2 * i : v->start.data[i], to = v->pairs ? from + 2 : v->start.data[i + 1];
+    for (uint32_t j = from; j < to; j++) {
+        const uint32_t at = v->pairs ? j : v->corner.data[j];
+        const double z = v->pairs ? 0 : v->z.data[at];
+        const double value = plane->n[0] * v->x.data[at] + plane->n[1] * v->y.data[at] + plane->n[2] * z - plane->d;
+        bool known = false;
+        for (int k = 0; k < 3; k++) known |= plane->known[k] == at;
+        if (!known && !(fabs(value) <= plane->slack)) return false;
+    }
+    return true;
+}
+
 split_tally split_view_count(split_view *v, const split_view_plane *plane) {
     const uint32_t *start = v->start.data, *corner = v->corner.data;
-    const uint8_t *side = v->side.data;
+    const uint8_t *side = v->side.data, *marked = v->marked.data;
+    uint8_t *sides = v->sides.data;
     uint32_t of[4] = {0};
     if (v->pairs) {
         /* counts segments in the plane without a detour */
@@ -327,13 +409,20 @@ split_tally split_view_count(split_view *v, const split_view_plane *plane) {
             positive += above;
             both += below & above;
         }
-        return (split_tally){negative - both, positive - both, v->count + both - negative - positive, both};
+        split_tally t = {negative - both, positive - both, v->count + both - negative - positive, both};
+        for (uint32_t i = 0; i < v->count && v->marks; i++) {
+            const uint32_t false_flat = v->marked.data[i] && split_view_flat(v, plane, i);
+            t.on -= false_flat;
+            t.both += false_flat;
+        }
+        return t;
     }
     find_view_sides(v, plane);
     for (uint32_t i = 0; i < v->count; i++) {
         unsigned seen = 0;
         for (uint32_t j = start[i]; j < start[i + 1]; j++) seen |= side[corner[j]];
-        of[seen]++;
+        sides[i] = (uint8_t)seen;
+        of[seen ? seen : marked[i]]++;
     }
     return (split_tally){.negative = of[1], .positive = of[2], .on = of[0], .both = of[3]};
 }
