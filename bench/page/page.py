@@ -169,8 +169,8 @@ class Page:
             title += ": how many times as fast is froe?"
             self.draw("bench-%s.svg" % name, figure.ratios(title, rows), title)
 
-    def ratio_cell(self, kind, work, program, scene, size, froe="froe"):
-        values = self.r.ratios(kind + ": " + work, scene, size, program, measure_of(work), froe)
+    def ratio_cell(self, kind, work, program, scene, size, froe="froe", part=None):
+        values = self.r.ratios(kind + ": " + work, scene, size, program, measure_of(work), froe, part)
         if not values:
             return ""
         low, middle, high = quartiles(values)
@@ -187,7 +187,11 @@ class Page:
                 for other in others:
                     cells = [self.ratio_cell(kind, work, other, s, size, froe) for s in scenes]
                     rows.append([label(work), froe, other] + cells)
-        return table(["work", "this", "is so many times as fast as"] + [SCENES.get(s, s) for s in scenes], rows)
+                    if work == "make":
+                        cells = [self.ratio_cell(kind, work, other, s, size, froe, "seconds of the tree") for s in scenes]
+                        rows.append(["the tree alone", froe, other] + cells if any(cells) else None)
+        return table(["work", "this", "is so many times as fast as"] + [SCENES.get(s, s) for s in scenes],
+                     [row for row in rows if row])
 
     def rate_table(self, kind, size):
         scenes = self.r.select(1, kind + ": make", size)
@@ -438,7 +442,7 @@ page. Each chart shows how many times as fast froe is: a mark for each scene, ri
   round, so that no program finds its data in the caches because another one has just used them. At the end each has
   answered every question.
 - The clock starts at the user's arrays and ends with the answers in the user's arrays. *Making* counts all that a program
-  does before it can answer. For froe that is the scene and the tree.
+  does before it can answer. For froe that is the scene and the tree. *The tree alone*: the same without the scene.
 - Seconds are processor time of one thread, unless a table says otherwise. Other work on the machine disturbs that least.
 - A ratio compares two programs in the same round. The tables show the median of the rounds, five of making and nine of
   questions, and in brackets the quartiles. Above 1 froe is faster.

@@ -58,9 +58,10 @@ class Results:
     def median(self, *key):
         return statistics.median(self.values[key]) if key in self.values else None
 
-    def ratios(self, work, scene, size, program, measure, froe="froe"):
-        """By how much froe is better, round by round: faster, smaller. None: one of them has no result."""
-        ours, theirs = ((work, scene, size, who, measure) for who in (froe, program))
+    def ratios(self, work, scene, size, program, measure, froe="froe", part=None):
+        """By how much froe is better, round by round: faster, smaller; `part`: by another measure of froe. None: one of
+        them has no result."""
+        ours, theirs = (work, scene, size, froe, part or measure), (work, scene, size, program, measure)
         if ours not in self.values or theirs not in self.values:
             return None
         more = measure == "per second"
