@@ -3,7 +3,8 @@
 
 The model (OFF, OBJ or binary glTF; :y when y points up) is turned so that parallel rays of view run along -z, y points
 up on a page of 1000 x 1000, and all of it fits. The page is centred at the origin. Coordinates are whole multiples of
-2^-12 of a pixel, which single precision holds: all programs get the same numbers. Vertices of one place are one.
+2^-12 of a pixel, which single precision holds: all programs get the same numbers. Vertices of one place are one where
+they belong to one object: a node of a glTF, or all of another file.
 """
 import json
 import math
@@ -21,7 +22,7 @@ def read_off(path):
         n = int(words[at])
         polygons.append([int(w) for w in words[at + 1:at + 1 + n]])
         at += n + 1
-    return points, polygons
+    return points, polygons, [0] * count
 
 
 def read_obj(path):
@@ -32,7 +33,7 @@ def read_obj(path):
             points.append(tuple(map(float, words[1:4])))
         if words[:1] == ["f"]:
             polygons.append([int(w.split("/")[0]) - 1 for w in words[1:]])
-    return points, polygons
+    return points, polygons, [0] * len(points)
 
 
 def matrix_of(node):
@@ -62,7 +63,7 @@ def read_glb(path):
         rows = [struct.unpack_from("<%d%s" % (n, form), data, start + i * step) for i in range(accessor["count"])]
         return rows if n > 1 else [row[0] for row in rows]
 
-    points, polygons = [], []
+    points, polygons, objects = [], [], []
     stack = [(n, [[float(r == c) for c in range(4)] for r in range(4)])
              for n in scene["scenes"][scene.get("scene", 0)]["nodes"]]
     while stack:
@@ -77,8 +78,9 @@ def read_glb(path):
             first, corners = len(points), values(part["attributes"]["POSITION"])
             points += [tuple(sum(at[r][k] * p[k] for k in range(3)) + at[r][3] for r in range(3)) for p in corners]
             indices = values(part["indices"]) if "indices" in part else range(len(corners))
+            objects += [number] * len(corners)
             polygons += [[first + i for i in indices[k:k + 3]] for k in range(0, len(indices), 3)]
-    return points, polygons
+    return points, polygons, objects
 
 
 def unit(v):
@@ -93,7 +95,7 @@ def cross(a, b):
 def main():
     name, out = sys.argv[1:]
     path, y_up = name.removesuffix(":y"), name.endswith(":y")
-    points, polygons = {"off": read_off, "obj": read_obj, "glb": read_glb}[path.rsplit(".", 1)[1]](path)
+    points, polygons, objects = {"off": read_off, "obj": read_obj, "glb": read_glb}[path.rsplit(".", 1)[1]](path)
     back, up = (unit((3, 2, 5)), (0, 1, 0)) if y_up else (unit((3, -5, 2)), (0, 0, 1))
     right = unit(cross(up, back))
     axes = [right, cross(back, right), back]
@@ -102,9 +104,9 @@ def main():
     scale = 960 / max(hi[k] - lo[k] for k in range(2))
     numbers, kept, triangles = {}, [], []
     places = []
-    for p in seen:
+    for p, object_of in zip(seen, objects):
         q = tuple(round((p[k] - (lo[k] + hi[k]) / 2) * scale * 4096) / 4096 for k in range(3))
-        places.append(numbers.setdefault(q, len(numbers)))
+        places.append(numbers.setdefault((object_of, q), len(numbers)))
         if len(kept) < len(numbers):
             kept.append(q)
     for p in polygons:

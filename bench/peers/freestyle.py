@@ -22,7 +22,8 @@ scene = bpy.context.scene
 
 words = open(mesh_path).read().split()
 count, faces = int(words[1]), int(words[2])
-points = [tuple(map(float, words[4 + 3 * i:7 + 3 * i])) for i in range(count)]
+SCALE = 1 / 64  # Freestyle loses lines of scenes that are a thousand units wide, as the page is
+points = [tuple(float(w) * SCALE for w in words[4 + 3 * i:7 + 3 * i]) for i in range(count)]
 first = 4 + 3 * count
 triangles = [tuple(map(int, words[first + 4 * i + 1:first + 4 * i + 4])) for i in range(faces)]
 mesh = bpy.data.meshes.new("mesh")
@@ -31,10 +32,10 @@ scene.collection.objects.link(bpy.data.objects.new("mesh", mesh))
 deep = max(abs(p[2]) for p in points)
 
 camera = bpy.data.cameras.new("camera")
-camera.type, camera.ortho_scale = "ORTHO", 1000
-camera.clip_start, camera.clip_end = 1, 4 * deep + 200
+camera.type, camera.ortho_scale = "ORTHO", 1000 * SCALE
+camera.clip_start, camera.clip_end = 0.1, 4 * deep + 10
 scene.camera = bpy.data.objects.new("camera", camera)
-scene.camera.location = (0, 0, 2 * deep + 100)
+scene.camera.location = (0, 0, 2 * deep + 5)
 scene.collection.objects.link(scene.camera)
 
 scene.render.engine, scene.cycles.samples, scene.cycles.max_bounces = "CYCLES", 1, 0
