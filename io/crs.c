@@ -3,6 +3,7 @@
  * is taken for such, as other programs do; pixels, of which many of its files consist, cannot. */
 #include "crs.h"
 #include <cpl_conv.h>
+#include <cpl_error.h>
 #include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <math.h>
@@ -91,7 +92,7 @@ static bool same(OGRSpatialReferenceH a, OGRSpatialReferenceH b) {
     return a && b ? OSRIsSameEx(a, b, alike) : a == b;
 }
 
-froe_status io_crs_take(io_crs *crs, formats_sink *sink, OGRLayerH layer) {
+static froe_status take_system(io_crs *crs, formats_sink *sink, OGRLayerH layer) {
     OGRSpatialReferenceH system = crs->promise == IO_CRS_NONE ? NULL : OGR_L_GetSpatialRef(layer), made = NULL;
     froe_status status = FROE_OK;
     if (system && is_undefined(system)) system = NULL;
@@ -120,5 +121,13 @@ froe_status io_crs_take(io_crs *crs, formats_sink *sink, OGRLayerH layer) {
                               name_of(system));
     }
     if (made) OSRRelease(made);
+    return status;
+}
+
+froe_status io_crs_take(io_crs *crs, formats_sink *sink, OGRLayerH layer) {
+    CPLPushErrorHandler(
+        CPLQuietErrorHandler); /* a system without a name or a definition keeps no map from being read */
+    const froe_status status = take_system(crs, sink, layer);
+    CPLPopErrorHandler();
     return status;
 }

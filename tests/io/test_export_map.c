@@ -178,12 +178,37 @@ static void broken_names_are_marked(void **state) {
     froe_scene_free(scene);
 }
 
+/* A definition from a tree file must not make GDAL open a file or a connection, as the names of systems may. */
+static void definitions_are_read_and_no_names(void **state) {
+    (void)state;
+    static const char *const definitions[] = {"EPSG:4326", "system.prj", "ESRI::system.prj", ""};
+    const double x[4] = {0, 0, 1, 1};
+    write_text("system.prj", "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],"
+                             "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]]");
+    for (size_t i = 0; i < sizeof definitions / sizeof *definitions; i++) {
+        froe_objects o = froe_objects_defaults();
+        froe_scene *scene;
+        froe_tree *tree;
+        froe_diagnostic why;
+        const froe_crs crs = {FROE_CRS_GEOGRAPHIC, definitions[i], "WGS 84", "EPSG:4326", "degree"};
+        o.kind = FROE_SEGMENT, o.count = 1, o.coords = x;
+        assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+        assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
+        assert_int_equal(froe_scene_set_crs(scene, &crs), FROE_OK);
+        assert_int_equal(froe_build(scene, NULL, &tree, NULL), FROE_OK);
+        assert_int_equal(froe_export_map(tree, "names.fgb", FROE_EXPORT_FRAGMENTS, NULL, &why), FROE_E_UNSUPPORTED);
+        froe_tree_free(tree);
+        froe_scene_free(scene);
+    }
+    unlink("system.prj");
+    assert_int_equal(temporary_files(), 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(parts_are_given_until_it_is_enough),
-        cmocka_unit_test(every_kind_has_its_shape),
-        cmocka_unit_test(what_is_cancelled_leaves_the_old_file),
-        cmocka_unit_test(broken_names_are_marked),
+        cmocka_unit_test(parts_are_given_until_it_is_enough),    cmocka_unit_test(every_kind_has_its_shape),
+        cmocka_unit_test(what_is_cancelled_leaves_the_old_file), cmocka_unit_test(broken_names_are_marked),
+        cmocka_unit_test(definitions_are_read_and_no_names),
     };
     GDALAllRegister();
     return cmocka_run_group_tests(tests, NULL, NULL);
