@@ -46,13 +46,21 @@ static bool keep_crossed(view_crosser *c, uint32_t node, uint32_t patch, view_st
     return ok;
 }
 
+/* Are there polygons in the list of a cut? Segments and points may be all. */
+static bool lists_polygons(const view_sightlines *s, uint32_t node) {
+    const tree_objects list = tree_list(s->tree, node);
+    uint32_t k = 0;
+    while (k < list.count && s->surface->patch_of[tree_object(&list, k)] == FROE_NONE) k++;
+    return k < list.count;
+}
+
 froe_status view_look_at_crossings(view_crosser *c, uint32_t piece, const view_ring *ring) {
     view_sightlines *s = c->sights;
     const uint32_t patch = s->surface->patch_of[s->tree->pieces[piece].object];
     for (uint32_t i = 0; i < ring->count; i++) {
         const view_line *l = s->lines.data + (ring->data[i].way >> 1);
         const uint32_t node = l->kind == VIEW_CUT ? l->b : FROE_NONE; /* whose cut makes this side */
-        if (node == FROE_NONE || (!tree_list(s->tree, node).count && !(node == 0 && c->section))) continue;
+        if (node == FROE_NONE || (!lists_polygons(s, node) && !(node == 0 && c->section))) continue;
         const view_stretch side = stretch_of(ring, i);
         view_stretch inside = side;
         c->open.count = 0;
