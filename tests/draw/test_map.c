@@ -6,13 +6,13 @@
 /* A square ring with a square hole, of one feature, and a bent line of another. */
 static froe_scene *features(double factor, double up) {
     static const double ring[] = {0, 0, 8, 0, 8, 8, 0, 8, 8, 8, 8, 0, 0, 0, 0, 8,
-                                  3, 3, 3, 5, 3, 5, 5, 5, 5, 5, 5, 3, 5, 3, 3, 3};
-    static const double bent[] = {10, 0, 14, 8, 14, 8, 18, 0};
+                                  3, 3, 5, 3, 5, 3, 5, 5, 5, 5, 3, 5, 3, 5, 3, 3};
+    static const double bent[] = {10, 0, 14, 8, 14, 8, 18, 0, 18, 0, 19, 4};
     double moved[sizeof ring / sizeof *ring];
     froe_scene *scene = scene_of(2);
     const froe_group names[] = {{.name = "ring"}, {.name = "line"}};
     const double *const coords[] = {ring, bent};
-    const size_t counts[] = {8, 2};
+    const size_t counts[] = {8, 3};
     for (int g = 0; g < 2; g++) {
         uint32_t id;
         assert_int_equal(froe_scene_add_group(scene, &names[g], &id), FROE_OK);
