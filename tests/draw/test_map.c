@@ -4,11 +4,10 @@
 #include <stdio.h>
 
 /* A square ring with a square hole, of one feature, and a bent line of another. */
-static froe_scene *features(double factor, double up) {
+static froe_scene *features(void) {
     static const double ring[] = {0, 0, 8, 0, 8, 8, 0, 8, 8, 8, 8, 0, 0, 0, 0, 8,
                                   3, 3, 5, 3, 5, 3, 5, 5, 5, 5, 3, 5, 3, 5, 3, 3};
     static const double bent[] = {10, 0, 14, 8, 14, 8, 18, 0, 18, 0, 19, 4};
-    double moved[sizeof ring / sizeof *ring];
     froe_scene *scene = scene_of(2);
     const froe_group names[] = {{.name = "ring"}, {.name = "line"}};
     const double *const coords[] = {ring, bent};
@@ -16,11 +15,10 @@ static froe_scene *features(double factor, double up) {
     for (int g = 0; g < 2; g++) {
         uint32_t id;
         assert_int_equal(froe_scene_add_group(scene, &names[g], &id), FROE_OK);
-        for (size_t i = 0; i < 4 * counts[g]; i++) moved[i] = factor * coords[g][i] + (i % 2 ? up : 0);
         uint32_t groups[8];
         for (size_t i = 0; i < counts[g]; i++) groups[i] = id;
         froe_objects objects = froe_objects_defaults();
-        objects.kind = FROE_SEGMENT, objects.count = counts[g], objects.coords = moved, objects.groups = groups;
+        objects.kind = FROE_SEGMENT, objects.count = counts[g], objects.coords = coords[g], objects.groups = groups;
         assert_int_equal(froe_scene_add(scene, &objects, NULL), FROE_OK);
     }
     return scene;
@@ -46,7 +44,7 @@ static bool is_accent(uint32_t rgb) {
 
 static void closed_features_are_filled_with_their_holes_left_out_and_lines_are_not(void **state) {
     (void)state;
-    froe_tree *tree = tree_of(features(1, 0), "density", 1);
+    froe_tree *tree = tree_of(features(), "density", 1);
     froe_draw_options o = bare(200, 0, 0, 20, 20);
     image_bytes png = picture_of(tree, FROE_DRAW_PNG, &o);
     cairo_surface_t *image = image_of(png);
@@ -90,7 +88,7 @@ static void no_line_is_drawn_that_is_no_object(void **state) {
 static void degrees_of_longitude_are_shorter_away_from_the_equator(void **state) {
     (void)state;
     for (int geographic = 0; geographic < 2; geographic++) {
-        froe_scene *scene = features(1, 0);
+        froe_scene *scene = features();
         const froe_crs crs = {.kind = FROE_CRS_GEOGRAPHIC, .name = "WGS 84", .wkt = "", .code = "", .unit = "degree"};
         if (geographic) assert_int_equal(froe_scene_set_crs(scene, &crs), FROE_OK);
         froe_tree *tree = tree_of(scene, "density", 1);
@@ -110,7 +108,7 @@ static void degrees_of_longitude_are_shorter_away_from_the_equator(void **state)
 
 static void marks_and_accented_objects_are_seen(void **state) {
     (void)state;
-    froe_tree *tree = tree_of(features(1, 0), "density", 1);
+    froe_tree *tree = tree_of(features(), "density", 1);
     froe_draw_options o = bare(200, 0, 0, 20, 20);
     const froe_draw_mark marks[] = {{.lo = {12, 15}, .hi = {12, 15}, .kind = FROE_DRAW_MARK_LINE, .label = "Here"},
                                     {.lo = {2, 16}, .hi = {8, 16}, .kind = FROE_DRAW_MARK_LINE},
@@ -137,7 +135,7 @@ static void marks_and_accented_objects_are_seen(void **state) {
 
 static void the_small_map_shows_where_a_window_is(void **state) {
     (void)state;
-    froe_tree *tree = tree_of(features(1, 0), "density", 1);
+    froe_tree *tree = tree_of(features(), "density", 1);
     froe_draw_options o = bare(400, 8.2, 0, 9.8, 1.6); /* nothing is in the window */
     o.scale = 4;
     for (int locator = 0; locator < 2; locator++) {
@@ -164,7 +162,7 @@ static froe_status draw_map(void *user, const froe_allocator *alloc) {
 
 static void every_allocation_may_fail(void **state) {
     (void)state;
-    froe_tree *tree = tree_of(features(1, 0), "density", 1);
+    froe_tree *tree = tree_of(features(), "density", 1);
     assert_true(test_memory_each(draw_map, tree) > 10);
     froe_tree_free(tree);
 }
