@@ -289,7 +289,7 @@ What costs this time and memory, and what else does:
         scenes = self.r.select(1, "pieces")
         if not scenes:
             return
-        shapes = [s for s in scenes if any(p.startswith("gl2ps") for p in self.r.select(3, "pieces", scene=s))]
+        shapes = [s for s in scenes if any(is_other(p) for p in self.r.select(3, "pieces", scene=s))]
         flat = [s for s in scenes if s not in shapes]
         self.say("## Pieces", """
 A binary space partition cuts objects into pieces. Here cuts go on until each triangle or segment is part of a cut; of
