@@ -2,9 +2,10 @@
 """page_mesh.py MODEL[:y] OUT.off: a model as every program of the part `lines` is given it.
 
 The model (OFF, OBJ or binary glTF; :y when y points up) is turned so that parallel rays of view run along -z, y points
-up on a page of 1000 x 1000, and all of it fits. The page is centred at the origin. Coordinates are whole multiples of
-2^-12 of a pixel, which single precision holds: all programs get the same numbers. Vertices of one place are one where
-they belong to one object: a node of a glTF, or all of another file.
+up on a page of 1000 x 1000, and all of it fits. The page is centred at the origin. Coordinates are rounded to 65,537
+steps and then turned by whole numbers, so that what lies in one plane stays there, and single precision holds them: all
+programs get the same numbers. Vertices of one place are one where they belong to one object: a node of a glTF, or all
+of another file.
 """
 import json
 import math
@@ -83,9 +84,8 @@ def read_glb(path):
     return points, polygons, objects
 
 
-def unit(v):
-    length = math.sqrt(sum(x * x for x in v))
-    return [x / length for x in v]
+# To the right, upwards and towards the eye, each 65 long: turned by 3-4-5 about the vertical, tilted by 5-12-13.
+AXES = (52, 39, 0), (-15, 20, 60), (36, -48, 25)
 
 
 def cross(a, b):
@@ -96,16 +96,18 @@ def main():
     name, out = sys.argv[1:]
     path, y_up = name.removesuffix(":y"), name.endswith(":y")
     points, polygons, objects = {"off": read_off, "obj": read_obj, "glb": read_glb}[path.rsplit(".", 1)[1]](path)
-    back, up = (unit((3, 2, 5)), (0, 1, 0)) if y_up else (unit((3, -5, 2)), (0, 0, 1))
-    right = unit(cross(up, back))
-    axes = [right, cross(back, right), back]
-    seen = [[sum(a[k] * p[k] for k in range(3)) for a in axes] for p in points]
+    if y_up:
+        points = [(p[0], -p[2], p[1]) for p in points]
+    lo, hi = [min(p[k] for p in points) for k in range(3)], [max(p[k] for p in points) for k in range(3)]
+    step = max(hi[k] - lo[k] for k in range(3)) / 65536
+    whole = [[round((p[k] - lo[k]) / step) for k in range(3)] for p in points]
+    seen = [[sum(a * x for a, x in zip(axis, p)) for axis in AXES] for p in whole]
     lo, hi = [min(p[k] for p in seen) for k in range(3)], [max(p[k] for p in seen) for k in range(3)]
-    scale = 960 / max(hi[k] - lo[k] for k in range(2))
+    scale = 2.0 ** math.floor(math.log2(980 / max(hi[k] - lo[k] for k in range(2))))
     numbers, kept, triangles = {}, [], []
     places = []
     for p, object_of in zip(seen, objects):
-        q = tuple(round((p[k] - (lo[k] + hi[k]) / 2) * scale * 4096) / 4096 for k in range(3))
+        q = tuple((p[k] - (lo[k] + hi[k]) // 2) * scale for k in range(3))
         places.append(numbers.setdefault((object_of, q), len(numbers)))
         if len(kept) < len(numbers):
             kept.append(q)
