@@ -142,16 +142,23 @@ static froe_status add_layers(map *m) {
     const char *wanted = m->source->options->layer;
     OGRLayerH one = wanted ? GDALDatasetGetLayerByName(m->data, wanted) : NULL;
     const int layers = GDALDatasetGetLayerCount(m->data);
-    const bool several = !wanted && m->container && layers > 1; /* files that have nothing to do with each other */
-    if (several || (wanted && !one)) {
-        io_names names = {.count = 0};
-        for (int i = 0; i < layers; ++i) io_names_put(&names, OGR_L_GetName(GDALDatasetGetLayer(m->data, i)));
-        return several ? support_fail(m->sink->diag, FROE_E_OPTIONS,
-                                      "%.60s: A layer must be named, because there are several: %s.",
-                                      support_short(m->source->path), names.text)
-                       : support_fail(m->sink->diag, FROE_E_OPTIONS, "%.60s: There is no layer '%.40s'. There are: %s.",
-                                      support_short(m->source->path), wanted, names.text);
+    /* In folders, archives and GeoPackages they have nothing to do with each other; tables without geometry, such as
+     * the styles of QGIS, are no maps. */
+    const bool apart = m->container || !strcmp(m->sink->report.format, "GPKG");
+    io_names maps = {.count = 0};
+    for (int i = 0; i < layers; ++i) {
+        OGRLayerH layer = GDALDatasetGetLayer(m->data, i);
+        if (OGR_L_GetGeomType(layer) == wkbNone) continue;
+        if (apart && !wanted) one = layer;
+        io_names_put(&maps, OGR_L_GetName(layer));
     }
+    if (wanted && !one)
+        return support_fail(m->sink->diag, FROE_E_OPTIONS, "%.60s: There is no layer '%.40s'. There are: %s.",
+                            support_short(m->source->path), wanted, maps.text);
+    if (apart && !wanted && maps.count > 1)
+        return support_fail(m->sink->diag, FROE_E_OPTIONS,
+                            "%.60s: A layer must be named, because there are several: %s.",
+                            support_short(m->source->path), maps.text);
     /* the layers of a topology are views of the same arcs: all of them would be the same lines again */
     if (!one && layers && !strcmp(m->sink->report.format, "TopoJSON")) one = GDALDatasetGetLayer(m->data, 0);
     froe_status status = FROE_OK;

@@ -15,7 +15,7 @@ const cli_option cli_scene_options[] = {
      .help = "of SCENE from standard input (-) or a pipe: the usual extension of its files, e.g. geojson",
      .alias = "format"},
     {"layer", 0, CLI_TEXT, offsetof(cli_scene_args, layer), "NAME",
-     .help = "maps: read this layer only (default: all)"},
+     .help = "maps: read this layer only (default: all; of a folder, an archive or a GeoPackage the only one)"},
     {"where", 0, CLI_TEXT, offsetof(cli_scene_args, where), "FILTER",
      .help = "maps: read features that pass this filter, as in SQL, e.g. \"height > 3\""},
     {"faces", 0, CLI_CHOICE, offsetof(cli_scene_args, faces), "KIND",

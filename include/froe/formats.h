@@ -37,7 +37,7 @@ typedef bool froe_image_fn(void *user, const char *path, const void *bytes, size
 typedef struct froe_read_options {
     size_t size;                 /**< set by froe_read_defaults() */
     const char *name;            /**< what messages call the file; NULL: the path */
-    const char *layer;           /**< OGR: read this layer only; NULL: all, or of a topology (TopoJSON) the first */
+    const char *layer;           /**< OGR: read this layer only; NULL: all, or the only one, or of TopoJSON the first */
     const char *where;           /**< OGR: attribute filter, as in SQL's WHERE; NULL: none */
     froe_faces faces;            /**< solid models: default FROE_FACES_TRIANGLES */
     bool boxes;                  /**< the bounding box of every feature (or row, or node) instead of its shape */

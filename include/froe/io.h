@@ -35,8 +35,8 @@ extern "C" {
  *                   when all rings of the feature have its interior on that one side.
  *
  *                   A folder (.gdb, Shapefiles), a .zip, .tar, .tgz or .gz and every name in GDAL's
- *                   virtual file systems (/vsizip/..., /vsicurl/...) is a map, too. A folder or an
- *                   archive of several layers needs the name of one.
+ *                   virtual file systems (/vsizip/..., /vsicurl/...) is a map, too. A folder, an
+ *                   archive or a GeoPackage of several layers needs the name of one.
  *
  * `face` of an object is the lowest id among those of the same source polygon. With `boxes` every
  * feature gives one box. `report` may be NULL.
