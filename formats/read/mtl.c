@@ -3,7 +3,7 @@
  *
  *     newmtl tiles
  *     Kd 0.7 0.3 0.2
- *     d 1                 or Tr 0
+ *     d 1                 or Tr 0; Tr 1, of which nothing would be seen, means opaque, as MeshLab writes it
  *     map_Kd -clamp on -s 2 2 1 -o 0 0.5 0 tiles of clay.png
  */
 #include "formats/read/mtl.h"
@@ -132,7 +132,7 @@ froe_status formats_materials_read(formats_sink *sink, const char *path, const c
             if ((at = after(line, "Kd"))) read_colour(last, at);
             if ((at = after(line, "map_Kd"))) read_texture(last, at);
             if ((at = after(line, "d"))) read_share(last->rgba + 3, at, false);
-            if ((at = after(line, "Tr"))) read_share(last->rgba + 3, at, true);
+            if ((at = after(line, "Tr"))) read_share(last->rgba + 3, at, strtod(at, NULL) != 1); /* MeshLab's "Tr 1" */
         }
     }
     array_free(&sink->alloc, &text);

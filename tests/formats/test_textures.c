@@ -150,7 +150,7 @@ static void faces_of_an_obj_have_the_means_of_their_textures(void **state) {
     int images = 0;
     write_text("F four.png", "F");
     write_text("quads.mtl",
-               "newmtl all\nmap_Kd F four.png\nnewmtl red\nKd 0 0 0\nmap_Kd -clamp on -s 1 1 1 F four.png\r\n"
+               "newmtl all\nmap_Kd F four.png\nnewmtl red\nKd 0 0 0\nTr 1.0\nmap_Kd -clamp on -s 1 1 1 F four.png\r\n"
                "newmtl tinted\nKd 0.5 1 1\nd 0.5\nmap_Kd -o 0.5 0 0 -bm 1 -blendu off F four.png\n"
                "newmtl gone\nKd 0.2 0.4 0.6\nmap_Kd textures\\gone.png\n");
     write_text("quads.obj", quads);
