@@ -4,6 +4,7 @@
 #include "exit.h"
 #include "progress.h"
 #include "report/report.h"
+#include <froe/measure.h>
 #include <inttypes.h>
 
 typedef struct info_args {
@@ -36,8 +37,17 @@ static json_t *crs_json(const froe_scene *scene, bool whole) {
     return out;
 }
 
+/* Of the largest coordinate: sixteen units in its last place. */
+#define NEAR 0x1p-48
+
+static json_t *near_json(const froe_near *n) {
+    return json_pack("{s:f, s:I, s:I, s:o, s:o}", "within", n->within, "coplanar", (json_int_t)n->coplanar, "poking",
+                     (json_int_t)n->poking, "first_coplanar", pair_json(n->first_coplanar), "first_poking",
+                     pair_json(n->first_poking));
+}
+
 static json_t *info_json(const info_args *args, const froe_scene *scene, const froe_read_report *r,
-                         const froe_defects *d) {
+                         const froe_defects *d, const froe_near *near) {
     json_t *kinds = json_object();
     for (int kind = 0; kind < FROE_KIND_COUNT; kind++) {
         const size_t count = froe_scene_kind_count(scene, (froe_kind)kind);
@@ -63,11 +73,11 @@ static json_t *info_json(const info_args *args, const froe_scene *scene, const f
     static const char *const axes[] = {"x", "y", "z"};
     json_t *up = dim == 3 ? json_string(axes[froe_scene_up(scene)]) : NULL;
     json_t *crs = dim == 2 ? crs_json(scene, args->common.json) : NULL;
-    return json_pack("{s:o, s:i, s:o*, s:I, s:o, s:I, s:I, s:o, s:o*, s:o, s:o}", "file",
-                     cli_name_json(args->scene.path), "dim", froe_scene_dim(scene), "up", up, "objects",
-                     (json_int_t)froe_scene_object_count(scene), "kinds", kinds, "vertices",
-                     (json_int_t)froe_scene_vertex_count(scene), "groups", (json_int_t)froe_scene_group_count(scene),
-                     "bounds", bounds, "crs", crs, "defects", defects, "reader", reader);
+    return json_pack(
+        "{s:o, s:i, s:o*, s:I, s:o, s:I, s:I, s:o, s:o*, s:o, s:o, s:o}", "file", cli_name_json(args->scene.path),
+        "dim", froe_scene_dim(scene), "up", up, "objects", (json_int_t)froe_scene_object_count(scene), "kinds", kinds,
+        "vertices", (json_int_t)froe_scene_vertex_count(scene), "groups", (json_int_t)froe_scene_group_count(scene),
+        "bounds", bounds, "crs", crs, "defects", defects, "near_misses", near_json(near), "reader", reader);
 }
 
 static int run_info(const void *given) {
@@ -79,11 +89,14 @@ static int run_info(const void *given) {
     froe_defects defects = {.size = sizeof defects};
     froe_diagnostic diag;
     cli_progress bar = cli_progress_begin(&args->common, "examining");
-    const froe_status status =
+    froe_status status =
         froe_scene_defects(scene, (unsigned)args->common.threads, cli_progress_step, &bar, &defects, &diag);
+    froe_near near;
+    if (!status)
+        status = froe_measure_near(scene, NEAR, (unsigned)args->common.threads, cli_progress_step, &bar, &near, &diag);
     cli_progress_end(&bar);
     code = status ? cli_fail_status(CLI_WORKING, args->scene.path, status, &diag)
-                  : cli_report(&args->common, NULL, info_json(args, scene, &reader, &defects));
+                  : cli_report(&args->common, NULL, info_json(args, scene, &reader, &defects, &near));
     froe_scene_free(scene);
     return code;
 }
@@ -95,7 +108,10 @@ const cli_command cli_command_info = {
     "\n\nDefects stop nothing: every builder takes scenes that have them. They are counted exactly, pairs once: "
     "objects "
     "without length or area, duplicates, crossings, T-junctions (a corner of one inside the other) and overlaps, each "
-    "with one example. The reader tells how it read: in which precision, and what it had to change.",
+    "with one example. Near misses are what was rounded before it was read: faces with a common edge that lie in one "
+    "plane, and objects that end at others, but for sixteen units in the last place of the largest coordinate. There "
+    "no tree is as small as for the scene that was meant. The reader tells how it read: in which precision, and what "
+    "it had to change.",
     .examples = "froe info floor.geojson\nfroe info house.glb --faces polygons --json\n",
     .parts = parts,
     .defaults = &(const info_args){.common = CLI_COMMON_DEFAULTS},

@@ -292,6 +292,9 @@ static void measures(floats_run *r, void *user) {
         floats_note(r, &clutter.lower, 4), note_spread(r, &clutter.load);
         MUST(r, froe_measure_directional(scene, 0.3, &o, &directional, NULL));
         note_spread(r, &directional.simple), note_spread(r, &directional.paired);
+        froe_near near;
+        MUST(r, froe_measure_near(scene, 0x1p-10, 1, floats_progress, r, &near, NULL));
+        floats_note(r, &near.coplanar, 8), floats_note(r, &near.poking, 8), floats_note(r, &near.within, 8);
         froe_scene_free(scene);
     }
 }
