@@ -6,6 +6,7 @@
  *     ply / format ascii 1.0 / element vertex 3 / property double x ... / end_header / data */
 #include "formats/input/colour.h"
 #include "formats/input/paint.h"
+#include "formats/input/texture.h"
 #include "formats/read/readers.h"
 #include "support/decimal/decimal.h"
 #include <stdio.h>
@@ -226,8 +227,11 @@ static uint32_t item_colour(const element *e, const double *by_role) {
 static froe_status add_item(ply *p, const element *e, const double *by_role) {
     froe_status status = FROE_OK;
     if (e->kind == OTHER) return FROE_OK;
-    if (e->kind == VERTEX && !p->shapes) return formats_sink_point(p->sink, by_role + X);
     const uint32_t colour = item_colour(e, by_role);
+    if (e->kind == VERTEX && !p->shapes) { /* a cloud: so many points that their colours are few steps */
+        status = formats_paint_enter(p->sink, &p->paint, colour ? formats_step_colour(colour) : 0);
+        return status ? status : formats_sink_point(p->sink, by_role + X);
+    }
     if (e->kind == VERTEX)
         return array_append(&p->sink->alloc, &p->points, by_role + X, 3) &&
                        (!colour || array_push(&p->sink->alloc, &p->colours, colour))

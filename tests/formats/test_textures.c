@@ -239,6 +239,21 @@ static void faces_of_an_obj_have_the_means_of_their_corners(void **state) {
     froe_scene_free(scene);
 }
 
+static void points_of_a_ply_have_their_colours(void **state) {
+    (void)state;
+    froe_read_report report;
+    int images = 0;
+    write_text("cloud.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                            "property float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+                            "end_header\n0 0 0 255 0 0\n1 0 0 0 255 0\n2 0 0 255 1 0\n");
+    froe_scene *scene = read_textured("cloud.ply", &report, &images);
+    assert_int_equal(froe_scene_kind_count(scene, FROE_POINT), 3);
+    assert_int_equal(colour_of(scene, 0), 0xff0000ff);
+    assert_int_equal(colour_of(scene, 1), 0x00ff00ff);
+    assert_int_equal(froe_scene_object(scene, 2).group, 0); /* in 64 steps a channel */
+    froe_scene_free(scene);
+}
+
 static froe_status read_by(void *user, const froe_allocator *alloc) {
     int images = 0;
     froe_read_options o = froe_read_defaults();
@@ -268,6 +283,7 @@ int main(void) {
         cmocka_unit_test(without_an_image_function_textures_are_counted),
         cmocka_unit_test(images_lie_with_their_model),
         cmocka_unit_test(faces_of_an_obj_have_the_means_of_their_corners),
+        cmocka_unit_test(points_of_a_ply_have_their_colours),
         cmocka_unit_test(every_allocation_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
