@@ -3,7 +3,7 @@
  *
  *     newmtl tiles
  *     Kd 0.7 0.3 0.2
- *     d 1                 or Tr 0; Tr 1, of which nothing would be seen, means opaque, as MeshLab writes it
+ *     d 1                 or Tr 0
  *     map_Kd -clamp on -s 2 2 1 -o 0 0.5 0 tiles of clay.png
  */
 #include "formats/read/mtl.h"
@@ -33,7 +33,7 @@ uint32_t formats_material_texel(const formats_material *m, const double *corners
     /* Tints are shares of sRGB. Black ones are what programs write that do not tint. */
     const bool tinted = m->coloured && (m->rgba[0] > 0 || m->rgba[1] > 0 || m->rgba[2] > 0);
     for (int k = 0; k < 3; k++) texel[k] = formats_level(texel[k]) / 255.0 * (tinted ? m->rgba[k] : 1);
-    texel[3] *= m->rgba[3];
+    if (m->rgba[3] > 0) texel[3] *= m->rgba[3]; /* a texture is meant to be seen: MeshLab writes Tr 1 for opaque ones */
     return formats_step_colour(formats_colour(texel));
 }
 
@@ -132,7 +132,7 @@ froe_status formats_materials_read(formats_sink *sink, const char *path, const c
             if ((at = after(line, "Kd"))) read_colour(last, at);
             if ((at = after(line, "map_Kd"))) read_texture(last, at);
             if ((at = after(line, "d"))) read_share(last->rgba + 3, at, false);
-            if ((at = after(line, "Tr"))) read_share(last->rgba + 3, at, strtod(at, NULL) != 1); /* MeshLab's "Tr 1" */
+            if ((at = after(line, "Tr"))) read_share(last->rgba + 3, at, true);
         }
     }
     array_free(&sink->alloc, &text);
