@@ -44,3 +44,18 @@ int cli_check_outputs(const char *const *inputs, size_t input_count, const char 
     }
     return 0;
 }
+
+int cli_make_folder(char folder[CLI_FOLDER]) {
+    const char *above = getenv("TMPDIR");
+    snprintf(folder, CLI_FOLDER, "%s/froe-XXXXXX", above && *above ? above : "/tmp");
+    if (mkdtemp(folder)) return 0;
+    const int code = cli_fail_file(CLI_RESOURCES, folder, "written");
+    folder[0] = '\0';
+    return code;
+}
+
+bool cli_is_ending(const char *text) {
+    enum { LONGEST = 15 };
+    const size_t length = strlen(text);
+    return length && length <= LONGEST && strspn(text, "abcdefghijklmnopqrstuvwxyz0123456789") == length;
+}

@@ -1,6 +1,7 @@
 /* files.h: files that the program writes. */
 #ifndef FROE_CLI_FILES_H
 #define FROE_CLI_FILES_H
+#include <stdbool.h>
 #include <stdio.h>
 
 /** A file that appears whole or not at all (support/writer.h). Returns 0 or an exit code after saying why. */
@@ -11,4 +12,11 @@ int cli_write_text(const char *path, cli_write_fn *fn, const void *user);
 /** Keeps a mistyped command from overwriting its input: fails where one of the outputs is one of the inputs, by
  * whatever name, or is named twice. Names may be NULL. Returns 0 or an exit code after saying why. */
 int cli_check_outputs(const char *const *inputs, size_t input_count, const char *const *outputs, size_t output_count);
+
+enum { CLI_FOLDER = 4000 };
+/** Makes a folder for temporary files, named in `folder`; "" when it fails. Returns 0, or an exit code after saying
+ * why. */
+int cli_make_folder(char folder[CLI_FOLDER]);
+/** Can it be the ending of a name, without the dot? */
+bool cli_is_ending(const char *text);
 #endif

@@ -1,12 +1,12 @@
 /* write_dxf.c: the lines of a picture as a drawing in DXF. GDAL writes the entities, each on the layer of its lines,
  * and what surrounds them. */
 #include "dxf.h"
+#include "heard.h"
 #include "support/fail.h"
 #include "support/floats.h"
 #include "support/utf8.h"
 #include "support/writer.h"
 #include <cpl_conv.h>
-#include <cpl_error.h>
 #include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <ctype.h>
@@ -30,8 +30,8 @@ typedef struct dxf_drawing {
     ARRAY(dxf_line) lines;
     ARRAY(double) points; /* y upwards */
     dxf_text header;
-    bool full;       /* without memory */
-    char error[160]; /* what GDAL said first */
+    bool full; /* without memory */
+    io_heard heard;
 } dxf_drawing;
 
 /* ------------------------------------------------------------------------- layers -- */
@@ -94,12 +94,6 @@ static bool keep_path(void *user, const froe_render_path *path) {
 
 /* ------------------------------------------------------------------------ writing -- */
 
-static void CPL_STDCALL hear(CPLErr class, CPLErrorNum number, const char *text) {
-    (void)number;
-    dxf_drawing *d = CPLGetErrorHandlerUserData();
-    if (class >= CE_Failure && !*d->error) snprintf(d->error, sizeof d->error, "%s", text);
-}
-
 static bool put_entity(const dxf_drawing *d, OGRLayerH out, const dxf_line *line) {
     const double *p = d->points.data + 2 * line->first;
     OGRFeatureH feature = OGR_F_Create(OGR_L_GetLayerDefn(out));
@@ -135,9 +129,8 @@ static froe_status write_drawing(dxf_drawing *d, const char *path, uint64_t *byt
     vsi_l_offset count = 0;
     const GByte *text = VSIGetMemFileBuffer(name, &count, FALSE);
     froe_status status = FROE_OK;
-    if (!ok || *d->error || !text)
-        status = support_fail(diag, FROE_E_UNSUPPORTED, "GDAL cannot write DXF: %.120s.",
-                              *d->error ? d->error : "its driver is missing");
+    if (!ok || d->heard.failed || !text)
+        status = io_gdal_fail(&d->heard, diag, FROE_E_UNSUPPORTED, path, "GDAL has no driver that writes DXF.");
     if (!status) status = support_write(path, text, count, &d->alloc, diag);
     *bytes = count;
     VSIUnlink(name);
@@ -154,20 +147,20 @@ froe_status froe_render_dxf(const froe_tree *tree, const char *path, const froe_
     if (!tree || !path) return support_fail_null(diag, __func__);
     o.shading = FROE_SHADE_NONE;
     o.interleaved = false;
-    dxf_drawing d = {.alloc = support_allocator(o.alloc), .scene = froe_tree_scene(tree), .options = &o};
+    dxf_drawing d = {
+        .alloc = support_allocator(o.alloc), .scene = froe_tree_scene(tree), .options = &o, .heard.path = path};
     for (int i = 0; i < o.decimals && i < 6; i++) steps *= 10;
     froe_status status = froe_render_paths(tree, steps, keep_path, &d, &o, &found, diag);
     if (!status && d.full) status = support_fail_memory(diag);
-    CPLPushErrorHandlerEx(hear, &d);
+    io_gdal_begin(&d.heard);
     if (!status) {
-        GDALAllRegister();
         status = dxf_header(&d.alloc, &d.layers, o.millimetres, &d.header);
         if (status == FROE_E_MEMORY) support_fail_memory(diag);
         if (status == FROE_E_UNSUPPORTED)
             support_fail(diag, status, "GDAL cannot write DXF: its file header.dxf is missing.");
         if (!status) status = write_drawing(&d, path, &found.bytes, diag);
     }
-    CPLPopErrorHandler();
+    io_gdal_end();
     if (!status && report) *report = found;
     array_free(&d.alloc, &d.layers);
     array_free(&d.alloc, &d.lines);

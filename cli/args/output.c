@@ -1,6 +1,7 @@
 /* output.c: see output.h. */
 #include "args/output.h"
 #include "exit.h"
+#include "files.h"
 #include "support/fail.h"
 #include <dirent.h>
 #include <errno.h>
@@ -43,13 +44,8 @@ static bool is_binary(const char *ending) {
 
 /* A file with the ending, in a folder of its own. */
 static int make_copy(cli_output *out, const char *ending) {
-    const char *folders = getenv("TMPDIR");
-    snprintf(out->folder, sizeof out->folder, "%s/froe-XXXXXX", folders && *folders ? folders : "/tmp");
-    if (!mkdtemp(out->folder)) {
-        const int code = cli_fail_file(CLI_RESOURCES, out->folder, "written");
-        out->folder[0] = '\0';
-        return code;
-    }
+    const int code = cli_make_folder(out->folder);
+    if (code) return code;
     snprintf(out->copy, sizeof out->copy, "%s/output.%s", out->folder, ending);
     out->path = out->copy;
     return 0;
@@ -70,8 +66,7 @@ int cli_output_open(const cli_part *parts, void *args) {
                         "pipes.");
     if (dash) out->name = "standard output";
     const char *ending = out->format ? out->format : option->ending;
-    if (!ending || !*ending || strlen(ending) > 15 ||
-        strspn(ending, "abcdefghijklmnopqrstuvwxyz0123456789") < strlen(ending))
+    if (!ending || !cli_is_ending(ending))
         return cli_fail(CLI_USE, out->name,
                         "The format must be named, as in --output-format svg: the usual extension of its files.");
     out->format = ending;

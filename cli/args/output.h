@@ -8,15 +8,16 @@
 #ifndef FROE_CLI_OUTPUT_H
 #define FROE_CLI_OUTPUT_H
 #include "args/options.h"
+#include "files.h"
 #include <froe/froe.h>
 
 /** The value of a CLI_OUTPUT option, and of --output-format beside it. */
 typedef struct cli_output {
     const char *name; /**< NULL: not given */
     const char *path;
-    const char *format; /**< of standard output, a pipe or a device; NULL: not given */
-    int target;         /**< a descriptor, to which the copy goes; only behind cli_output_open() */
-    char folder[4000];  /**< made for the copy; "": the file itself is written */
+    const char *format;      /**< of standard output, a pipe or a device; NULL: not given */
+    int target;              /**< a descriptor, to which the copy goes; only behind cli_output_open() */
+    char folder[CLI_FOLDER]; /**< made for the copy; "": the file itself is written */
     char copy[4096];
 } cli_output;
 

@@ -1,6 +1,7 @@
 /* spool.c: see spool.h. */
 #include "args/spool.h"
 #include "exit.h"
+#include "files.h"
 #include "progress.h"
 #include <errno.h>
 #include <stdio.h>
@@ -36,20 +37,14 @@ int cli_spool_open(const char *path, const char *format, cli_spool *out) {
         return cli_fail(CLI_USE, path,
                         "The format is known by the file itself. --input-format is for standard input and pipes.");
     if (!once) return 0;
-    if (!format || !*format || strlen(format) > 15 ||
-        strspn(format, "abcdefghijklmnopqrstuvwxyz0123456789") < strlen(format))
+    if (!format || !cli_is_ending(format))
         return cli_fail(CLI_USE, out->name,
                         "The format must be named, as in --input-format geojson: the usual extension of its files.");
-    const char *folders = getenv("TMPDIR");
-    snprintf(out->folder, sizeof out->folder, "%s/froe-XXXXXX", folders && *folders ? folders : "/tmp");
-    if (!mkdtemp(out->folder)) {
-        const int code = cli_fail_file(CLI_RESOURCES, out->folder, "written");
-        out->folder[0] = '\0';
-        return code;
-    }
+    int code = cli_make_folder(out->folder);
+    if (code) return code;
     snprintf(out->copy, sizeof out->copy, "%s/input.%s", out->folder, format);
     FILE *in = standard ? stdin : fopen(path, "rb");
-    const int code = in ? copy_input(in, out->name, out->copy) : cli_fail_file(CLI_INPUT, path, "read");
+    code = in ? copy_input(in, out->name, out->copy) : cli_fail_file(CLI_INPUT, path, "read");
     if (in && in != stdin) fclose(in);
     out->path = out->copy;
     if (code) cli_spool_free(out);

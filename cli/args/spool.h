@@ -1,12 +1,13 @@
 /* spool.h: files that can be read only once, as readers want them: with a name, and from any place. */
 #ifndef FROE_CLI_SPOOL_H
 #define FROE_CLI_SPOOL_H
+#include "files.h"
 #include <stdbool.h>
 
 typedef struct cli_spool {
-    const char *name;  /**< what messages call the file */
-    const char *path;  /**< where to read it */
-    char folder[4000]; /**< made for a copy; "": the file itself is read */
+    const char *name;        /**< what messages call the file */
+    const char *path;        /**< where to read it */
+    char folder[CLI_FOLDER]; /**< made for a copy; "": the file itself is read */
     char copy[4096];
 } cli_spool;
 
