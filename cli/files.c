@@ -25,26 +25,6 @@ int cli_write_text(const char *path, cli_write_fn *fn, const void *user) {
     return code;
 }
 
-/* Devices and pipes may serve twice. */
-static bool same_file(const char *a, const char *b) {
-    struct stat x, y;
-    if (!a || !b) return false;
-    if (stat(a, &x) != 0 || stat(b, &y) != 0) return strcmp(a, b) == 0;
-    return S_ISREG(x.st_mode) && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
-}
-
-int cli_check_outputs(const char *const *inputs, size_t input_count, const char *const *outputs, size_t output_count) {
-    for (size_t i = 0; i < output_count; i++) {
-        for (size_t k = 0; k < input_count; k++)
-            if (same_file(outputs[i], inputs[k]))
-                return cli_fail(CLI_USE, outputs[i], "The file is read as well. An output needs a file of its own.");
-        for (size_t k = 0; k < i; k++)
-            if (same_file(outputs[i], outputs[k]))
-                return cli_fail(CLI_USE, outputs[i], "The file is written twice. An output needs a file of its own.");
-    }
-    return 0;
-}
-
 int cli_make_folder(char folder[CLI_FOLDER]) {
     const char *above = getenv("TMPDIR");
     snprintf(folder, CLI_FOLDER, "%s/froe-XXXXXX", above && *above ? above : "/tmp");

@@ -9,9 +9,6 @@ int cli_write_file(const char *path, const void *bytes, size_t count);
 /** The same, of what a function writes. */
 typedef void cli_write_fn(FILE *out, const void *user);
 int cli_write_text(const char *path, cli_write_fn *fn, const void *user);
-/** Keeps a mistyped command from overwriting its input: fails where one of the outputs is one of the inputs, by
- * whatever name, or is named twice. Names may be NULL. Returns 0 or an exit code after saying why. */
-int cli_check_outputs(const char *const *inputs, size_t input_count, const char *const *outputs, size_t output_count);
 
 enum { CLI_FOLDER = 4000 };
 /** Makes a folder for temporary files, named in `folder`; "" when it fails. Returns 0, or an exit code after saying

@@ -168,9 +168,7 @@ static int set_choice(const cli_option *option, int *field, const char *text) {
 
 static int set_text(const cli_option *option, const char **field, const char *text) {
     /* Where a file is to be named, nothing is no name; other texts may be empty. */
-    static const char *const files[] = {"TREE", "FILE", "CSV", "DIR", "SCENE"};
-    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
-        if (!*text && !strcmp(option->value, files[i])) return refuse_value(option, text, "the name of a file");
+    if (!*text && option->file) return refuse_value(option, text, "the name of a file");
     *field = text;
     return 0;
 }

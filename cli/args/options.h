@@ -29,6 +29,13 @@ typedef enum cli_type {
     CLI_OUTPUT = 9, /**< a file that is written; cli_output (output.h) */
 } cli_type;
 
+/** What happens to the file that an option names (overwrite.h). */
+typedef enum cli_file {
+    CLI_NO_FILE = 0, /**< the value is no name of a file */
+    CLI_READ = 1,
+    CLI_WRITTEN = 2,
+} cli_file;
+
 /** The value of a CLI_REALS option. */
 typedef struct cli_reals {
     size_t count; /**< 0: not given */
@@ -52,8 +59,9 @@ typedef struct cli_option {
     uint64_t min, max;          /**< CLI_WHOLE; max 0: no limit */
     const char *const *choices; /**< CLI_CHOICE; ended by NULL */
     const char *alias;          /**< another long name, or NULL */
+    cli_file file;              /**< CLI_TEXT, CLI_TEXTS, CLI_OUTPUT */
     const char *ending;         /**< CLI_OUTPUT: of standard output, where no format is named; or NULL */
-    const char *sentence;       /**< CLI_CHOICE: behind the refusal of another value, or NULL */
+    const char *sentence;       /**< behind the refusal of another value, or of standard output, or NULL */
 } cli_option;
 
 /** A table and where its struct lies within the command's arguments, so that

@@ -24,7 +24,7 @@ typedef struct cli_output {
 /** -o and --output-format of a command whose arguments are the struct T, with the cli_output `output`. MORE: members
  * of the first, as .required; with .ending = "froe", standard output needs no format. */
 #define CLI_OUTPUT_OPTIONS(T, VALUE, HELP, ...)                                                                        \
-    {"output", 'o', CLI_OUTPUT, offsetof(T, output), VALUE, .help = HELP, __VA_ARGS__}, {                              \
+    {"output", 'o', CLI_OUTPUT, offsetof(T, output), VALUE, .help = HELP, .file = CLI_WRITTEN, __VA_ARGS__}, {         \
         "output-format", 0, CLI_TEXT, offsetof(T, output.format), "EXT",                                               \
             .help = "of standard output (-o -) or a pipe: the usual extension of its files, e.g. svg"                  \
     }

@@ -10,7 +10,8 @@
 static const char *const faces[] = {[FROE_FACES_TRIANGLES] = "triangles", [FROE_FACES_POLYGONS] = "polygons", NULL};
 
 const cli_option cli_scene_options[] = {
-    {NULL, 0, CLI_TEXT, offsetof(cli_scene_args, path), "SCENE", .help = "map, model or CSV file", .required = true},
+    {NULL, 0, CLI_TEXT, offsetof(cli_scene_args, path), "SCENE", .help = "map, model or CSV file", .required = true,
+     .file = CLI_READ},
     {"input-format", 0, CLI_TEXT, offsetof(cli_scene_args, format), "EXT",
      .help = "of SCENE from standard input (-) or a pipe: the usual extension of its files, e.g. geojson",
      .alias = "format"},

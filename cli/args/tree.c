@@ -10,7 +10,7 @@
 
 const cli_option cli_tree_options[] = {
     {NULL, 0, CLI_TEXT, offsetof(cli_tree_args, scene.path), "SCENE",
-     .help = "map, model or CSV file; or a tree that froe build saved", .required = true},
+     .help = "map, model or CSV file; or a tree that froe build saved", .required = true, .file = CLI_READ},
     {0},
 };
 
@@ -19,13 +19,10 @@ const cli_option cli_tree_build_options[] = {
      .help = "the builder of the tree, one that froe methods lists (default: the one that suits the command)"},
     CLI_BUDGET_OPTION(cli_tree_args, max_fragments),
     {"save-tree", 0, CLI_TEXT, offsetof(cli_tree_args, save), "FILE",
-     .help = "save the tree here; the command is quicker when it is given this file instead of the scene"},
+     .help = "save the tree here; the command is quicker when it is given this file instead of the scene",
+     .file = CLI_WRITTEN, .sentence = "froe build with -o - writes a tree there."},
     {0},
 };
-
-int cli_check_tree_outputs(const cli_tree_args *args, const char *output) {
-    return cli_check_outputs(&args->scene.path, 1, (const char *[]){output, args->save}, 2);
-}
 
 /* Is the file a tree by its content, or by its name, when it was damaged? */
 static bool is_tree(const char *path) {

@@ -32,6 +32,4 @@ int cli_save_tree(const froe_tree *tree, const char *path);
 /** Opens a saved tree, or reads a scene and builds a tree for `purpose` (one of froe_build_options), with progress
  * bars, and saves it where --save-tree says. Returns 0, or an exit code after saying why. */
 int cli_open_tree(const cli_common *common, const cli_tree_args *args, const char *purpose, froe_tree **tree);
-/** cli_check_outputs() for a command that writes `output` (NULL: none) beside what --save-tree names. */
-int cli_check_tree_outputs(const cli_tree_args *args, const char *output);
 #endif

@@ -26,7 +26,7 @@ typedef struct build_args {
 static const char *const purposes[] = {"pieces", "query", "draw", NULL};
 
 static const cli_option options[] = {
-    {"output", 'o', CLI_OUTPUT, offsetof(build_args, output), "TREE",
+    {"output", 'o', CLI_OUTPUT, offsetof(build_args, output), "TREE", .file = CLI_WRITTEN,
      .help = "save the tree here (default: report only); - for standard output", .ending = "froe"},
     {"method", 'm', CLI_TEXT, offsetof(build_args, method), "M",
      .help = "a builder that froe methods lists, or auto (default), which takes the one that serves the scene best"},
@@ -39,7 +39,7 @@ static const cli_option options[] = {
      .max = INT32_MAX},
     {"option", 0, CLI_WORDS, offsetof(build_args, settings), "NAME=VALUE",
      .help = "set an option of the method; may be given again and again"},
-    {"order", 0, CLI_TEXT, offsetof(build_args, order), "FILE",
+    {"order", 0, CLI_TEXT, offsetof(build_args, order), "FILE", .file = CLI_READ,
      .help = "take the objects in the order of this file, one id a line, instead of a random one (cylindrical)"},
     {"split-intersections", 0, CLI_FLAG, offsetof(build_args, split_intersections),
      .help = "cut polygons that cross others instead of refusing them (cylindrical): the same as --option "
@@ -87,7 +87,6 @@ static int run_build(const void *given) {
     froe_tree *tree = NULL;
     froe_read_report reader;
     int code = cli_check_method(args->method, true);
-    if (!code) code = cli_check_outputs((const char *[]){args->scene.path, args->order}, 2, &args->output.path, 1);
     if (!code) code = cli_read_scene(&args->common, &args->scene, &scene, &reader);
     if (code) return code;
     const double start = cli_seconds();

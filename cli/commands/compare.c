@@ -29,11 +29,12 @@ typedef struct compare_args {
 } compare_args;
 
 static const cli_option what[] = {
-    {NULL, 0, CLI_TEXTS, offsetof(compare_args, scenes), "SCENE", .help = "maps, models or CSV files",
+    {NULL, 0, CLI_TEXTS, offsetof(compare_args, scenes), "SCENE", .file = CLI_READ, .help = "maps, models or CSV files",
      .required = true},
-    {"output", 'o', CLI_OUTPUT, offsetof(compare_args, page), "FILE",
+    {"output", 'o', CLI_OUTPUT, offsetof(compare_args, page), "FILE", .file = CLI_WRITTEN,
      .help = "write a page with figures and pictures here (HTML, one file); - for standard output", .ending = "html"},
-    {"csv", 0, CLI_TEXT, offsetof(compare_args, csv), "FILE", .help = "write all numbers here, one row a method"},
+    {"csv", 0, CLI_TEXT, offsetof(compare_args, csv), "FILE", .file = CLI_WRITTEN,
+     .help = "write all numbers here, one row a method"},
     {0},
 };
 
@@ -167,8 +168,6 @@ static int run_compare(const void *given) {
         code = cli_check_method(name, false);
         at += length + (at[length] == ',');
     }
-    if (!code)
-        code = cli_check_outputs(args->scenes.at, args->scenes.count, (const char *[]){args->page.path, args->csv}, 2);
     for (size_t i = 0; i < args->scenes.count && !code; i++) { /* all, before hours of work */
         cli_scene_args scene = args->scene;
         const froe_allocator alloc = meter_allocator(&meters[i]);

@@ -23,7 +23,7 @@ typedef struct demo_args {
 } demo_args;
 
 static const cli_option options[] = {
-    {"output", 'o', CLI_TEXT, offsetof(demo_args, output), "DIR",
+    {"output", 'o', CLI_TEXT, offsetof(demo_args, output), "DIR", .file = CLI_WRITTEN,
      .help = "folder for pictures, trees and the page (default build/demo)"},
     {0},
 };

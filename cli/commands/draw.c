@@ -36,7 +36,7 @@ static const cli_option what[] = {
      .help = "auto (default), flat (plane), sections or exploded (space)", .choices = styles},
     {"window", 0, CLI_REALS, offsetof(draw_args, window), "LO,HI",
      .help = "draw this box only: lower corner, then upper, in the scene's coordinates"},
-    {"marks", 0, CLI_TEXT, offsetof(draw_args, marks), "FILE",
+    {"marks", 0, CLI_TEXT, offsetof(draw_args, marks), "FILE", .file = CLI_READ,
      .help = "mark the points, segments, boxes or balls of this file, with the names of its features"},
     {"max-depth", 0, CLI_WHOLE, offsetof(draw_args, max_depth), "D",
      .help = "draw cells below this depth as one (0: no limit)", .max = UINT32_MAX},
@@ -149,8 +149,7 @@ static int run_draw(const void *given) {
     if (!library.format_of(args->output.path, &format))
         return cli_fail(CLI_USE, args->output.name, "The ending of pictures is .svg, .pdf or .png.");
     froe_tree *tree;
-    code = cli_check_tree_outputs(&args->tree, args->output.path);
-    if (!code) code = cli_open_tree(&args->common, &args->tree, NULL, &tree);
+    code = cli_open_tree(&args->common, &args->tree, NULL, &tree);
     if (code) return code;
     froe_draw_options o = library.defaults();
     cli_marks marks;

@@ -39,8 +39,8 @@ static int run_export(const void *given) {
     const export_args *args = given;
     froe_tree *tree;
     cli_io io = {.export_map = froe_export};
-    int code = cli_check_tree_outputs(&args->tree, args->output.path);
-    if (!code && !froe_exports_own(args->output.path)) code = cli_open_io(&io);
+    int code = 0;
+    if (!froe_exports_own(args->output.path)) code = cli_open_io(&io);
     if (!code) code = cli_open_tree(&args->common, &args->tree, NULL, &tree);
     if (code) return code;
     const size_t numbers = 2 * (size_t)froe_scene_dim(froe_tree_scene(tree));

@@ -13,7 +13,7 @@ typedef struct locate_args {
 static const cli_column columns[] = {{"", true}, {0}};
 
 static const cli_option options[] = {
-    {"queries", 0, CLI_TEXT, offsetof(locate_args, query.input), "CSV",
+    {"queries", 0, CLI_TEXT, offsetof(locate_args, query.input), "CSV", .file = CLI_READ,
      .help = "the points, x,y[,z...]; - for standard input", .required = true, .alias = "points"},
     {"groups", 0, CLI_FLAG, offsetof(locate_args, groups),
      .help = "the groups each point lies in, with their names, and no objects (plane)"},

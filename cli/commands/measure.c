@@ -20,9 +20,9 @@ typedef struct measure_args {
 
 static const char *const countings[] = {[FROE_COUNT_SEARCH] = "search", [FROE_COUNT_TREES] = "trees", NULL};
 static const cli_option options[] = {
-    {"draw", 0, CLI_TEXT, offsetof(measure_args, cube), "FILE",
+    {"draw", 0, CLI_TEXT, offsetof(measure_args, cube), "FILE", .file = CLI_WRITTEN,
      .help = "draw the worst cube among the objects around it (.svg, .pdf, .png)"},
-    {"draw-ball", 0, CLI_TEXT, offsetof(measure_args, ball), "FILE",
+    {"draw-ball", 0, CLI_TEXT, offsetof(measure_args, ball), "FILE", .file = CLI_WRITTEN,
      .help = "draw the densest ball, of radius density"},
     CLI_BUDGET_OPTION(measure_args, max_fragments),
     {"samples", 0, CLI_WHOLE, offsetof(measure_args, samples), "N",
@@ -145,8 +145,7 @@ static int run_measure(const void *given) {
     froe_scene *scene;
     froe_read_report reader;
     const char *const pictures[] = {args->cube, args->ball};
-    int code = cli_check_outputs(&args->scene.path, 1, pictures, 2);
-    if (!code) code = measure_check_pictures(pictures, 2);
+    int code = measure_check_pictures(pictures, 2);
     if (!code) code = cli_read_scene(&args->common, &args->scene, &scene, &reader);
     if (code) return code;
     for (int i = 0; i < 2 && !code; i++) code = measure_check_dimension(pictures[i], scene);

@@ -15,7 +15,7 @@ typedef struct near_args {
 static const cli_column columns[] = {{"", true}, {0}};
 
 static const cli_option options[] = {
-    {"queries", 0, CLI_TEXT, offsetof(near_args, query.input), "CSV",
+    {"queries", 0, CLI_TEXT, offsetof(near_args, query.input), "CSV", .file = CLI_READ,
      .help = "the points, x,y[,z...]; - for standard input", .required = true, .alias = "points"},
     {"neighbours", 'k', CLI_WHOLE, offsetof(near_args, k), "K", .help = "how many objects (default 1)",
      .max = 2147483646},

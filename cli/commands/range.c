@@ -40,8 +40,8 @@ static const cli_column columns[FROE_SHAPE_COUNT][4] = {
 };
 
 static const cli_option options[] = {
-    {"queries", 0, CLI_TEXT, offsetof(range_args, query.input), "CSV", .help = "the ranges; - for standard input",
-     .required = true},
+    {"queries", 0, CLI_TEXT, offsetof(range_args, query.input), "CSV", .file = CLI_READ,
+     .help = "the ranges; - for standard input", .required = true},
     {"shape", 0, CLI_CHOICE, offsetof(range_args, shape), "SHAPE",
      .help = "box (default), ball, simplex, capsule, halfspaces, hull, segment or ray", .choices = shapes},
     {"eps", 0, CLI_REAL, offsetof(range_args, eps), "E",

@@ -18,7 +18,7 @@ typedef struct ray_args {
 static const cli_column columns[] = {{"o", true}, {"d", true}, {0}};
 
 static const cli_option options[] = {
-    {"queries", 0, CLI_TEXT, offsetof(ray_args, query.input), "CSV",
+    {"queries", 0, CLI_TEXT, offsetof(ray_args, query.input), "CSV", .file = CLI_READ,
      .help = "the rays, ox,oy[,oz...],dx,dy[,dz...]; - for standard input", .required = true, .alias = "rays"},
     {"all", 0, CLI_FLAG, offsetof(ray_args, all), .help = "all objects met, not only the first"},
     {"t-max", 0, CLI_REAL, offsetof(ray_args, t_max), "T",

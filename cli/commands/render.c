@@ -290,8 +290,7 @@ static int check_scene(const render_args *args, const froe_scene *scene) {
 static int run_render(const void *given) {
     const render_args *args = given;
     froe_tree *tree;
-    int code = cli_check_tree_outputs(&args->tree, args->output.path);
-    if (!code) code = cli_open_tree(&args->common, &args->tree, "draw", &tree);
+    int code = cli_open_tree(&args->common, &args->tree, "draw", &tree);
     if (code) return code;
     code = check_scene(args, froe_tree_scene(tree));
     if (!code) code = cut_section(args, &tree);
