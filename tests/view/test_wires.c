@@ -254,7 +254,7 @@ static void expect(const double *segments, size_t count, double below, const dou
     froe_tree *tree = trees_build(scene, "density", 1);
     froe_scene_free(scene);
     open_stage(&s, tree);
-    look_from(&s, (froe_eye){.at = {0, 0, below ? -1 : 1}, .parallel = true}, froe_visibility_defaults());
+    look_from(&s, (froe_eye){.at = {0, 0, below != 0 ? -1 : 1}, .parallel = true}, froe_visibility_defaults());
     for (uint32_t i = 0; i < count; i++) {
         size_t n;
         const froe_interval *x = froe_visibility_of_wire(s.v, i, &n);
