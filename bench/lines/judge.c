@@ -310,8 +310,8 @@ int main(int argc, char **argv) {
     size_t edge_count, line_count, strokes;
     if (argc != 3) return 2;
     read_mesh(argv[1]);
-    const edge *edges = find_edges(&edge_count);
-    const segment *lines = read_lines(argv[2], &line_count, &strokes);
+    edge *edges = find_edges(&edge_count);
+    segment *lines = read_lines(argv[2], &line_count, &strokes);
     segment *wanted = take(edge_count, sizeof *wanted);
     for (size_t i = 0; i < edge_count; i++)
         wanted[i] = (segment){points[edges[i].a].x, points[edges[i].a].y, points[edges[i].b].x, points[edges[i].b].y};
@@ -320,5 +320,6 @@ int main(int argc, char **argv) {
     const tally wrong = count_wrong(lines, line_count, edges, wanted, &edge_grid),
                 missing = count_missing(lines, &line_grid, edges, wanted, edge_count);
     printf("%zu %.4g %.4g\n", strokes, percent(wrong), percent(missing));
+    free(edges), free(lines), free(wanted);
     return 0;
 }
