@@ -56,6 +56,10 @@ static void warn(const cli_common *common, const char *name, const froe_read_rep
                        "warning: Of %llu textures %llu are missing or unreadable, first of all '%s'. Their faces have "
                        "the colours of their materials.",
                        (unsigned long long)r->textures, (unsigned long long)r->unread, r->unread_name);
+    if (*r->unread_library)
+        (void)cli_fail(
+            0, name, "warning: The library of materials '%s' is missing or unreadable. Its materials have no colours.",
+            r->unread_library);
 }
 
 int cli_read_scene(const cli_common *common, const cli_scene_args *args, froe_scene **scene, froe_read_report *report) {
@@ -89,7 +93,7 @@ int cli_read_scene(const cli_common *common, const cli_scene_args *args, froe_sc
         cli_progress_end(&bar);
         if (status) code = cli_fail_status(CLI_READING, spool.name, status, &diag);
         if (!status) warn(common, spool.name, report);
-        if (!status) cli_warn_scene(common, spool.name, *scene);
+        if (!status && !args->wrap) cli_warn_scene(common, spool.name, *scene);
     }
     cli_spool_free(&spool);
     return code;

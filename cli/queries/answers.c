@@ -56,6 +56,16 @@ static void put_json(cli_answers *out, const char *text) {
     put(out, '"');
 }
 
+/* Writes the digits that reading a number back needs; returns how many characters these are, at most CELL - 1. */
+static size_t print_number(char *to, double value) {
+    int length = 0;
+    for (int digits = 15; digits <= 17; digits++) { /* "%.15g" leaves out zeros at the end */
+        length = snprintf(to, CELL, "%.*g", digits, value);
+        if (strtod(to, NULL) == value) break;
+    }
+    return (size_t)length;
+}
+
 /* Is it a number as JSON has them? -1.5e-3 is, 007, .5 and +1 are not. */
 static bool is_json_number(const char *c) {
     static const char digits[] = "0123456789";
@@ -77,6 +87,31 @@ static bool is_json_number(const char *c) {
         c += length;
     }
     return !*c;
+}
+
+enum { DIGITS = 18 }; /* more than tell any double from its neighbours, with the end */
+
+/* The significant digits of a number: 25 of 0.02500. False: there are too many for a double. */
+static bool put_digits(const char *c, char out[DIGITS]) {
+    size_t length = 0, end = 0;
+    for (; *c && (*c | 0x20) != 'e'; ++c) {
+        if (*c < '0' || *c > '9' || (*c == '0' && !length)) continue;
+        if (length < DIGITS - 1) out[length] = *c;
+        ++length;
+        if (*c != '0') end = length;
+    }
+    if (end >= DIGITS) return false;
+    out[end] = '\0';
+    return true;
+}
+
+/* Does the nearest double have all digits of a number, in those that tell it from its neighbours? */
+static bool is_held(const char *number) {
+    char digits[DIGITS], held[DIGITS], text[CELL];
+    const double value = strtod(number, NULL);
+    if (!isfinite(value)) return false;
+    print_number(text, value);
+    return put_digits(number, digits) && put_digits(text, held) && !strcmp(digits, held);
 }
 
 /* ------------------------------------------------------------------- cells -- */
@@ -104,13 +139,7 @@ void cli_answers_whole(cli_answers *out, uint64_t value) {
 }
 
 void cli_answers_number(cli_answers *out, double value) {
-    char *to = room(out);
-    int length = 0;
-    for (int digits = 15; digits <= 17; digits++) { /* "%.15g" leaves out zeros at the end */
-        length = snprintf(to, CELL, "%.*g", digits, value);
-        if (strtod(to, NULL) == value) break;
-    }
-    out->length += (size_t)length;
+    out->length += print_number(room(out), value);
 }
 
 void cli_answers_real(cli_answers *out, double value) {
@@ -128,8 +157,10 @@ void cli_answers_text(cli_answers *out, const char *value) {
     end_cell(out);
 }
 
-void cli_answers_own(cli_answers *out, const char *value, bool quoted) {
-    if (out->format == CLI_CSV || quoted || !is_json_number(value)) return cli_answers_text(out, value);
+void cli_answers_own(cli_answers *out, const char *value, cli_own what) {
+    const bool kept = is_json_number(value) && is_held(value);
+    if (out->format != CLI_CSV && what == CLI_OWN_NUMBER && !kept) return cli_answers_real(out, strtod(value, NULL));
+    if (out->format == CLI_CSV || what == CLI_OWN_QUOTED || !kept) return cli_answers_text(out, value);
     begin_cell(out);
     cli_answers_put(out, value);
     end_cell(out);

@@ -37,8 +37,11 @@ void cli_answers_whole(cli_answers *out, uint64_t value);
 void cli_answers_real(cli_answers *out, double value);
 void cli_answers_text(cli_answers *out, const char *value); /**< any; quoted where CSV needs it */
 void cli_answers_none(cli_answers *out);                    /**< empty, in JSON null */
-/** Text of a CSV as it stands there; what JSON takes for a number is one there, unless it was `quoted`. */
-void cli_answers_own(cli_answers *out, const char *value, bool quoted);
+/** What a cell of a CSV was: other text, text in quotation marks, a number that the command read. */
+typedef enum cli_own { CLI_OWN_TEXT = ' ', CLI_OWN_QUOTED = '"', CLI_OWN_NUMBER = '0' } cli_own;
+/** Text of a CSV as it stands there. In JSON numbers that the command read are numbers, and so is other text without
+ * quotation marks that JSON takes for a number and a double holds to its last digit: not 1e400, not 20 digits. */
+void cli_answers_own(cli_answers *out, const char *value, cli_own what);
 
 /** Within geometries: text as it is, and numbers. */
 void cli_answers_put(cli_answers *out, const char *text);

@@ -61,11 +61,40 @@ static bool is_shown(const cli_columns *out, const char *name) {
     return false;
 }
 
+/* Is a name one that the command's columns have, or may have where they expand to axes? */
+static bool is_taken(const choice *c, const char *name) {
+    if (is_listed(c->known, name)) return true;
+    for (int axis = 0; axis < c->dim; axis++)
+        if ((is_listed(c->given, "point") && !strcmp(name, cli_axis_name("", axis).text)) ||
+            (is_listed(c->given, "normal") && !strcmp(name, cli_axis_name("n", axis).text)))
+            return true;
+    return false;
+}
+
+/* ---------------------------------------------------------------- refusing -- */
+
+static int refuse_shown(const choice *c, const char *name) {
+    if (is_taken(c, name) && own_named(c, name) != NONE)
+        return cli_fail(CLI_USE, NULL,
+                        "--columns: The column '%s' is there twice. That of the file of queries is called %s%s.", name,
+                        prefix, name);
+    return cli_fail(CLI_USE, NULL, "--columns: The column '%s' is there twice.", name);
+}
+
+/* Of two columns with one name one would be lost. Those without a name are what spreadsheets leave behind the last. */
+static int check_own(const choice *c, size_t at) {
+    const char *name = c->rows->names[at];
+    for (size_t i = 0; i < c->rows->columns && *name; i++)
+        if (i != at && !strcmp(c->rows->names[i], name))
+            return cli_fail(CLI_INPUT, c->rows->path, "line 1: The header names the column '%.40s' twice.", name);
+    return 0;
+}
+
 /* ------------------------------------------------------------------ adding -- */
 
 static int add_column(choice *c, cli_shown shown, const char *name) {
     cli_columns *out = c->out;
-    if (is_shown(out, name)) return cli_fail(CLI_USE, NULL, "--columns: The column '%s' is there twice.", name);
+    if (is_shown(out, name)) return refuse_shown(c, name);
     char *text = strdup(name);
     cli_shown *more = realloc(out->shown, (out->count + 1) * sizeof *more);
     if (more) out->shown = more;
@@ -98,17 +127,7 @@ static int add_field(choice *c, size_t i) {
     return code;
 }
 
-/* Is a name one that the command's columns have, or may have where they expand to axes? */
-static bool is_taken(const choice *c, const char *name) {
-    if (is_listed(c->known, name)) return true;
-    for (int axis = 0; axis < c->dim; axis++)
-        if ((is_listed(c->given, "point") && !strcmp(name, cli_axis_name("", axis).text)) ||
-            (is_listed(c->given, "normal") && !strcmp(name, cli_axis_name("n", axis).text)))
-            return true;
-    return false;
-}
-
-/* All columns of the file that are not there; of several with one name the first. */
+/* All columns of the file that are not there; of several without a name the first. */
 static int add_rest(choice *c) {
     int code = 0;
     for (size_t i = 0; c->rows && i < c->rows->columns && !code; i++) {
@@ -118,7 +137,8 @@ static int add_rest(choice *c) {
         sprintf(longer, "%s%s", prefix, name);
         bool there = own_named(c, name) != i;
         for (size_t k = 0; k < c->out->own_count; k++) there = there || c->out->own[k] == i;
-        if (!there)
+        code = check_own(c, i);
+        if (!there && !code)
             code = add_column(c, (cli_shown){.field = CLI_FIELD_OWN, .at = i}, is_taken(c, name) ? longer : name);
         free(longer);
     }
@@ -147,7 +167,8 @@ static int add_named(choice *c, const char *name) {
     const size_t field = field_named(c, name), own = own_named(c, name);
     if (field < FIELDS) return add_field(c, field);
     if (own == NONE) return refuse_name(c, name);
-    return add_column(c, (cli_shown){.field = CLI_FIELD_OWN, .at = own}, name);
+    const int code = check_own(c, own);
+    return code ? code : add_column(c, (cli_shown){.field = CLI_FIELD_OWN, .at = own}, name);
 }
 
 int cli_columns_open(const char *given, const char *standard, const char *known, const cli_rows *rows, int dim,

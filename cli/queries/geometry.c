@@ -16,7 +16,11 @@ static void put_point(cli_answers *out, const double *at, int dim) {
     cli_answers_put(out, "}");
 }
 
+/* Two positions that are the same make no valid line (ISO 19125-1, 6.1.7): they are written as a point. */
 static void put_line_string(cli_answers *out, const double *from, const double *to, int dim) {
+    bool apart = false;
+    for (int k = 0; k < dim; k++) apart = apart || from[k] != to[k];
+    if (!apart) return put_point(out, from, dim);
     cli_answers_put(out, "{\"type\":\"LineString\",\"coordinates\":[");
     put_position(out, from, dim);
     cli_answers_put(out, ",");

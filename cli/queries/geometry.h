@@ -1,6 +1,7 @@
 /* geometry.h: the geometry of an answer as GeoJSON (RFC 7946, in the coordinates of the scene).
  *
  *     point, segment, polygon          Point, LineString, Polygon
+ *     a segment without length         Point, as for the way to a nearest point and along a ray
  *     box                              Polygon, in space a MultiPolygon of its six faces
  *     ball                             Point, its centre
  *     hull                             MultiPoint, its corners

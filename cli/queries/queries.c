@@ -14,6 +14,12 @@ const cli_option cli_query_options[] = {
     {0},
 };
 
+/* Numbers with open addressing, each with 1 added; at most half of the places are used. */
+typedef struct seen_ids {
+    uint64_t *places;
+    size_t used, room; /* a power of 2, or 0 */
+} seen_ids;
+
 /* A run in progress. Rows of the query being gathered lie behind those of the `count` whole ones. */
 typedef struct query_run {
     const cli_queries *q;
@@ -33,6 +39,7 @@ typedef struct query_run {
     char *texts;
     size_t text_length, text_room;
     cli_table table;
+    seen_ids seen; /* of the queries that began, where rows name them */
 } query_run;
 
 /* -------------------------------------------------------------------- bad -- */
@@ -41,6 +48,35 @@ static void refuse(query_run *r, uint64_t line, const char *sentence) {
     r->refused = true;
     cli_fail(CLI_INPUT, r->rows.path, "line %llu: %s", (unsigned long long)line, sentence);
     if (!r->q->args->keep_going) r->code = CLI_INPUT;
+}
+
+/* ------------------------------------------------------------ numbers seen -- */
+
+/* The place of a number, or the free one where it belongs. */
+static uint64_t *place_of_id(const seen_ids *seen, uint64_t id) {
+    size_t at = (size_t)((id * UINT64_C(0x9E3779B97F4A7C15)) >> 20) & (seen->room - 1);
+    while (seen->places[at] && seen->places[at] != id + 1) at = (at + 1) & (seen->room - 1);
+    return seen->places + at;
+}
+
+static bool is_seen(const seen_ids *seen, uint64_t id) {
+    return seen->room && *place_of_id(seen, id);
+}
+
+/* False: there is no memory. */
+static bool see_id(seen_ids *seen, uint64_t id) {
+    if (2 * (seen->used + 1) > seen->room) {
+        seen_ids more = {.used = seen->used, .room = seen->room ? 2 * seen->room : CLI_BLOCK};
+        more.places = calloc(more.room, sizeof *more.places);
+        if (!more.places) return false;
+        for (size_t i = 0; i < seen->room; i++)
+            if (seen->places[i]) *place_of_id(&more, seen->places[i] - 1) = seen->places[i];
+        free(seen->places);
+        *seen = more;
+    }
+    *place_of_id(seen, id) = id + 1;
+    seen->used++;
+    return true;
 }
 
 /* ---------------------------------------------------------------- reading -- */
@@ -59,10 +95,19 @@ static void close_query(query_run *r) {
     r->open = r->spoilt = false;
 }
 
+/* Does a row name a query that ended before the one being gathered? */
+static bool is_late(const query_run *r, uint64_t id) {
+    return r->grouped && !(r->open && r->ids[r->count] == id) && is_seen(&r->seen, id);
+}
+
 /* The query that a row belongs to is the one being gathered, or a new one. */
 static void open_query(query_run *r, uint64_t id) {
     if (r->open && r->ids[r->count] == id) return;
     close_query(r);
+    if (r->grouped && !see_id(&r->seen, id)) {
+        r->code = cli_fail_memory();
+        return;
+    }
     r->open = true;
     r->ids[r->count] = id;
     r->lines[r->count] = r->rows.line;
@@ -86,7 +131,9 @@ static bool keep_own(query_run *r) {
             r->text_room = room;
         }
         r->own[r->count * columns->own_count + k] = r->text_length;
-        r->texts[r->text_length] = field->quoted ? '"' : ' ';
+        r->texts[r->text_length] = r->rows.place[columns->own[k]] >= 0 ? CLI_OWN_NUMBER
+                                   : field->quoted                     ? CLI_OWN_QUOTED
+                                                                       : CLI_OWN_TEXT;
         memcpy(r->texts + r->text_length + 1, field->text, length - 1);
         r->text_length += length;
     }
@@ -113,7 +160,14 @@ static void add_row(query_run *r, const double *values) {
         r->spoilt = true;
         return;
     }
+    if (r->grouped && is_late(r, (uint64_t)values[0])) {
+        char sentence[120];
+        snprintf(sentence, sizeof sentence, "Rows of one query follow each other, and those of query %.0f ended above.",
+                 values[0]);
+        return refuse(r, r->rows.line, sentence);
+    }
     open_query(r, r->grouped ? (uint64_t)values[0] : r->rows.row);
+    if (r->code) return;
     if (rows_held(r) == r->room) {
         const size_t room = 2 * r->room + CLI_BLOCK;
         double *numbers = realloc(r->numbers, room * r->width * sizeof *numbers);
@@ -133,6 +187,14 @@ static void add_row(query_run *r, const double *values) {
     if (!r->grouped) close_query(r);
 }
 
+/* A bad row spoils its query, which is the one being gathered if the row names none. */
+static void spoil_query(query_run *r, double id) {
+    const bool named = r->grouped && is_id(id);
+    if (named && is_late(r, (uint64_t)id)) return;
+    if (named) open_query(r, (uint64_t)id);
+    r->spoilt = r->open;
+}
+
 /* Reads until the block is full or the file ends. */
 static void read_block(query_run *r) {
     double values[CLI_ROW_NUMBERS];
@@ -142,10 +204,9 @@ static void read_block(query_run *r) {
         case CLI_ROW_READ:
             add_row(r, values);
             break;
-        case CLI_ROW_BAD: /* it spoils its query, which is the one being gathered if the row names none */
-            if (r->grouped && is_id(values[0])) open_query(r, (uint64_t)values[0]);
-            r->spoilt = r->open;
-            refuse(r, r->rows.line, r->rows.sentence);
+        case CLI_ROW_BAD:
+            spoil_query(r, values[0]);
+            if (!r->code) refuse(r, r->rows.line, r->rows.sentence);
             break;
         case CLI_ROWS_END:
             r->ended = true;
@@ -264,6 +325,7 @@ static int ask_batch(const cli_queries *queries, const cli_asked *asked) {
     free(r->numbers);
     free(r->own);
     free(r->texts);
+    free(r->seen.places);
     free(r);
     return code;
 }

@@ -172,7 +172,11 @@ static bool read_numbers(cli_rows *rows, double *values) {
     for (; !field.last && column < rows->columns; column++) {
         rows->fields[column] = field = support_csv_next(&at, rows->separator);
         double *value = rows->place[column] < 0 ? NULL : &values[rows->place[column]];
-        if (!value || support_csv_number(field.text, rows->separator, value)) continue;
+        if (!value) continue;
+        if (support_csv_number(field.text, rows->separator, value)) {
+            support_csv_point(field.text, rows->separator);
+            continue;
+        }
         if (*field.text)
             snprintf(rows->sentence, sizeof rows->sentence, "'%.40s' is not a number.", field.text);
         else

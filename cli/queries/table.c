@@ -119,7 +119,7 @@ static void put_shown(cli_table *t, const cli_shown *shown, const cli_answer *a)
         return cli_answers_text(out, a->kind);
     case CLI_FIELD_OWN: {
         const char *text = t->block->texts + t->block->own[a->at * t->columns.own_count + shown->own];
-        return cli_answers_own(out, text + 1, *text == '"');
+        return cli_answers_own(out, text + 1, (cli_own)*text);
     }
     }
 }

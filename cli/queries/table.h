@@ -49,7 +49,7 @@ typedef struct cli_block {
     const double *numbers;
     const uint64_t *ids; /**< what the column `query` of the answers says */
     const size_t *own;   /**< [own_count] of each query: where the text of its own columns begins, behind a mark */
-    const char *texts;   /**< the mark is '"' for text in quotation marks */
+    const char *texts;   /**< each mark is a cli_own */
 } cli_block;
 
 /** The first number of a block whose queries have a row each. */

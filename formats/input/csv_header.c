@@ -92,10 +92,14 @@ formats_csv_header formats_csv_read_header(char **at, formats_csv_table *t) {
     const char *names[SUPPORT_CSV_COLUMNS];
     support_csv_field field = {.last = false};
     t->separator = support_csv_separator(*at);
+    t->lines = 1;
+    t->open = false;
     for (t->columns = 0; !field.last; ++t->columns) {
         if (t->columns == SUPPORT_CSV_COLUMNS) return t->columns = 0, FORMATS_CSV_OTHER;
         field = support_csv_next(at, t->separator);
         names[t->columns] = field.text;
+        t->lines += support_csv_line_ends(&field);
+        t->open = field.open;
     }
     support_csv_names(t->found, sizeof t->found, names, (size_t)t->columns);
     formats_csv_header first = FORMATS_CSV_OTHER;

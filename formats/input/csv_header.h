@@ -26,7 +26,9 @@ typedef struct formats_csv_table {
     char separator;
     froe_kind kind;
     int dim;
-    int columns; /**< 0: more than can be read */
+    int columns;    /**< 0: more than can be read */
+    uint64_t lines; /**< of the header, which has line ends where names in quotation marks do */
+    bool open;      /**< a quotation mark of the header is not closed */
     unsigned char role[SUPPORT_CSV_COLUMNS];
     char found[80]; /**< the names of the columns, for a sentence */
 } formats_csv_table;

@@ -23,6 +23,7 @@ typedef struct csv_reader {
     formats_csv_table table;
     const char *name; /* of the last group, in the text */
     uint32_t group;
+    uint64_t line; /* that the next record begins in, from 1 */
     csv_row first; /* of the hull whose rows are read */
     ARRAY(double) corners;
 } csv_reader;
@@ -90,6 +91,12 @@ static froe_status take_corner(csv_reader *c, const csv_row *r) {
                : support_fail_memory(c->sink->diag);
 }
 
+/* What stands behind a quotation mark that is not closed would be one field: rows would be lost. */
+static froe_status refuse_open(formats_sink *sink, uint64_t line) {
+    return support_fail(sink->diag, FROE_E_FORMAT, "%s: line %llu: A quotation mark is not closed.",
+                        support_short(sink->path), (unsigned long long)line);
+}
+
 /* A row as the object that it says. */
 static froe_status read_row(csv_reader *c, char **at, uint64_t row) {
     formats_sink *sink = c->sink;
@@ -98,9 +105,12 @@ static froe_status read_row(csv_reader *c, char **at, uint64_t row) {
     support_csv_field field = {.last = false};
     froe_status status = FROE_OK;
     int column = 0;
+    const uint64_t line = c->line++;
     sink->number = row;
     for (; !field.last && !status; ++column) {
         field = support_csv_next(at, t->separator);
+        if (field.open) return refuse_open(sink, line);
+        c->line += support_csv_line_ends(&field);
         if (column < t->columns) status = read_field(sink, t, t->role[column], field.text, &r);
     }
     if (status) return status;
@@ -139,7 +149,11 @@ froe_status formats_read_csv(const formats_source *source, formats_sink *sink) {
     froe_status status = formats_load(source, sink, false, &text);
     char *at = text.data;
     const formats_csv_header what = status ? FORMATS_CSV_OURS : formats_csv_read_header(&at, &c.table);
-    if (what != FORMATS_CSV_OURS) status = refuse_header(&c, source, what);
+    if (c.table.open)
+        status = refuse_open(sink, 1);
+    else if (what != FORMATS_CSV_OURS)
+        status = refuse_header(&c, source, what);
+    c.line = c.table.lines + 1;
     if (!status) status = formats_sink_open(sink, c.table.dim);
     sink->unit = "row";
     sink->report.layers = 1;
@@ -151,6 +165,7 @@ froe_status formats_read_csv(const formats_source *source, formats_sink *sink) {
         if (*word == '\n' || !*word) { /* a blank line */
             at += strcspn(at, "\n");
             at += *at == '\n';
+            ++c.line;
             continue;
         }
         status = read_row(&c, &at, ++row);

@@ -23,17 +23,29 @@ const formats_material *formats_material_find(const formats_materials *materials
     return NULL;
 }
 
+/* Tints of textures are shares of sRGB. Black ones are what programs write that do not tint. */
+static bool is_tinted(const formats_material *m) {
+    return m->coloured && (m->rgba[0] > 0 || m->rgba[1] > 0 || m->rgba[2] > 0);
+}
+
+/* A texture is meant to be seen: MeshLab writes Tr 1 for opaque ones. */
+static double textured_opacity(const formats_material *m) {
+    return m->rgba[3] > 0 ? m->rgba[3] : 1;
+}
+
 uint32_t formats_material_colour(const formats_material *m) {
-    return m && m->coloured && !m->textured ? formats_colour(m->rgba) : 0;
+    if (!m || !m->coloured) return 0;
+    if (!m->textured) return formats_colour(m->rgba);
+    if (m->texture.image.pixels || !is_tinted(m)) return 0;
+    return formats_colour((const double[4]){m->rgba[0], m->rgba[1], m->rgba[2], textured_opacity(m)});
 }
 
 uint32_t formats_material_texel(const formats_material *m, const double *corners, const double *places, size_t count) {
     double texel[4];
     if (!formats_texture_mean(&m->texture, corners, places, count, texel)) return 0;
-    /* Tints are shares of sRGB. Black ones are what programs write that do not tint. */
-    const bool tinted = m->coloured && (m->rgba[0] > 0 || m->rgba[1] > 0 || m->rgba[2] > 0);
+    const bool tinted = is_tinted(m);
     for (int k = 0; k < 3; k++) texel[k] = formats_level(texel[k]) / 255.0 * (tinted ? m->rgba[k] : 1);
-    if (m->rgba[3] > 0) texel[3] *= m->rgba[3]; /* a texture is meant to be seen: MeshLab writes Tr 1 for opaque ones */
+    texel[3] *= textured_opacity(m);
     return formats_step_colour(formats_colour(texel));
 }
 
@@ -101,6 +113,13 @@ static froe_status read_images(formats_sink *sink, const char *path, formats_mat
     return status;
 }
 
+/* A library that cannot be read is no failure: it is told in the report. Boxes have no colours. */
+static froe_status note_unread(formats_sink *sink, const char *name) {
+    char *told = sink->report.unread_library;
+    if (!*told && !sink->boxes) snprintf(told, sizeof sink->report.unread_library, "%.63s", name);
+    return FROE_OK;
+}
+
 froe_status formats_materials_read(formats_sink *sink, const char *path, const char *name, formats_materials *materials,
                                    formats_images *images) {
     char library[PATH_ROOM];
@@ -112,7 +131,7 @@ froe_status formats_materials_read(formats_sink *sink, const char *path, const c
     const bool above = *name == '/' || !strcmp(name, "..") || !strncmp(name, "../", 3) || strstr(name, "/../");
     if (above || length <= 0 || length >= PATH_ROOM || stat(library, &about) || !S_ISREG(about.st_mode) ||
         about.st_size > MOST_BYTES)
-        return FROE_OK;
+        return note_unread(sink, name);
     const size_t first = materials->count;
     const formats_source source = {.file = library, .path = library, .size = (uint64_t)about.st_size};
     froe_status status = formats_load(&source, sink, false, &text);
@@ -136,6 +155,7 @@ froe_status formats_materials_read(formats_sink *sink, const char *path, const c
         }
     }
     array_free(&sink->alloc, &text);
+    if (status && status != FROE_E_MEMORY) note_unread(sink, name);
     if (status != FROE_E_MEMORY) status = read_images(sink, path, materials, first, images);
     return status == FROE_E_MEMORY ? status : FROE_OK;
 }

@@ -70,9 +70,12 @@ typedef struct froe_read_report {
     uint64_t textures;     /**< images that materials name */
     uint64_t unread;       /**< of these: not there, not at or below the folder of the file, or unreadable */
     char unread_name[64];  /**< the first of them */
-    bool no_degrees;       /**< the format promises longitudes and latitudes in degrees, and the coordinates cannot be
+    /** OBJ: the first library of materials (MTL) that is not there, not at or below the folder of the file, or
+     * unreadable; "": none, or with `boxes`, where nothing is coloured. */
+    char unread_library[64];
+    bool no_degrees; /**< the format promises longitudes and latitudes in degrees, and the coordinates cannot be
                                 any (beyond 180 or 90): the scene has no coordinate system */
-    double seconds;        /**< from call to return, by the wall clock */
+    double seconds;  /**< from call to return, by the wall clock */
 } froe_read_report;
 
 /** Reads a scene from one of the formats that need no other library. The content of the file decides which reader is

@@ -62,7 +62,10 @@ support_csv_field support_csv_next(char **at, char separator) {
     while (*from == ' ') ++from;
     support_csv_field field = {.text = from, .quoted = *from == '"'};
     to = least = from;
-    if (field.quoted) to = least = unquote(to, from, &from);
+    if (field.quoted) {
+        field.open = !*end_of_quotes(from);
+        to = least = unquote(to, from, &from);
+    }
     const size_t moved = (size_t)(from - to);
     from += strcspn(from, ends);
     to = from - moved;
@@ -74,6 +77,12 @@ support_csv_field support_csv_next(char **at, char separator) {
     if (!field.quoted)
         while (is_blank(*field.text)) field.text++;
     return field;
+}
+
+size_t support_csv_line_ends(const support_csv_field *field) {
+    size_t count = 0;
+    for (const char *at = field->text; field->quoted && (at = strchr(at, '\n')); ++at) ++count;
+    return count;
 }
 
 bool support_csv_goes_on(const char *text, char separator, bool within) {
@@ -97,6 +106,11 @@ bool support_csv_number(char *field, char separator, double *out) {
     const bool whole = end != field && (!*end || !end[strspn(end, " 	")]);
     if (comma) *comma = ',';
     return whole;
+}
+
+void support_csv_point(char *number, char separator) {
+    char *comma = separator == ';' ? strchr(number, ',') : NULL;
+    if (comma) *comma = '.';
 }
 
 /* ------------------------------------------------------------------- names -- */

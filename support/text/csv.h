@@ -15,6 +15,7 @@ enum { SUPPORT_CSV_COLUMNS = 512 }; /**< more are read by no reader */
 typedef struct support_csv_field {
     char *text;  /**< without the blanks around it, or as it stands between its quotation marks */
     bool quoted; /**< it was in quotation marks */
+    bool open;   /**< and the text ends before they are closed */
     bool last;   /**< of its record */
 } support_csv_field;
 
@@ -22,12 +23,17 @@ typedef struct support_csv_field {
 char support_csv_separator(const char *text);
 /** The field that a text begins with; moves *at behind it and what separates it from the next. */
 support_csv_field support_csv_next(char **at, char separator);
+/** How many line ends stand in a field, which only one in quotation marks has. */
+size_t support_csv_line_ends(const support_csv_field *field);
 /** Does the text end within quotation marks, so that its last record goes on in the next line? `within`: it begins
  * there. */
 bool support_csv_goes_on(const char *text, char separator, bool within);
 /** Is the field a number, and nothing else? *out is the nearest double. For threads in the locale C. The field is the
  * same again afterwards. */
 bool support_csv_number(char *field, char separator, double *out);
+
+/** Writes the decimal comma of a number as a point. */
+void support_csv_point(char *number, char separator);
 
 /** Families of names of axes: x,y,z,w or x1,x2,...; lon,lat; easting,northing. z belongs to all of them. */
 enum { SUPPORT_CSV_FAMILIES = 3 };

@@ -165,7 +165,9 @@ static void faces_of_an_obj_have_the_means_of_their_textures(void **state) {
     assert_int_equal(colour_of(scene, 2), 0xff0000ff);
     assert_int_equal(colour_of(scene, 3), 0xff0000ff);
     assert_int_equal(colour_of(scene, 4), 0x00ff0082); /* the green texel, moved; the tint takes no green */
-    for (uint32_t i = 5; i < 9; i++) assert_int_equal(colour_of(scene, i), 0);
+    assert_int_equal(colour_of(scene, 5), 0x336699ff); /* a missing texture leaves the colour of the material */
+    for (uint32_t i = 6; i < 9; i++) assert_int_equal(colour_of(scene, i), 0);
+    assert_string_equal(report.unread_library, "");
     assert_int_equal(froe_scene_object(scene, 2).group, froe_scene_object(scene, 3).group);
     assert_string_equal(froe_scene_group(scene, froe_scene_object(scene, 4).group).material, "tinted");
     froe_scene_free(scene);

@@ -201,9 +201,10 @@ static void materials_bring_their_colours(void **state) {
                "mtllib missing.mtl\nmtllib ../colours.mtl\nmtllib /colours.mtl\nmtllib .\nmtllib colours.mtl\n"
                "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl tiles\nf 1 2 3\nusemtl glass\nf 1 2 3\nusemtl fog\nf 1 2 3\n"
                "usemtl none\nf 1 2 3\nusemtl painted\nf 1 2 3\nusemtl unknown\nf 1 2 3\n");
-    static const uint32_t colours[] = {0xCC1A00FF, 0x80808066, 0xFFFFFF00, 0, 0, 0};
+    static const uint32_t colours[] = {0xCC1A00FF, 0x80808066, 0xFFFFFF00, 0, 0xFFFFFFFF, 0};
     froe_read_report report;
     froe_scene *scene = read_scene("colours.obj", &report);
+    assert_string_equal(report.unread_library, "missing.mtl");
     assert_int_equal(froe_scene_group_count(scene), 6);
     for (uint32_t g = 0; g < 6; g++) assert_int_equal(froe_scene_group(scene, g).colour, colours[g]);
     froe_scene_free(scene);
