@@ -45,14 +45,14 @@ static bool take_object(object_painter *pen, const draw_shape *shape, uint32_t o
         lo = (draw_point){fmin(lo.x, p.x), fmin(lo.y, p.y)};
         hi = (draw_point){fmax(hi.x, p.x), fmax(hi.y, p.y)};
     }
-    hi.x += 2 * shape->radius;
+    hi.x += 2 * fmax(shape->half.x, shape->half.y);
     if (draw_dots_taken(&pen->dots, lo, hi)) return true;
     if (shape->sort == DRAW_DOT) return array_push(&pen->page->alloc, &pen->points, shape->points[0]);
     if (shape->sort == DRAW_STROKE)
         return whole ? array_push(&pen->page->alloc, &pen->ink, directed(shape, object))
                      : array_push(&pen->page->alloc, &pen->parts, directed(shape, object));
     if (shape->sort == DRAW_DISC)
-        draw_circle(cr, shape->points[0], shape->radius);
+        draw_ellipse(cr, shape->points[0], shape->half);
     else
         for (size_t i = 0; i < shape->count; i++) cairo_line_to(cr, shape->points[i].x, shape->points[i].y);
     cairo_close_path(cr);
@@ -171,8 +171,8 @@ static bool paint_accented(object_painter *pen) {
         if (!draw_shape_of_object(&pen->shaper, o->accented[i], &shape)) return false;
         if (shape.sort == DRAW_NOTHING) continue;
         cairo_new_path(cr);
-        if (shape.sort == DRAW_DISC || shape.sort == DRAW_DOT)
-            draw_circle(cr, shape.points[0], shape.sort == DRAW_DISC ? shape.radius : 2.4 * pen->page->unit);
+        if (shape.sort == DRAW_DISC) draw_ellipse(cr, shape.points[0], shape.half);
+        if (shape.sort == DRAW_DOT) draw_circle(cr, shape.points[0], 2.4 * pen->page->unit);
         for (size_t k = 0; shape.sort != DRAW_DISC && shape.sort != DRAW_DOT && k < shape.count; k++)
             cairo_line_to(cr, shape.points[k].x, shape.points[k].y);
         if (shape.sort == DRAW_RING) cairo_close_path(cr);

@@ -43,14 +43,19 @@ void draw_set_color(cairo_t *cr, uint32_t rgb, double alpha) {
     cairo_set_source_rgba(cr, (rgb >> 16 & 255) / 255.0, (rgb >> 8 & 255) / 255.0, (rgb & 255) / 255.0, alpha);
 }
 
-void draw_circle(cairo_t *cr, draw_point c, double r) {
-    const double k = 0.5522847498307936 * r; /* 4/3 (sqrt 2 - 1): four cubics, 0.03 % off a circle */
-    cairo_move_to(cr, c.x + r, c.y);
-    cairo_curve_to(cr, c.x + r, c.y + k, c.x + k, c.y + r, c.x, c.y + r);
-    cairo_curve_to(cr, c.x - k, c.y + r, c.x - r, c.y + k, c.x - r, c.y);
-    cairo_curve_to(cr, c.x - r, c.y - k, c.x - k, c.y - r, c.x, c.y - r);
-    cairo_curve_to(cr, c.x + k, c.y - r, c.x + r, c.y - k, c.x + r, c.y);
+void draw_ellipse(cairo_t *cr, draw_point c, draw_point r) {
+    const double share = 0.5522847498307936; /* 4/3 (sqrt 2 - 1): four cubics, 0.03 % off a circle */
+    const double kx = share * r.x, ky = share * r.y;
+    cairo_move_to(cr, c.x + r.x, c.y);
+    cairo_curve_to(cr, c.x + r.x, c.y + ky, c.x + kx, c.y + r.y, c.x, c.y + r.y);
+    cairo_curve_to(cr, c.x - kx, c.y + r.y, c.x - r.x, c.y + ky, c.x - r.x, c.y);
+    cairo_curve_to(cr, c.x - r.x, c.y - ky, c.x - kx, c.y - r.y, c.x, c.y - r.y);
+    cairo_curve_to(cr, c.x + kx, c.y - r.y, c.x + r.x, c.y - ky, c.x + r.x, c.y);
     cairo_close_path(cr);
+}
+
+void draw_circle(cairo_t *cr, draw_point centre, double radius) {
+    draw_ellipse(cr, centre, (draw_point){radius, radius});
 }
 
 void draw_count(char *out, uint64_t value) {

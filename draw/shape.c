@@ -163,7 +163,8 @@ static bool ball(draw_shaper *s, double raw_radius, draw_shape *out) {
         return finish(s, out);
     }
     if (!add_shape_point(s, draw_view_map(s->view, c))) return false;
-    *out = (draw_shape){.sort = DRAW_DISC, .points = s->points.data, .count = 1, .radius = r * s->view->scale};
+    *out = (draw_shape){.sort = DRAW_DISC, .points = s->points.data, .count = 1};
+    out->half = (draw_point){r * s->view->scale * space->squeeze, r * s->view->scale};
     return true;
 }
 

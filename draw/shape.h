@@ -9,7 +9,7 @@ typedef struct draw_shape {
     draw_sort sort;
     const draw_point *points; /**< on the page, inside the window; until the next shape */
     size_t count;             /**< DOT 1, STROKE 2, RING >= 3, DISC 1: its centre */
-    double radius;            /**< DISC */
+    draw_point half;          /**< DISC: its half axes on the page; they differ on maps in degrees */
     bool cut[2];              /**< STROKE: is this end (which is not the object's own) in the window? */
 } draw_shape;
 

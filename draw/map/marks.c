@@ -81,8 +81,10 @@ static void mark_solid(const mark_painter *pen, const froe_draw_mark *mark) {
     const draw_point q = draw_view_map(view, (draw_point){centre[view->across] + share * half[view->across],
                                                           centre[view->up] + share * half[view->up]});
     cairo_new_path(pen->cr);
+    const double radius = 0.5 * (q.x - p.x); /* along x */
     if (mark->kind == FROE_DRAW_MARK_BALL)
-        draw_circle(pen->cr, (draw_point){0.5 * (p.x + q.x), 0.5 * (p.y + q.y)}, 0.5 * (q.x - p.x));
+        draw_ellipse(pen->cr, (draw_point){0.5 * (p.x + q.x), 0.5 * (p.y + q.y)},
+                     (draw_point){radius, radius / view->space.squeeze});
     else
         cairo_rectangle(pen->cr, p.x, q.y, q.x - p.x, p.y - q.y);
     draw_set_color(pen->cr, DRAW_ACCENT, 0.12);

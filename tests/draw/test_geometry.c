@@ -174,7 +174,7 @@ static void sections_of_solids_have_the_right_shape(void **state) {
             /* The box spans 4 of 4.4 drawing units ... across 200 of 220 on the page. */
             if (shape.sort == DRAW_RING && object == 0) assert_true(fabs(area_of(shape.points, 4) - 200 * 100) < 1e-6);
             if (shape.sort == DRAW_DISC)
-                assert_true(fabs(shape.radius - 50 * sqrt(1 - (cases[i].z - 1) * (cases[i].z - 1))) < 1e-9);
+                assert_true(fabs(shape.half.y - 50 * sqrt(1 - (cases[i].z - 1) * (cases[i].z - 1))) < 1e-9);
         }
         draw_shaper_free(&shaper);
     }

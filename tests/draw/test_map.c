@@ -133,6 +133,32 @@ static void marks_and_accented_objects_are_seen(void **state) {
     froe_tree_free(tree);
 }
 
+/* At 60 degrees half as wide as high: as an object, as one in the accent colour, as a mark. */
+static void balls_on_maps_in_degrees_are_ellipses(void **state) {
+    (void)state;
+    froe_scene *scene = scene_of(2);
+    const froe_crs crs = {.kind = FROE_CRS_GEOGRAPHIC, .name = "WGS 84", .wkt = "", .code = "", .unit = "degree"};
+    assert_int_equal(froe_scene_set_crs(scene, &crs), FROE_OK);
+    add(scene, FROE_BALL, 1, (const double[]){5, 60}, (const double[]){3}, NULL);
+    froe_tree *tree = tree_of(scene, "density", 1);
+    const froe_draw_mark ball = {.lo = {2, 57}, .hi = {8, 63}, .kind = FROE_DRAW_MARK_BALL};
+    const uint32_t object = 0;
+    for (int way = 0; way < 3; way++) {
+        froe_draw_options o = bare(200, 0, 55, 10, 65);
+        o.marks = &ball, o.mark_count = way == 2;
+        o.accented = &object, o.accented_count = way == 1;
+        image_bytes png = picture_of(tree, FROE_DRAW_PNG, &o);
+        cairo_surface_t *image = image_of(png);
+        for (int side = -1; side <= 1; side += 2) {
+            assert_true(lightness(pixel(image, 100 + 60 * side, 200)) < 640);
+            assert_true(lightness(pixel(image, 100, 200 + 120 * side)) < 640);
+        }
+        cairo_surface_destroy(image);
+        free(png.bytes);
+    }
+    froe_tree_free(tree);
+}
+
 static void the_small_map_shows_where_a_window_is(void **state) {
     (void)state;
     froe_tree *tree = tree_of(features(), "density", 1);
@@ -173,6 +199,7 @@ int main(void) {
         cmocka_unit_test(no_line_is_drawn_that_is_no_object),
         cmocka_unit_test(degrees_of_longitude_are_shorter_away_from_the_equator),
         cmocka_unit_test(marks_and_accented_objects_are_seen),
+        cmocka_unit_test(balls_on_maps_in_degrees_are_ellipses),
         cmocka_unit_test(the_small_map_shows_where_a_window_is),
         cmocka_unit_test(every_allocation_may_fail),
     };
