@@ -71,13 +71,6 @@ static bool all_finite(const double *x, int count) {
     return true;
 }
 
-/* Cairo would refuse what is not, too, but only after looking for fonts. */
-static bool is_utf8(const char *text) {
-    size_t length = 1;
-    for (; text && *text && length; text += length) length = support_utf8_length(text);
-    return length;
-}
-
 static froe_status check_options(const froe_draw_options *o, int dim, froe_diagnostic *diag) {
     if (o->size != sizeof *o) return support_fail_defaults(diag, "froe_draw_defaults");
     if (dim > 3) return support_fail(diag, FROE_E_UNSUPPORTED, "Pictures exist in 2 and 3 dimensions, not in %d.", dim);
@@ -93,12 +86,13 @@ static froe_status check_options(const froe_draw_options *o, int dim, froe_diagn
         if (!o->marks || !all_finite(o->marks[i].lo, 3) || !all_finite(o->marks[i].hi, 3))
             return support_fail(diag, FROE_E_OPTIONS, "Mark %zu of a picture is not finite.", i);
     for (size_t i = 0; i < o->mark_count; i++)
-        if (o->marks[i].kind < 0 || o->marks[i].kind >= FROE_DRAW_MARK_KIND_COUNT || !is_utf8(o->marks[i].label))
+        if (o->marks[i].kind < 0 || o->marks[i].kind >= FROE_DRAW_MARK_KIND_COUNT ||
+            !support_is_utf8(o->marks[i].label))
             return support_fail(diag, FROE_E_OPTIONS,
                                 "Mark %zu of a picture has an unknown kind, or a label that is not UTF-8.", i);
     if (o->accented_count && !o->accented)
         return support_fail(diag, FROE_E_OPTIONS, "The objects to be accented are missing.");
-    if (!is_utf8(o->title)) return support_fail(diag, FROE_E_OPTIONS, "The title of the picture is not UTF-8.");
+    if (!support_is_utf8(o->title)) return support_fail(diag, FROE_E_OPTIONS, "The title of the picture is not UTF-8.");
     const draw_range ranges[] = {{"width", o->width, 16, 32000},
                                  {"height", o->height, o->height == 0 ? 0 : 16, 32000},
                                  {"margin", o->margin, -HUGE_VAL, o->width / 2},
@@ -144,6 +138,22 @@ static froe_status paint_page(draw_picture *picture, froe_draw_format format, dr
     return status == FROE_OK ? draw_output_finish(output, diag) : status;
 }
 
+/* How many marks have nothing in the box that the picture shows; of a ball the box around it counts. */
+static size_t count_outside(const draw_picture *picture, const froe_draw_options *o) {
+    const draw_space *space = &picture->space;
+    size_t count = 0;
+    for (size_t i = 0; i < o->mark_count; i++) {
+        bool outside = false;
+        for (int k = 0; k < space->dim; k++) {
+            const double a = draw_space_map(space, k, o->marks[i].lo[space->from[k]]);
+            const double b = draw_space_map(space, k, o->marks[i].hi[space->from[k]]);
+            outside = outside || fmin(a, b) > picture->wide[k] || fmax(a, b) < -picture->wide[k];
+        }
+        count += outside;
+    }
+    return count;
+}
+
 /* The picture's bytes, in `output`, which the caller frees. */
 static froe_status make(const froe_tree *tree, froe_draw_format format, const froe_draw_options *given,
                         draw_output *output, froe_diagnostic *diag) {
@@ -179,6 +189,7 @@ static froe_status make(const froe_tree *tree, froe_draw_format format, const fr
     picture.page.faint = inked ? 0.5 : 0;
     for (int k = 0; k < 3; k++)
         picture.wide[k] = picture.whole ? fmax(picture.space.reach[k] + 0.025, 0.125) : picture.space.reach[k];
+    if (o.marks_outside) *o.marks_outside = count_outside(&picture, &o);
     status = paint_page(&picture, format, output, diag);
     draw_picture_free(&picture);
     if (status == FROE_OK && o.progress && !support_callback(o.progress(o.user, 1)))

@@ -15,3 +15,9 @@ size_t support_utf8_length(const char *text) {
                        (c[0] == 0xF0 && c[1] < 0x90) || (c[0] == 0xF4 && c[1] > 0x8F);
     return wrong ? 0 : n;
 }
+
+bool support_is_utf8(const char *text) {
+    size_t length = 1;
+    for (; text && *text && length; text += length) length = support_utf8_length(text);
+    return length;
+}

@@ -1,9 +1,12 @@
 /* utf8.h: the bytes of a character. */
 #ifndef FROE_SUPPORT_UTF8_H
 #define FROE_SUPPORT_UTF8_H
+#include <stdbool.h>
 #include <stddef.h>
 
 /** Bytes of the UTF-8 character that a text begins with, in its shortest form and no surrogate (RFC 3629); 0: it is
  * none. The zero byte at the end counts as one. */
 size_t support_utf8_length(const char *text);
+/** Is all of a text UTF-8? So is NULL. */
+bool support_is_utf8(const char *text);
 #endif

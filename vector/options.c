@@ -78,20 +78,14 @@ froe_status vector_check(const froe_scene *scene, const froe_render_options *o, 
     return FROE_OK;
 }
 
-static bool is_utf8(const char *text) {
-    size_t length = 1;
-    for (; text && *text && length; text += length) length = support_utf8_length(text);
-    return length;
-}
-
 froe_status vector_check_format(const froe_scene *scene, const froe_render_options *o, froe_render_format format,
                                 froe_diagnostic *diag) {
     froe_status status = vector_check(scene, o, diag);
     const render_range page[] = {{"width", o->camera.width, 1, 32000}, {"height", o->camera.height, 1, 32000}};
     if (!status) status = check_in_range(page, 2, diag);
     if (status) return status;
-    if (!is_utf8(o->title)) return support_fail(diag, FROE_E_OPTIONS, "The title of the picture is not UTF-8.");
-    if (!is_utf8(o->description))
+    if (!support_is_utf8(o->title)) return support_fail(diag, FROE_E_OPTIONS, "The title of the picture is not UTF-8.");
+    if (!support_is_utf8(o->description))
         return support_fail(diag, FROE_E_OPTIONS, "The description of the picture is not UTF-8.");
     for (uint32_t g = 0; format == FROE_RENDER_EPS && g < froe_scene_group_count(scene); g++)
         if (vector_opacity(scene, o, g) < 1)

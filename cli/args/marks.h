@@ -11,9 +11,10 @@ typedef struct cli_marks {
 } cli_marks;
 
 /** Reads the file: points become dots, segments lines, boxes and balls outlines; names of their features become labels.
- * A CSV of points with columns ox,oy[,oz], as froe ray writes it, gives lines from there to the points. `dim`: of the
- * picture's scene. `path` NULL: no marks. Returns 0, or an exit code after saying why; cli_marks_free() must follow in
- * any case. */
+ * A CSV of points with columns ox,oy[,oz], as froe ray writes it, gives lines from there to the points. One of
+ * ax,ay[,az],bx,by[,bz], as segments are asked for, gives segments; with r, for capsules, the balls around their ends
+ * beside them. Equal marks are kept once. `dim`: of the picture's scene. `path` NULL: no marks. Returns 0, or an exit
+ * code after saying why; cli_marks_free() must follow in any case. */
 int cli_marks_read(const cli_common *common, const char *path, int dim, cli_marks *out);
 void cli_marks_free(cli_marks *marks);
 #endif

@@ -140,6 +140,13 @@ static int set_options(const draw_args *args, const cli_draw *library, size_t di
     return 0;
 }
 
+/* Towns in degrees on a map in metres are all outside. */
+static void note_outside(const draw_args *args, size_t outside, size_t count) {
+    if (!outside || args->common.quiet) return;
+    (void)cli_fail(0, args->marks, "note: Of %zu mark%s, %zu %s outside of the picture.", count, count == 1 ? "" : "s",
+                   outside, outside == 1 ? "is" : "are");
+}
+
 static int run_draw(const void *given) {
     const draw_args *args = given;
     froe_draw_format format;
@@ -155,7 +162,8 @@ static int run_draw(const void *given) {
     cli_marks marks;
     const int dim = froe_scene_dim(froe_tree_scene(tree));
     code = cli_marks_read(&args->common, args->marks, dim, &marks);
-    o.marks = marks.marks, o.mark_count = marks.count;
+    size_t outside = 0;
+    o.marks = marks.marks, o.mark_count = marks.count, o.marks_outside = &outside;
     if (!code) code = set_options(args, &library, (size_t)dim, &o);
     if (!code) {
         cli_progress bar = cli_progress_begin(&args->common, "drawing");
@@ -165,6 +173,7 @@ static int run_draw(const void *given) {
         const froe_status status = library.draw(tree, args->output.path, &o, &diag);
         cli_progress_end(&bar);
         if (status) code = cli_output_fail(&args->output, status, &diag);
+        if (!status) note_outside(args, outside, marks.count);
     }
     if (!code)
         code = cli_report(&args->common, NULL,

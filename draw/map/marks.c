@@ -3,6 +3,7 @@
 #include "map/map.h"
 #include "palette.h"
 #include <math.h>
+#include <string.h>
 
 typedef struct label_box {
     double left, top, right, bottom;
@@ -23,6 +24,10 @@ static bool is_free(const mark_painter *pen, const label_box *b) {
         const label_box *t = pen->taken.data + i;
         if (b->left < t->right && t->left < b->right && b->top < t->bottom && t->top < b->bottom) return false;
     }
+    return true;
+}
+
+static bool is_on_page(const mark_painter *pen, const label_box *b) {
     return b->left > 0 && b->right < pen->page->width && b->top > 0 && b->bottom < pen->page->height;
 }
 
@@ -37,18 +42,24 @@ static label_box place_label(double text, double length, draw_point p, int place
     return (label_box){left, base - 0.8 * text, left + length, base + 0.25 * text};
 }
 
-/* In the first place that is free, or else right of the point. */
+/* In the first place that is free, or else the first on the page, or else right of the point. */
 static bool mark_label(mark_painter *pen, const char *label, draw_point p) {
     const double text = pen->page->text, length = draw_text_length(pen->cr, label, text);
     label_box box = place_label(text, length, p, 0);
-    for (int i = 0; i < PLACES; i++) {
+    bool whole = false, found = false;
+    for (int i = 0; i < PLACES && !found; i++) {
         const label_box here = place_label(text, length, p, i);
-        if (!is_free(pen, &here)) continue;
-        box = here;
-        break;
+        if (!is_on_page(pen, &here)) continue;
+        found = is_free(pen, &here);
+        if (found || !whole) box = here;
+        whole = true;
     }
     draw_text_backed(pen->cr, label, box.left, box.bottom - 0.25 * text, text, DRAW_PAPER, DRAW_INK);
     return array_push(&pen->page->alloc, &pen->taken, box);
+}
+
+static bool is_labelled(const froe_draw_mark *mark) {
+    return mark->label && *mark->label;
 }
 
 static void mark_dot(const mark_painter *pen, draw_point p, double radius) {
@@ -120,7 +131,37 @@ static bool mark_line(mark_painter *pen, const froe_draw_mark *mark) {
     const double radius = (line ? 3.2 : 4.8) * pen->page->unit;
     mark_dot(pen, p, line ? 3.2 : 4.8);
     const label_box box = {p.x - radius, p.y - radius, p.x + radius, p.y + radius};
-    return !mark->label || !*mark->label || array_push(&pen->page->alloc, &pen->taken, box);
+    return !is_labelled(mark) || array_push(&pen->page->alloc, &pen->taken, box);
+}
+
+/* Does the mark belong to a line whose label another mark has, which `last` is? Borders are many marks. */
+static bool continues_label(const froe_draw_mark *last, const froe_draw_mark *mark) {
+    return last && last->kind == FROE_DRAW_MARK_LINE && mark->kind == FROE_DRAW_MARK_LINE &&
+           memcmp(mark->lo, mark->hi, sizeof mark->lo) != 0 && strcmp(last->label, mark->label) == 0;
+}
+
+/* Over all marks. */
+static bool mark_labels(mark_painter *pen) {
+    const draw_view *view = pen->view;
+    const froe_draw_options *o = pen->page->options;
+    const froe_draw_mark *last = NULL;
+    bool ok = true;
+    for (size_t i = 0; i < o->mark_count && ok; i++) {
+        const froe_draw_mark *m = o->marks + i;
+        if (!is_labelled(m) || continues_label(last, m)) continue;
+        double end[3];
+        draw_space_point(&view->space, m->hi, end);
+        const draw_point p = {end[view->across], end[view->up]};
+        if (p.x < view->lo.x || p.x > view->hi.x || p.y < view->lo.y || p.y > view->hi.y) continue;
+        ok = mark_label(pen, m->label, draw_view_map(view, p));
+        last = m;
+    }
+    return ok;
+}
+
+/* Answers repeat the box or the ball that was asked for, with a name each. */
+static bool is_same_place(const froe_draw_mark *m, const froe_draw_mark *n) {
+    return m->kind == n->kind && memcmp(m->lo, n->lo, sizeof m->lo) == 0 && memcmp(m->hi, n->hi, sizeof m->hi) == 0;
 }
 
 froe_status draw_map_marks(const draw_page *page, cairo_t *cr, const draw_view *view) {
@@ -134,18 +175,11 @@ froe_status draw_map_marks(const draw_page *page, cairo_t *cr, const draw_view *
     for (size_t i = 0; i < o->mark_count && ok; i++) {
         if (o->marks[i].kind == FROE_DRAW_MARK_LINE)
             ok = mark_line(&pen, o->marks + i);
-        else
+        else if (!i || !is_same_place(o->marks + i - 1, o->marks + i))
             mark_solid(&pen, o->marks + i);
     }
     cairo_restore(cr);
-    for (size_t i = 0; i < o->mark_count && ok && view->axis < 0; i++) { /* over all marks */
-        const froe_draw_mark *m = o->marks + i;
-        double end[3];
-        draw_space_point(&view->space, m->hi, end);
-        const draw_point p = {end[view->across], end[view->up]};
-        if (m->label && *m->label && p.x >= view->lo.x && p.x <= view->hi.x && p.y >= view->lo.y && p.y <= view->hi.y)
-            ok = mark_label(&pen, m->label, draw_view_map(view, p));
-    }
+    if (ok && view->axis < 0) ok = mark_labels(&pen);
     array_free(&page->alloc, &pen.taken);
     return ok ? FROE_OK : FROE_E_MEMORY;
 }

@@ -80,7 +80,8 @@ typedef enum froe_draw_mark_kind {
 typedef struct froe_draw_mark {
     double lo[3], hi[3];
     froe_draw_mark_kind kind;
-    const char *label; /**< UTF-8, one line, beside hi; NULL or "": none. In the plane only */
+    const char *label; /**< UTF-8, one line, beside hi; NULL or "": none. In the plane only. Of lines of one label, one
+                          after the other, the first whose end is in the picture has it */
 } froe_draw_mark;
 
 typedef struct froe_draw_options {
@@ -115,6 +116,8 @@ typedef struct froe_draw_options {
                                       shallower leaves), 0 .. 32; default 4 */
     const froe_draw_mark *marks; /**< FLAT, SECTIONS: on top, where the section meets them; NULL: none */
     size_t mark_count;
+    size_t *marks_outside;    /**< gets how many of the marks are wholly outside of the window, or of the whole picture
+                              where there is none; NULL (default): not counted */
     const uint32_t *accented; /**< FLAT, SECTIONS: objects that are drawn on top in the accent colour; NULL: none */
     size_t accented_count;
     bool locator; /**< FLAT, SECTIONS, with a window: the whole scene, small, in a corner, and where the window is;

@@ -159,6 +159,64 @@ static void balls_on_maps_in_degrees_are_ellipses(void **state) {
     froe_tree_free(tree);
 }
 
+/* Pixels of labels, which are of ink, in a part of a picture of marks over nothing. */
+static int label_pixels(const froe_draw_mark *marks, size_t count, int left, int right) {
+    froe_tree *tree = tree_of(features(), "density", 1);
+    froe_draw_options o = bare(800, 20, 20, 40, 40); /* nothing is in the window */
+    o.marks = marks, o.mark_count = count;
+    image_bytes png = picture_of(tree, FROE_DRAW_PNG, &o);
+    cairo_surface_t *image = image_of(png);
+    int ink = 0;
+    for (int x = left; x < right; x++)
+        for (int y = 0; y < 800; y++) ink += lightness(pixel(image, x, y)) < 250;
+    cairo_surface_destroy(image);
+    free(png.bytes);
+    froe_tree_free(tree);
+    return ink;
+}
+
+static void a_border_of_many_marks_has_one_label(void **state) {
+    (void)state;
+    const froe_draw_mark ring[] = {
+        {.lo = {25, 25}, .hi = {30, 25}, .kind = FROE_DRAW_MARK_LINE, .label = "Here"},
+        {.lo = {30, 25}, .hi = {30, 35}, .kind = FROE_DRAW_MARK_LINE, .label = "Here"},
+        {.lo = {30, 35}, .hi = {25, 25}, .kind = FROE_DRAW_MARK_LINE, .label = "Here"},
+        {.lo = {22, 38}, .hi = {22, 38}, .kind = FROE_DRAW_MARK_LINE, .label = "Here"},
+        {.lo = {36, 38}, .hi = {36, 38}, .kind = FROE_DRAW_MARK_LINE, .label = "Here"},
+    };
+    const int one = label_pixels(ring, 1, 0, 800);
+    assert_true(one > 20);
+    assert_int_equal(label_pixels(ring, 3, 0, 800), one);
+    assert_true(label_pixels(ring + 3, 2, 0, 800) > one * 3 / 2); /* places have one each */
+}
+
+/* Where every place is taken, too, a label ends before the edge of the page. */
+static void labels_at_the_right_edge_are_whole(void **state) {
+    (void)state;
+    froe_draw_mark marks[9];
+    for (int i = 0; i < 9; i++)
+        marks[i] = (froe_draw_mark){
+            .lo = {39.5, 30}, .hi = {39.5, 30}, .kind = FROE_DRAW_MARK_LINE, .label = "A long name of a town"};
+    const int one = label_pixels(marks, 1, 0, 800);
+    assert_true(one > 100);
+    assert_int_equal(label_pixels(marks, 9, 790, 800), 0);
+}
+
+static void marks_outside_of_the_window_are_counted(void **state) {
+    (void)state;
+    froe_tree *tree = tree_of(features(), "density", 1);
+    froe_draw_options o = bare(100, 0, 0, 10, 10);
+    size_t outside = 99;
+    const froe_draw_mark marks[] = {{.lo = {5, 5}, .hi = {5, 5}, .kind = FROE_DRAW_MARK_LINE},
+                                    {.lo = {-5, 5}, .hi = {15, 6}, .kind = FROE_DRAW_MARK_BOX},
+                                    {.lo = {10.5, 5}, .hi = {12, 6}, .kind = FROE_DRAW_MARK_BOX},
+                                    {.lo = {5, -9}, .hi = {6, -8}, .kind = FROE_DRAW_MARK_BALL}};
+    o.marks = marks, o.mark_count = 4, o.marks_outside = &outside;
+    free(picture_of(tree, FROE_DRAW_SVG, &o).bytes);
+    assert_int_equal(outside, 2);
+    froe_tree_free(tree);
+}
+
 static void the_small_map_shows_where_a_window_is(void **state) {
     (void)state;
     froe_tree *tree = tree_of(features(), "density", 1);
@@ -200,6 +258,9 @@ int main(void) {
         cmocka_unit_test(degrees_of_longitude_are_shorter_away_from_the_equator),
         cmocka_unit_test(marks_and_accented_objects_are_seen),
         cmocka_unit_test(balls_on_maps_in_degrees_are_ellipses),
+        cmocka_unit_test(a_border_of_many_marks_has_one_label),
+        cmocka_unit_test(labels_at_the_right_edge_are_whole),
+        cmocka_unit_test(marks_outside_of_the_window_are_counted),
         cmocka_unit_test(the_small_map_shows_where_a_window_is),
         cmocka_unit_test(every_allocation_may_fail),
     };
