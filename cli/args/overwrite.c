@@ -12,11 +12,11 @@
 /* ---------------------------------------------------------------- the names -- */
 
 /* Visits the names of files that options of one use were given. */
-typedef struct walk {
+typedef struct name_walk {
     const cli_part *part;
     const cli_option *option;
     size_t next; /* of the names of the option */
-} walk;
+} name_walk;
 
 static size_t names_of(const cli_option *option, const void *field, const char *const **names) {
     if (option->type == CLI_TEXTS) {
@@ -28,7 +28,7 @@ static size_t names_of(const cli_option *option, const void *field, const char *
 }
 
 /* The next name, or NULL. */
-static const char *next_name(walk *w, cli_file file, void *args) {
+static const char *next_name(name_walk *w, cli_file file, void *args) {
     for (; w->part->title; w->part++, w->option = w->part->options)
         for (; w->option->type; w->option++, w->next = 0) {
             const char *const *names;
@@ -109,17 +109,21 @@ static int check_input(const char *output, const char *input) {
     return 0;
 }
 
+static int refuse_dash(const cli_option *option) {
+    static const char reason[] = "It writes a file and not to standard output.";
+    if (!option->sentence) return cli_fail(CLI_USE, NULL, "--%s: %s", option->name, reason);
+    return cli_fail(CLI_USE, NULL, "--%s: %s %s", option->name, reason, option->sentence);
+}
+
 int cli_check_overwrite(const cli_part *parts, void *args) {
-    const walk first = {parts, parts->options, 0};
-    walk outputs = first;
+    const name_walk first = {parts, parts->options, 0};
+    name_walk outputs = first;
     const char *output, *other;
     while ((output = next_name(&outputs, CLI_WRITTEN, args)) != NULL) {
         const cli_option *option = outputs.option;
         if (is_dash(output) && option->type == CLI_OUTPUT) continue;
-        if (is_dash(output))
-            return cli_fail(CLI_USE, NULL, "--%s: It writes a file and not to standard output.%s%s", option->name,
-                            option->sentence ? " " : "", option->sentence ? option->sentence : "");
-        walk inputs = first, before = first;
+        if (is_dash(output)) return refuse_dash(option);
+        name_walk inputs = first, before = first;
         while ((other = next_name(&inputs, CLI_READ, args)) != NULL) {
             const int code = check_input(output, other);
             if (code) return code;
