@@ -34,8 +34,14 @@ int cli_make_folder(char folder[CLI_FOLDER]) {
     return code;
 }
 
-bool cli_is_ending(const char *text) {
-    enum { LONGEST = 15 };
-    const size_t length = strlen(text);
-    return length && length <= LONGEST && strspn(text, "abcdefghijklmnopqrstuvwxyz0123456789") == length;
+bool cli_set_ending(const char *text, char ending[CLI_ENDING]) {
+    static const char capitals[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZ", known[] = "abcdefghijklmnopqrstuvwxyz0123456789";
+    text += *text == '.';
+    size_t length = 0;
+    for (; text[length] && length < CLI_ENDING - 1; length++) {
+        const char *capital = strchr(capitals, text[length]);
+        ending[length] = capital ? known[capital - capitals] : text[length];
+    }
+    ending[length] = '\0';
+    return length && !text[length] && strspn(ending, known) == length;
 }

@@ -14,6 +14,8 @@ enum { CLI_FOLDER = 4000 };
 /** Makes a folder for temporary files, named in `folder`; "" when it fails. Returns 0, or an exit code after saying
  * why. */
 int cli_make_folder(char folder[CLI_FOLDER]);
-/** Can it be the ending of a name, without the dot? */
-bool cli_is_ending(const char *text);
+enum { CLI_ENDING = 16 };
+/** Sets the ending that a text names, with or without a dot before it, in lower case and without the dot. False: the
+ * text can be no ending. */
+bool cli_set_ending(const char *text, char ending[CLI_ENDING]);
 #endif

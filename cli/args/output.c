@@ -66,10 +66,10 @@ int cli_output_open(const cli_part *parts, void *args) {
                         "pipes.");
     if (dash) out->name = "standard output";
     const char *ending = out->format ? out->format : option->ending;
-    if (!ending || !cli_is_ending(ending))
+    if (!ending || !cli_set_ending(ending, out->ending))
         return cli_fail(CLI_USE, out->name,
                         "The format must be named, as in --output-format svg: the usual extension of its files.");
-    out->format = ending;
+    out->format = ending = out->ending;
     out->target = descriptor >= 0 ? dup(descriptor) : open(out->name, O_WRONLY | O_NOCTTY | O_CLOEXEC);
     if (out->target < 0) return cli_fail_file(CLI_RESOURCES, out->name, "written");
     int code = is_binary(ending) && isatty(out->target)
@@ -84,6 +84,14 @@ int cli_output_open(const cli_part *parts, void *args) {
     return code;
 }
 
+/* NAME': ... of the library, where options are members of a struct, as --NAME: ... */
+static int fail_option(const char *text) {
+    char name[32] = "";
+    const size_t length = strcspn(text, "'");
+    for (size_t i = 0; i < length && i < sizeof name - 1; i++) name[i] = text[i] == '_' ? '-' : text[i];
+    return cli_fail(CLI_USE, NULL, "--%s%s", name, text + length + (text[length] == '\''));
+}
+
 int cli_output_fail(const cli_output *output, froe_status status, const froe_diagnostic *diag) {
     froe_diagnostic told = *diag;
     const char *path = support_short(output->path);
@@ -91,6 +99,7 @@ int cli_output_fail(const cli_output *output, froe_status status, const froe_dia
     const bool copy = output->path != output->name && status != FROE_E_IO && !strncmp(diag->message, path, length) &&
                       !strncmp(diag->message + length, ": ", 2);
     const char *sentence = diag->message + (copy ? length + 2 : 0);
+    if (status == FROE_E_OPTIONS && !strncmp(sentence, "option '", 8)) return fail_option(sentence + 8);
     if (status == FROE_E_ARG || status == FROE_E_OPTIONS)
         return cli_fail(CLI_USE, copy ? output->name : NULL, "%s", sentence);
     memmove(told.message, sentence, strlen(sentence) + 1);

@@ -16,6 +16,7 @@ typedef struct cli_output {
     const char *name; /**< NULL: not given */
     const char *path;
     const char *format;      /**< of standard output, a pipe or a device; NULL: not given */
+    char ending[CLI_ENDING]; /**< what `format` names */
     int target;              /**< a descriptor, to which the copy goes; only behind cli_output_open() */
     char folder[CLI_FOLDER]; /**< made for the copy; "": the file itself is written */
     char copy[4096];

@@ -29,6 +29,7 @@ static int copy_input(FILE *in, const char *name, const char *copy) {
 int cli_spool_open(const char *path, const char *format, cli_spool *out) {
     struct stat about;
     const bool standard = !strcmp(path, "-");
+    char ending[CLI_ENDING];
     *out = (cli_spool){.name = standard ? "standard input" : path, .path = path};
     /* /dev/stdin and /dev/fd/3 may be regular files, but their names say nothing of the format. */
     const bool once = standard || !strncmp(path, "/dev/", 5) ||
@@ -37,12 +38,12 @@ int cli_spool_open(const char *path, const char *format, cli_spool *out) {
         return cli_fail(CLI_USE, path,
                         "The format is known by the file itself. --input-format is for standard input and pipes.");
     if (!once) return 0;
-    if (!format || !cli_is_ending(format))
+    if (!format || !cli_set_ending(format, ending))
         return cli_fail(CLI_USE, out->name,
                         "The format must be named, as in --input-format geojson: the usual extension of its files.");
     int code = cli_make_folder(out->folder);
     if (code) return code;
-    snprintf(out->copy, sizeof out->copy, "%s/input.%s", out->folder, format);
+    snprintf(out->copy, sizeof out->copy, "%s/input.%s", out->folder, ending);
     FILE *in = standard ? stdin : fopen(path, "rb");
     code = in ? copy_input(in, out->name, out->copy) : cli_fail_file(CLI_INPUT, path, "read");
     if (in && in != stdin) fclose(in);
