@@ -97,13 +97,14 @@ static int set_show(const cli_draw *library, const char *list, uint32_t *show) {
     return 0;
 }
 
-static int set_section(const char *text, froe_draw_options *o) {
+static int set_section(const char *text, size_t dim, froe_draw_options *o) {
     if (!text) return 0;
     const char *axis = strchr("xyz", text[0]);
     char *end = NULL;
     const double at = text[0] && text[1] == '=' ? strtod(text + 2, &end) : 0;
     if (!text[0] || !axis || !end || end == text + 2 || *end || !isfinite(at))
         return cli_fail(CLI_USE, NULL, "--section: '%s' is not like x=1.5.", text);
+    if (dim == 2) return cli_fail(CLI_USE, NULL, "--section: A scene in the plane has none.");
     o->axis = (int)(axis - "xyz");
     o->at = at;
     return 0;
@@ -125,7 +126,7 @@ static int set_options(const draw_args *args, const cli_draw *library, size_t di
     if (args->explode_depth != UINT64_MAX) o->explode_depth = (uint32_t)args->explode_depth;
     int code = set_show(library, args->show, &o->show);
     if (!code) code = cli_set_background(args->background, &o->background);
-    if (!code) code = set_section(args->section, o);
+    if (!code) code = set_section(args->section, dim, o);
     if (!code) code = cli_check_text("title", args->title);
     if (code) return code;
     if (window->count && window->count != 2 * dim) return cli_fail_count("window", window->count, 2 * dim);

@@ -99,7 +99,9 @@ static int set_style(const char *text, froe_render_options *o) {
     if (strncmp(text, "cel:", 4) == 0) {
         o->shading = FROE_SHADE_CEL;
         o->cel_levels = (unsigned)strtoul(text + 4, &end, 10);
-        return end != text + 4 && !*end ? 0 : cli_fail(CLI_USE, NULL, "--style: '%s' is not like cel:4.", text);
+        if (end == text + 4 || *end) return cli_fail(CLI_USE, NULL, "--style: '%s' is not like cel:4.", text);
+        if (o->cel_levels >= 2 && o->cel_levels <= 64) return 0;
+        return cli_fail(CLI_USE, NULL, "--style: '%s' names no number of steps from 2 to 64.", text);
     }
     for (int s = 0; s < FROE_SHADING_COUNT; s++)
         if (strcmp(text, froe_shading_name((froe_shading)s)) == 0) {
@@ -179,6 +181,23 @@ static bool is_data(const char *path) {
     return !strcmp(extension.text, "csv") || !strcmp(extension.text, "geojson");
 }
 
+/* The styles from `first` on, where hidden lines are not drawn. */
+static int check_visible(const render_styles *styles, size_t first) {
+    for (size_t i = first; i < styles->count; i++)
+        if (!styles->at[i].visible)
+            return cli_fail(CLI_USE, NULL, "--line-style: Hidden lines are not drawn. They need --hidden dashed.");
+    return 0;
+}
+
+static int check_layers(const render_args *args) {
+    static const char *const flat[] = {"pdf", "png", "eps"};
+    const support_extension extension = support_path_extension(args->output.path);
+    for (size_t i = 0; args->layers && i < sizeof flat / sizeof *flat; i++)
+        if (!strcmp(extension.text, flat[i]))
+            return cli_fail(CLI_USE, NULL, "--layers: An .svg file has layers, and a .%s file has none.", flat[i]);
+    return 0;
+}
+
 int render_set_options(const render_args *args, const froe_scene *scene, froe_render_options *o,
                        render_styles *styles) {
     if (args->preset == TECHNICAL) {
@@ -222,7 +241,10 @@ int render_set_options(const render_args *args, const froe_scene *scene, froe_re
     cli_set_number(args->min_area, &o->min_area);
     o->title = args->title, o->description = args->description;
     if (o->line_width > 0) set_preset_styles(args->preset, o->line_width, styles);
+    const size_t preset = styles->count;
     if (!code) code = render_add_styles(args->line_style, styles);
+    if (!code && !o->hidden) code = check_visible(styles, preset);
+    if (!code) code = check_layers(args);
     o->line_styles = styles->at, o->line_style_count = styles->count;
     return code ? code : check_pixels(args->output.path, o);
 }

@@ -36,7 +36,7 @@ froe_status froe_export(const froe_tree *tree, const char *path, froe_export_wha
         char trees[40];
         snprintf(trees, sizeof trees, "trees of dimension %d", dim);
         return support_fail_ending(diag, FROE_E_UNSUPPORTED, path, trees,
-                                   dim == 2   ? ".geojson or .csv"
+                                   dim == 2   ? ".geojson, .csv or, with GDAL, .gpkg, .fgb or .shp"
                                    : dim == 3 ? ".obj or .csv"
                                               : ".csv");
     }
