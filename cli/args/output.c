@@ -89,7 +89,8 @@ static int fail_option(const char *text) {
     char name[32] = "";
     const size_t length = strcspn(text, "'");
     for (size_t i = 0; i < length && i < sizeof name - 1; i++) name[i] = text[i] == '_' ? '-' : text[i];
-    return cli_fail(CLI_USE, NULL, "--%s%s", name, text + length + (text[length] == '\''));
+    const char *sentence = text + length + (strncmp(text + length, "': ", 3) ? 0 : 3);
+    return cli_fail(CLI_USE, NULL, "--%s: %s", name, sentence);
 }
 
 int cli_output_fail(const cli_output *output, froe_status status, const froe_diagnostic *diag) {

@@ -110,9 +110,9 @@ static int check_input(const char *output, const char *input) {
 }
 
 static int refuse_dash(const cli_option *option) {
-    static const char reason[] = "It writes a file and not to standard output.";
-    if (!option->sentence) return cli_fail(CLI_USE, NULL, "--%s: %s", option->name, reason);
-    return cli_fail(CLI_USE, NULL, "--%s: %s %s", option->name, reason, option->sentence);
+    const char *name = option->name, *sentence = option->sentence;
+    if (!sentence) return cli_fail(CLI_USE, NULL, "--%s: It writes a file and not to standard output.", name);
+    return cli_fail(CLI_USE, NULL, "--%s: It writes a file and not to standard output. %s", name, sentence);
 }
 
 int cli_check_overwrite(const cli_part *parts, void *args) {
