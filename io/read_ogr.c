@@ -19,8 +19,9 @@ typedef struct map {
     io_heard heard;
     GDALDatasetH data;
     io_shapes shapes;
-    bool container;  /* a folder or an archive */
-    OGRLayerH layer; /* the fields below belong to it */
+    bool container;              /* a folder or an archive */
+    support_extension extension; /* that counts */
+    OGRLayerH layer;             /* the fields below belong to it */
     const char *layer_name;
     int name_field, id_field, layer_field; /* -1: none */
     uint64_t features_done;
@@ -31,8 +32,31 @@ static froe_status map_fail(map *m, froe_status status, const char *sentence) {
     return io_gdal_fail(&m->heard, m->sink->diag, status, m->source->path, sentence);
 }
 
+static bool is_model(support_extension extension) {
+    const formats_source named = {.extension = extension};
+    return io_assimp_recognise(&named);
+}
+
+/* Does the name in the virtual file systems of GDAL, or a file in the archive that it is, end as models do? That is
+ * said: neither assimp nor the readers of the core look into archives. */
+static froe_status refuse_model(map *m, const char *name) {
+    char **files = m->container ? VSIReadDirRecursive(name) : NULL;
+    const char *model = is_model(m->extension) ? m->source->path : NULL;
+    for (char **file = files; file && *file && !model; file++)
+        if (is_model(support_path_extension(*file))) model = *file;
+    const froe_status status =
+        model ? support_fail(m->sink->diag, FROE_E_FORMAT,
+                             "%.60s: Models are not read from archives, and '%.60s' must be unpacked first.",
+                             support_short(m->source->path), support_short(model))
+              : FROE_OK;
+    CSLDestroy(files);
+    return status;
+}
+
 /* Says that nothing in it is a map; an archive is looked into. */
 static froe_status refuse_content(map *m, const char *name) {
+    const froe_status status = strncmp(name, "/vsi", 4) ? FROE_OK : refuse_model(m, name);
+    if (status) return status;
     char **files = m->container && !m->source->beyond ? VSIReadDir(name) : NULL;
     io_names names = {.count = 0};
     for (char **file = files; file && *file; file++) io_names_put(&names, *file);
@@ -203,6 +227,7 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
              .heard.path = source->file,
              .shapes.wrap = source->options->wrap,
              .crs.wrap = source->options->wrap};
+    m.extension = extension;
     m.container = source->beyond ? strncmp(name, "/vsi", 4) != 0 : strcmp(name, source->file) != 0;
     sink->unit = "feature";
     froe_status status = formats_sink_open(sink, 2);

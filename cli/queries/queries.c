@@ -39,7 +39,9 @@ typedef struct query_run {
     char *texts;
     size_t text_length, text_room;
     cli_table table;
-    seen_ids seen; /* of the queries that began, where rows name them */
+    bool bounded;     /* do points have nothing to find beyond 180 degrees? */
+    uint64_t outside; /* points there */
+    seen_ids seen;    /* of the queries that began, where rows name them */
 } query_run;
 
 /* -------------------------------------------------------------------- bad -- */
@@ -77,6 +79,40 @@ static bool see_id(seen_ids *seen, uint64_t id) {
     *place_of_id(seen, id) = id + 1;
     seen->used++;
     return true;
+}
+
+/* ---------------------------------------------------------------- degrees -- */
+
+static const double half_turn = 180;
+
+/* Does a map in degrees end at 180, so that points beyond have nothing to find? Some maps run from 0 to 360. */
+static bool is_bounded(const query_run *r) {
+    const cli_column *columns = r->q->columns;
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    const bool points = columns[0].axes && !*columns[0].name && !columns[1].name;
+    return points && froe_scene_crs(r->asked->scene).kind == FROE_CRS_GEOGRAPHIC &&
+           froe_scene_bounds(r->asked->scene, lo, hi) && lo[0] >= -half_turn && hi[0] <= half_turn;
+}
+
+static void warn_outside(const query_run *r) {
+    if (!r->outside || r->q->common->quiet) return;
+    (void)cli_fail(0, r->rows.path,
+                   "warning: Longitudes of %llu point%s beyond -180 and 180, where this map has nothing.",
+                   (unsigned long long)r->outside, r->outside > 1 ? "s are" : " is");
+}
+
+/* Columns that are named for degrees ask a map in metres, or the other way around. */
+static void warn_axes(const query_run *r) {
+    enum { DEGREES = 1, LENGTHS = 2 };
+    const froe_crs crs = froe_scene_crs(r->asked->scene);
+    const bool mixed = (crs.kind == FROE_CRS_PROJECTED && r->rows.family == DEGREES) ||
+                       (crs.kind == FROE_CRS_GEOGRAPHIC && r->rows.family == LENGTHS);
+    if (!mixed || r->q->common->quiet) return;
+    (void)cli_fail(0, r->rows.path,
+                   "warning: The header names %s, and the coordinate system of the map, '%.60s', has %s in units of "
+                   "'%.30s'.",
+                   r->rows.family == DEGREES ? "lon and lat" : "easting and northing", crs.name,
+                   r->rows.family == DEGREES ? "lengths" : "longitudes and latitudes", crs.unit);
 }
 
 /* ---------------------------------------------------------------- reading -- */
@@ -182,6 +218,7 @@ static void add_row(query_run *r, const double *values) {
         r->code = cli_fail_memory();
         return;
     }
+    r->outside += r->bounded && fabs(values[skip]) > half_turn;
     memcpy(r->numbers + rows_held(r) * r->width, values + skip, r->width * sizeof *values);
     r->gathered++;
     if (!r->grouped) close_query(r);
@@ -298,6 +335,8 @@ static int ask_rows(query_run *r, double start) {
         cli_table_open(q->common, &q->args->table, &q->kind, &r->rows, r->asked->scene, r->asked->query, &r->table);
     if (code) return code;
     r->width = r->rows.numbers - r->grouped;
+    r->bounded = is_bounded(r);
+    warn_axes(r);
     const size_t each = r->table.columns.own_count;
     if (each) r->own = calloc((CLI_BLOCK + 1) * each, sizeof *r->own);
     if (each && !r->own)
@@ -306,6 +345,7 @@ static int ask_rows(query_run *r, double start) {
         work(r);
     if (!code) code = r->code ? r->code : r->refused ? CLI_INPUT : 0;
     const int closed = cli_table_close(&r->table);
+    warn_outside(r);
     const int reported = q->common->json && !r->code ? report_batch(r, start) : 0;
     return closed ? closed : reported ? reported : code;
 }

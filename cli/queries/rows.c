@@ -129,6 +129,7 @@ static int read_header(cli_rows *rows, const cli_column *columns, int dim) {
     for (int family = 0; family < SUPPORT_CSV_FAMILIES && !found; family++) {
         found = find_columns(rows, columns, dim, family, &beyond);
         if (!first_beyond || found) first_beyond = beyond;
+        rows->family = family;
     }
     if (first_beyond)
         return cli_fail(CLI_INPUT, rows->path, "line 1: The header names %.40s, and the tree has %d dimensions.",

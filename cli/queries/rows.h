@@ -38,6 +38,7 @@ typedef struct cli_rows {
     support_csv_field fields[SUPPORT_CSV_COLUMNS]; /**< of a row that was read, as they stand in the file */
     signed char place[SUPPORT_CSV_COLUMNS];        /**< which number a column holds, -1: none */
     char separator;
+    int family;         /**< of the names of the axes, see support/text/csv.h */
     bool open;          /**< the file ends within quotation marks */
     char sentence[120]; /**< what is wrong with a bad row */
 } cli_rows;
