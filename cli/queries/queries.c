@@ -97,8 +97,8 @@ static bool is_bounded(const query_run *r) {
 static void warn_outside(const query_run *r) {
     if (!r->outside || r->q->common->quiet) return;
     (void)cli_fail(0, r->rows.path,
-                   "warning: Longitudes of %llu point%s beyond -180 and 180, where this map has nothing.",
-                   (unsigned long long)r->outside, r->outside > 1 ? "s are" : " is");
+                   "warning: Points beyond the longitudes -180 and 180, where this map has nothing: %llu.",
+                   (unsigned long long)r->outside);
 }
 
 /* Columns that are named for degrees ask a map in metres, or the other way around. */
