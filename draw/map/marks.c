@@ -134,10 +134,14 @@ static bool mark_line(mark_painter *pen, const froe_draw_mark *mark) {
     return !is_labelled(mark) || array_push(&pen->page->alloc, &pen->taken, box);
 }
 
+static bool is_same_point(const double a[3], const double b[3]) {
+    return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
+}
+
 /* Does the mark belong to a line whose label another mark has, which `last` is? Borders are many marks. */
 static bool continues_label(const froe_draw_mark *last, const froe_draw_mark *mark) {
     return last && last->kind == FROE_DRAW_MARK_LINE && mark->kind == FROE_DRAW_MARK_LINE &&
-           memcmp(mark->lo, mark->hi, sizeof mark->lo) != 0 && strcmp(last->label, mark->label) == 0;
+           !is_same_point(mark->lo, mark->hi) && strcmp(last->label, mark->label) == 0;
 }
 
 /* Over all marks. */
@@ -161,7 +165,7 @@ static bool mark_labels(mark_painter *pen) {
 
 /* Answers repeat the box or the ball that was asked for, with a name each. */
 static bool is_same_place(const froe_draw_mark *m, const froe_draw_mark *n) {
-    return m->kind == n->kind && memcmp(m->lo, n->lo, sizeof m->lo) == 0 && memcmp(m->hi, n->hi, sizeof m->hi) == 0;
+    return m->kind == n->kind && is_same_point(m->lo, n->lo) && is_same_point(m->hi, n->hi);
 }
 
 froe_status draw_map_marks(const draw_page *page, cairo_t *cr, const draw_view *view) {
