@@ -60,6 +60,22 @@ static inline void rational_add_product(mpq_t out, int sign, const mpq_t a, cons
     mpq_clear(t);
 }
 
+/** An input point between two others: u + t (v - u). */
+static inline void rational_point_between(rational_point *p, int dim, const double *u, const double *v, double t) {
+    mpq_t share, d;
+    mpq_init(share);
+    mpq_init(d);
+    mpq_set_d(share, t);
+    rational_point_set(p, dim, u);
+    for (int k = 0; k < dim; k++) {
+        mpq_set_d(d, v[k]);
+        mpq_sub(d, d, p->x[k]);
+        rational_add_product(p->x[k], 1, share, d);
+    }
+    mpq_clear(share);
+    mpq_clear(d);
+}
+
 /** out = a x b */
 static inline void rational_cross(mpq_t out[3], mpq_t a[3], mpq_t b[3]) {
     for (int k = 0; k < 3; k++) {

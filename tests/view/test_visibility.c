@@ -148,16 +148,7 @@ static int blocked(look *l, const froe_edge *e) {
 
 static void check_point(look *l, const froe_edge *e, double t, bool visible) {
     const double *u = scene_vertex(l->tree->scene, e->vertex[0]), *v = scene_vertex(l->tree->scene, e->vertex[1]);
-    mpq_t share, d;
-    mpq_inits(share, d, NULL);
-    mpq_set_d(share, t);
-    rational_point_set(&l->to, 3, u);
-    for (int k = 0; k < 3; k++) {
-        mpq_set_d(d, v[k]);
-        mpq_sub(d, d, l->to.x[k]);
-        rational_add_product(l->to.x[k], 1, share, d);
-    }
-    mpq_clears(share, d, NULL);
+    rational_point_between(&l->to, 3, u, v, t);
     const int found = blocked(l, e);
     if (!l->general && found == 0) return; /* two faces before it may meet just there */
     if (found == visible)

@@ -51,16 +51,7 @@ static bool blocked(stage *s) {
 static void check_share(stage *s, uint32_t wire, double t, bool visible) {
     const uint32_t object = froe_surface_wire(s->surface, wire);
     const double *u = scene_point(s->tree->scene, object, 0), *v = scene_point(s->tree->scene, object, 1);
-    mpq_t share, d;
-    mpq_inits(share, d, NULL);
-    mpq_set_d(share, t);
-    rational_point_set(&s->to, 3, u);
-    for (int k = 0; k < 3; k++) {
-        mpq_set_d(d, v[k]);
-        mpq_sub(d, d, s->to.x[k]);
-        rational_add_product(s->to.x[k], 1, share, d);
-    }
-    mpq_clears(share, d, NULL);
+    rational_point_between(&s->to, 3, u, v, t);
     if (blocked(s) == visible)
         fail_msg("segment %u at %.17g should be %s; eye %s(%g, %g, %g)", object, t, visible ? "hidden" : "visible",
                  s->eye.parallel ? "along " : "", s->eye.at[0], s->eye.at[1], s->eye.at[2]);
