@@ -62,6 +62,10 @@ static bool is_labelled(const froe_draw_mark *mark) {
     return mark->label && *mark->label;
 }
 
+static bool is_within(const draw_view *view, draw_point p) {
+    return p.x >= view->lo.x && p.x <= view->hi.x && p.y >= view->lo.y && p.y <= view->hi.y;
+}
+
 static void mark_dot(const mark_painter *pen, draw_point p, double radius) {
     cairo_new_path(pen->cr);
     draw_circle(pen->cr, p, radius * pen->page->unit);
@@ -115,7 +119,6 @@ static bool mark_line(mark_painter *pen, const froe_draw_mark *mark) {
     if (view->axis >= 0 && fmax(fabs(a[view->axis] - view->at), fabs(b[view->axis] - view->at)) > 1e-6) return true;
     draw_point from = {a[view->across], a[view->up]}, to = {b[view->across], b[view->up]};
     const draw_point end = to;
-    const bool dot = end.x >= view->lo.x && end.x <= view->hi.x && end.y >= view->lo.y && end.y <= view->hi.y;
     const bool line = from.x != to.x || from.y != to.y;
     if (line && draw_view_clip_line(view, &from, &to)) {
         const draw_point p = draw_view_map(view, from), q = draw_view_map(view, to);
@@ -126,7 +129,7 @@ static bool mark_line(mark_painter *pen, const froe_draw_mark *mark) {
         cairo_set_line_width(pen->cr, 1.2 * pen->page->unit);
         cairo_stroke(pen->cr);
     }
-    if (!dot) return true;
+    if (!is_within(view, end)) return true;
     const draw_point p = draw_view_map(view, end);
     const double radius = (line ? 3.2 : 4.8) * pen->page->unit;
     mark_dot(pen, p, line ? 3.2 : 4.8);
@@ -156,7 +159,7 @@ static bool mark_labels(mark_painter *pen) {
         double end[3];
         draw_space_point(&view->space, m->hi, end);
         const draw_point p = {end[view->across], end[view->up]};
-        if (p.x < view->lo.x || p.x > view->hi.x || p.y < view->lo.y || p.y > view->hi.y) continue;
+        if (!is_within(view, p)) continue;
         ok = mark_label(pen, m->label, draw_view_map(view, p));
         last = m;
     }
