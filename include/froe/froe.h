@@ -163,6 +163,7 @@ typedef struct froe_objects {
     uint32_t group;             /**< FROE_NONE: no group */
     froe_progress_fn *progress; /**< may be NULL */
     void *user;                 /**< for progress */
+    unsigned threads;           /**< 0: one per processor; the scene does not depend on it */
 } froe_objects;
 FROE_API froe_objects froe_objects_defaults(void); /**< triangles, none, no groups */
 

@@ -49,7 +49,7 @@ void build_promise(build_job *job, const char *name, double promised, double mea
 /** Bits of the kinds the scene holds. */
 static uint32_t kinds_of(const froe_scene *scene) {
     uint32_t kinds = 0;
-    for (uint32_t i = 0; i < scene->object_count; i++) kinds |= 1u << scene->kinds[i];
+    for (uint32_t i = 0; i < scene->object_count; i++) kinds |= 1u << scene_kind(scene, i);
     return kinds;
 }
 

@@ -66,8 +66,8 @@ froe_status froe_scene_defects(const froe_scene *scene, unsigned threads, froe_p
     froe_status status = measure_survey_begin(scene, threads, progress, user, &v.of);
     defects.duplicates = v.of.duplicates;
     for (uint32_t i = 0; i < scene->object_count; i++) {
-        defects.zero_length += scene->kinds[i] == FROE_SEGMENT && scene->forms[i] == FROE_POINT;
-        defects.zero_area += scene->kinds[i] == FROE_POLYGON && scene->forms[i] != FROE_POLYGON;
+        defects.zero_length += scene_kind(scene, i) == FROE_SEGMENT && scene_form(scene, i) == FROE_POINT;
+        defects.zero_area += scene_kind(scene, i) == FROE_POLYGON && scene_form(scene, i) != FROE_POLYGON;
     }
     if (!status) status = look_at_pairs(&v);
     defects.crossings = sum(&v, CROSSING, defects.first_crossing);

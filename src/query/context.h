@@ -82,7 +82,7 @@ static inline bool query_expect(froe_query *q, size_t count) {
 static inline bool query_repeats(const froe_query *q, const tree_objects *list, uint32_t i, uint32_t object) {
     bool pieces = list->stride == sizeof(tree_piece) / sizeof(uint32_t);
     bool divided = !pieces || ((const tree_piece *)(const void *)list->at)[i].ring;
-    return divided || q->tree->scene->forms[object] >= FROE_BOX;
+    return divided || scene_form(q->tree->scene, object) >= FROE_BOX;
 }
 /** Has object i of a list been looked at by this query? Marks it. REQUIRES: query_expect(). */
 static inline bool query_seen(froe_query *q, const tree_objects *list, uint32_t i, uint32_t object) {

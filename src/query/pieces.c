@@ -20,8 +20,8 @@ static froe_status make_pieces(froe_query *q, query_part **out, froe_diagnostic 
     bool points = t->piece_count > 0 && t->piece_count == s->object_count; /* each in one list */
     p->flat = !tree_is_packed(t);
     for (uint32_t i = 0; i < s->object_count; i++) {
-        points &= s->forms[i] == FROE_POINT;
-        p->flat = p->flat && s->forms[i] < FROE_BOX;
+        points &= scene_form(s, i) == FROE_POINT;
+        p->flat = p->flat && scene_form(s, i) < FROE_BOX;
     }
     p->whole = p->flat && t->bound_count <= 1; /* the first is unused */
     if (!points) return FROE_OK;

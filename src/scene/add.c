@@ -10,6 +10,7 @@
 #include "scene/forms.h"
 #include "support/fail.h"
 #include <math.h>
+#include <stddef.h>
 #include <string.h>
 
 /** Objects or chunks between two calls of the progress function. */
@@ -39,11 +40,19 @@ static froe_status check_limits(scene_adding *a) {
     return FROE_OK;
 }
 
+/** The batch of a caller that was compiled before batches had `threads`: with the default of that. */
+static const froe_objects *whole_batch(const froe_objects *b, froe_objects *grown) {
+    if (!b || b->size != offsetof(froe_objects, threads)) return b;
+    *grown = froe_objects_defaults();
+    memcpy(grown, b, b->size);
+    grown->size = sizeof *grown;
+    return grown;
+}
+
 /** The batch itself, and whether the scene can take such objects. */
 static froe_status check_batch(const froe_scene *s, const froe_objects *b, froe_diagnostic *diag) {
     if (!s || !b) return support_fail_null(diag, "froe_scene_add");
-    if (b->size != sizeof *b) /* once the struct has grown: its older sizes too, with defaults for what they lack */
-        return support_fail_defaults(diag, "froe_objects_defaults");
+    if (b->size != sizeof *b) return support_fail_defaults(diag, "froe_objects_defaults");
     froe_status status = scene_growable(s, diag);
     if (status) return status;
     if ((unsigned)b->kind >= FROE_KIND_COUNT)
@@ -219,6 +228,8 @@ static void commit(const scene_adding *a) {
 
 froe_status froe_scene_add(froe_scene *scene, const froe_objects *batch, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
+    froe_objects grown;
+    batch = whole_batch(batch, &grown);
     scene_adding a = {.scene = scene, .batch = batch, .diag = diag};
     froe_status status = check_batch(scene, batch, diag);
     if (!status) status = check_limits(&a);

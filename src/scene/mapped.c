@@ -44,14 +44,14 @@ static froe_status check_vertices(const froe_scene *s, const froe_allocator *all
 /* ----------------------------------------------------------------- objects -- */
 
 static bool shape_fits(const froe_scene *s, uint32_t object, num_context *context) {
-    const uint32_t *ring = s->corners + s->starts[object];
+    const geom_body body = scene_body(s, object);
     uint32_t count = scene_corners(s, object);
     double radius, lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
     switch (scene_form(s, object)) {
     case FROE_SEGMENT:
-        return ring[0] != ring[1];
+        return scene_corner(s, object, 0) != scene_corner(s, object, 1);
     case FROE_POLYGON:
-        return scene_polygon_valid(context, s->coords, ring, count);
+        return scene_polygon_valid(context, body.coords, body.corners, count);
     case FROE_BOX:
         for (int k = 0; k < s->dim; k++)
             if (scene_point(s, object, 0)[k] > scene_point(s, object, 1)[k]) return false;
@@ -65,7 +65,7 @@ static bool shape_fits(const froe_scene *s, uint32_t object, num_context *contex
         return true;
     case FROE_HULL:
         for (uint32_t i = 1; i < count; i++)
-            if (ring[i] <= ring[i - 1]) return false;
+            if (scene_corner(s, object, i) <= scene_corner(s, object, i - 1)) return false;
         return true;
     default:
         return true;
@@ -73,8 +73,8 @@ static bool shape_fits(const froe_scene *s, uint32_t object, num_context *contex
 }
 
 static froe_status check_object(const froe_scene *s, uint32_t object, num_context *context, froe_diagnostic *diag) {
-    unsigned kind = s->kinds[object], form = s->forms[object];
-    uint32_t begin = s->starts[object], end = s->starts[object + 1];
+    unsigned kind = scene_kind(s, object), form = scene_form(s, object);
+    uint32_t begin = scene_start(s, object), end = scene_start(s, object + 1);
     const bool exists = kind == FROE_POLYGON ? s->dim == 3 : kind < FROE_KIND_COUNT;
     const bool high = kind == FROE_SEGMENT && s->dim > 3, whole = form == (high ? (unsigned)FROE_HULL : kind);
     const bool lesser = (kind == FROE_SEGMENT && form == FROE_POINT) ||
@@ -86,7 +86,7 @@ static froe_status check_object(const froe_scene *s, uint32_t object, num_contex
         return bad_object(diag, object, "it has a wrong number of corners");
     for (uint32_t i = begin; i < end; i++) {
         bool radius = form == FROE_BALL && i > begin;
-        if (s->corners[i] >= (radius ? s->radius_count : s->vertex_count))
+        if (scene_corner_vertex(s, i) >= (radius ? s->radius_count : s->vertex_count))
             return bad_object(diag, object, "a corner does not exist");
     }
     if (!shape_fits(s, object, context)) return bad_object(diag, object, "it has no valid shape");
@@ -97,7 +97,7 @@ static froe_status check_object(const froe_scene *s, uint32_t object, num_contex
 
 static froe_status check_objects(const froe_scene *s, const froe_allocator *alloc, froe_diagnostic *diag) {
     num_context context;
-    if (!s->starts || s->starts[0] != 0 || s->starts[s->object_count] != s->corner_count)
+    if (scene_start(s, 0) != 0 || scene_start(s, s->object_count) != s->corner_count)
         return bad_scene(diag, "the offsets of the corners are wrong");
     if (geom_context_new(alloc, &context)) return support_fail_memory(diag);
     froe_status status = FROE_OK;
@@ -113,10 +113,9 @@ froe_status scene_validate(const froe_scene *s, const froe_allocator *alloc, fro
     if (s->object_count > SCENE_LIMIT || s->vertex_count > SCENE_LIMIT || s->group_count > SCENE_LIMIT ||
         s->corner_count > SCENE_CORNER_LIMIT)
         return bad_scene(diag, "its counts are wrong");
-    bool objects = !s->object_count || (s->kinds && s->forms && s->corners);
     bool vertices = (!s->vertex_count || s->coords) && (!s->radius_count || s->radii);
     bool groups = !s->group_count || (s->group_table && s->text);
-    if (!objects || !vertices || !groups) return bad_scene(diag, "a part is missing");
+    if (!vertices || !groups) return bad_scene(diag, "a part is missing");
     if (!scene_crs_fits(s->crs_kind, s->crs, s->crs_size)) return bad_scene(diag, "its coordinate system is wrong");
     froe_status status = check_vertices(s, alloc, diag);
     if (!status) status = check_objects(s, alloc, diag);
@@ -135,6 +134,8 @@ froe_status scene_validate(const froe_scene *s, const froe_allocator *alloc, fro
 froe_status scene_mapped(const froe_scene *arrays, const froe_allocator *caller, froe_scene **out,
                          froe_diagnostic *diag) {
     froe_allocator alloc = support_allocator(caller);
+    if (!arrays->start_of || (arrays->object_count && !(arrays->kind_of && arrays->form_of && arrays->vertex_of)))
+        return bad_scene(diag, "a part is missing");
     froe_status status = scene_validate(arrays, &alloc, diag);
     if (status) return status;
     froe_scene *s = support_calloc(&alloc, 1, sizeof *s);

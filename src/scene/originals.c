@@ -16,8 +16,9 @@ static bool equal_rings(const uint32_t *a, const uint32_t *b, uint32_t count) {
 
 bool scene_equal(const froe_scene *s, uint32_t a, uint32_t b) {
     uint32_t count = scene_corners(s, a);
-    const uint32_t *x = s->corners + s->starts[a], *y = s->corners + s->starts[b];
-    if (s->forms[a] != s->forms[b] || count != scene_corners(s, b)) return false;
+    if (!s->vertex_of) return a == b; /* all vertices differ */
+    const uint32_t *x = s->vertex_of + scene_start(s, a), *y = s->vertex_of + scene_start(s, b);
+    if (scene_form(s, a) != scene_form(s, b) || count != scene_corners(s, b)) return false;
     switch (scene_form(s, a)) {
     case FROE_BALL:
         return x[0] == y[0] && scene_radius(s, a) == scene_radius(s, b);
@@ -40,7 +41,7 @@ static uint32_t tag_of(const froe_scene *s, uint32_t object) {
         memcpy(&bits, &radius, sizeof bits);
         sum += bits;
     }
-    return (uint32_t)(base_mix(sum + s->forms[object]) >> 32);
+    return (uint32_t)(base_mix(sum + scene_form(s, object)) >> 32);
 }
 
 froe_status scene_originals(const froe_scene *s, const froe_allocator *alloc, uint32_t *out) {

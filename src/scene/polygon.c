@@ -23,7 +23,13 @@ typedef struct ring_view {
 } ring_view;
 
 static const double *at(const ring_view *r, uint32_t i) {
-    return r->coords + (size_t)r->ring[i] * 3;
+    return r->coords + (size_t)(r->ring ? r->ring[i] : i) * 3;
+}
+
+/** Ends a check that failed. */
+static bool fails(const ring_view *r, uint32_t i, const char *reason, scene_fault *fault) {
+    *fault = (scene_fault){reason, r->ring ? r->ring[i] : i};
+    return false;
 }
 
 /* ---------------------------------------------------------------- the plane -- */
@@ -48,11 +54,8 @@ static uint32_t third_corner(ring_view *r) {
 
 static bool planar(const ring_view *r, uint32_t third, scene_fault *fault) {
     geom_plane plane = geom_plane_points(3, (const double *const[]){at(r, 0), at(r, 1), at(r, third)});
-    for (uint32_t i = third + 1; i < r->count; i++) {
-        if (geom_side_vertex(r->context, &plane, at(r, i)) == 0) continue;
-        *fault = (scene_fault){"is not planar", r->ring[i]};
-        return false;
-    }
+    for (uint32_t i = third + 1; i < r->count; i++)
+        if (geom_side_vertex(r->context, &plane, at(r, i)) != 0) return fails(r, i, "is not planar", fault);
     return true;
 }
 
@@ -76,13 +79,11 @@ static bool convex(const ring_view *r, scene_fault *fault) {
     for (uint32_t i = n - 1, j = 0, k = 1; j < n; i = j++, k = k + 1 < n ? k + 1 : 0) {
         bool before = ascends(r, i, j), after = ascends(r, j, k);
         int t = turn_at(r, i, j, k);
-        fault->vertex = r->ring[j];
-        fault->reason = t == 0 && before != after ? "folds back on itself" : "is not convex";
-        if (t == 0 ? before != after : t != way) return false;
+        if (t == 0 && before != after) return fails(r, j, "folds back on itself", fault);
+        if (t != 0 && t != way) return fails(r, j, "is not convex", fault);
         minima += !before && after;
     }
-    fault->reason = "intersects itself";
-    return minima == 1;
+    return minima == 1 || fails(r, n - 1, "intersects itself", fault);
 }
 
 /* ----------------------------------------------------------------- the ring -- */
@@ -136,7 +137,7 @@ bool scene_polygon_form(num_context *context, const double *coords, uint32_t *ri
 bool scene_polygon_valid(num_context *context, const double *coords, const uint32_t *ring, uint32_t count) {
     ring_view view = {.context = context, .coords = coords, .ring = ring, .count = count};
     scene_fault fault;
-    for (uint32_t i = 0; i < count; i++)
+    for (uint32_t i = 0; ring && i < count; i++)
         if (ring[i] == ring[i + 1 < count ? i + 1 : 0]) return false;
     return count >= 3 && project(&view, 2) && planar(&view, 2, &fault) && convex(&view, &fault);
 }

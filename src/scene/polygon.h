@@ -15,6 +15,6 @@ typedef struct scene_fault {
  * polygon is not planar, convex and simple; ring is then garbage. O(count), all exact. */
 bool scene_polygon_form(num_context *context, const double *coords, uint32_t *ring, uint32_t *count, froe_kind *form,
                         scene_fault *fault);
-/** Is it such a ring already? */
+/** Is it such a ring already? ring NULL: its vertices are 0, 1, ... */
 bool scene_polygon_valid(num_context *context, const double *coords, const uint32_t *ring, uint32_t count);
 #endif

@@ -80,10 +80,10 @@ void scene_publish(froe_scene *s) {
     s->group_count = (uint32_t)store->group_table.count;
     s->text_size = store->text.count;
     s->coords = store->coords.data;
-    s->kinds = store->kinds.data;
-    s->forms = store->forms.data;
-    s->starts = store->starts.data;
-    s->corners = store->corners.data;
+    s->kind_of = store->kinds.data;
+    s->form_of = store->forms.data;
+    s->start_of = store->starts.data;
+    s->vertex_of = store->corners.data;
     s->radii = store->radii.data;
     s->tags = store->tags.count ? store->tags.data : NULL;
     s->faces = store->faces.count ? store->faces.data : NULL;
@@ -124,7 +124,7 @@ size_t froe_scene_group_count(const froe_scene *scene) {
 
 size_t froe_scene_kind_count(const froe_scene *scene, froe_kind kind) {
     size_t count = 0;
-    for (uint32_t i = 0; i < scene->object_count; i++) count += scene->kinds[i] == (unsigned)kind;
+    for (uint32_t i = 0; i < scene->object_count; i++) count += scene_kind(scene, i) == kind;
     return count;
 }
 
@@ -138,9 +138,9 @@ bool froe_scene_bounds(const froe_scene *scene, double *lo, double *hi) {
 froe_object froe_scene_object(const froe_scene *scene, uint32_t object) {
     if (object >= scene->object_count)
         return (froe_object){.kind = FROE_KIND_COUNT, .form = FROE_KIND_COUNT, .face = FROE_NONE, .group = FROE_NONE};
-    bool ball = scene->kinds[object] == FROE_BALL;
+    bool ball = scene_kind(scene, object) == FROE_BALL;
     return (froe_object){
-        .kind = (froe_kind)scene->kinds[object],
+        .kind = scene_kind(scene, object),
         .form = scene_form(scene, object),
         .corners = ball ? 1 : scene_corners(scene, object),
         .face = scene->faces ? scene->faces[object] : object,

@@ -1,8 +1,12 @@
 /* scene.h: the scene from inside: a vertex table and, per object, a run of corners.
  *
- *     kinds, forms   [object]            what it was added as; what it really is
- *     starts         [object]  ->  corners[starts[o] .. starts[o+1])  ->  vertex ids
- *     coords         [vertex * dim]      exact, pairwise different, no -0
+ *     kind_of, form_of   [object]        what it was added as; what it really is
+ *     start_of           [object]    ->  vertex_of[start_of[o] .. start_of[o + 1])  ->  vertex ids
+ *     coords             [vertex * dim]  exact, pairwise different, no -0
+ *
+ * Each of the first four is NULL where it would say nothing: all objects have one kind, or one form, or equally many
+ * corners; or corner i is vertex i. All readers ask by the functions below. A million segments without common ends
+ * need no array but coords, which then has the two ends of object o at 2 o and 2 o + 1 (scene_in_order()).
  *
  * A ball's corners are {centre vertex, index into radii}. A polygon's ring is stored
  * so that its first three corners are not collinear: they span its plane. Ring
@@ -35,9 +39,11 @@ struct froe_scene {
     uint32_t vertex_count, object_count, group_count, radius_count, corner_count;
     size_t text_size;
     double *coords;
-    uint8_t *kinds, *forms;
-    uint32_t *starts; /**< object_count + 1 */
-    uint32_t *corners;
+    uint8_t *kind_of, *form_of; /**< NULL: `kind`, `form` of all objects */
+    uint32_t *start_of;         /**< object_count + 1; NULL: every object has `each` corners */
+    uint32_t *vertex_of;        /**< of each corner; NULL: its own number */
+    froe_kind kind, form;
+    uint32_t each;
     double *radii;
     uint64_t *tags;   /**< NULL: tag = id */
     uint32_t *faces;  /**< NULL: face = id */
@@ -54,26 +60,43 @@ struct froe_scene {
 static inline const double *scene_vertex(const froe_scene *s, uint32_t vertex) {
     return s->coords + (size_t)vertex * (size_t)s->dim;
 }
+static inline froe_kind scene_kind(const froe_scene *s, uint32_t object) {
+    return s->kind_of ? (froe_kind)s->kind_of[object] : s->kind;
+}
+static inline froe_kind scene_form(const froe_scene *s, uint32_t object) {
+    return s->form_of ? (froe_kind)s->form_of[object] : s->form;
+}
+/** Its first corner among those of all objects; object_count: their number. */
+static inline uint32_t scene_start(const froe_scene *s, uint32_t object) {
+    return s->start_of ? s->start_of[object] : object * s->each;
+}
 static inline uint32_t scene_corners(const froe_scene *s, uint32_t object) { /* of the form; balls: 2 */
-    return s->starts[object + 1] - s->starts[object];
+    return s->start_of ? s->start_of[object + 1] - s->start_of[object] : s->each;
+}
+/** The vertex of a corner by its number among those of all objects. */
+static inline uint32_t scene_corner_vertex(const froe_scene *s, uint32_t corner) {
+    return s->vertex_of ? s->vertex_of[corner] : corner;
 }
 static inline uint32_t scene_corner(const froe_scene *s, uint32_t object, uint32_t i) {
-    return s->corners[s->starts[object] + i];
+    return scene_corner_vertex(s, scene_start(s, object) + i);
 }
 static inline const double *scene_point(const froe_scene *s, uint32_t object, uint32_t i) {
     return scene_vertex(s, scene_corner(s, object, i));
 }
-static inline froe_kind scene_form(const froe_scene *s, uint32_t object) {
-    return (froe_kind)s->forms[object];
+/** Has every object s->each corners, which are vertices of its own, in order? Then those of object o are the vertices
+ * o * each .., side by side in coords. */
+static inline bool scene_in_order(const froe_scene *s) {
+    return !s->start_of && !s->vertex_of;
 }
 static inline double scene_radius(const froe_scene *s, uint32_t object) { /* balls */
     return s->radii[scene_corner(s, object, 1)];
 }
 /** An object for geometry. */
 static inline geom_body scene_body(const froe_scene *s, uint32_t object) {
-    geom_body b = {
-        .form = scene_form(s, object), .dim = s->dim, .count = scene_corners(s, object), .coords = s->coords};
-    b.corners = s->corners + s->starts[object];
+    const uint32_t first = scene_start(s, object);
+    geom_body b = {.form = scene_form(s, object), .dim = s->dim, .count = scene_corners(s, object)};
+    b.coords = s->vertex_of ? s->coords : scene_vertex(s, first);
+    b.corners = s->vertex_of ? s->vertex_of + first : NULL;
     if (b.form != FROE_BALL) return b;
     b.count = 1;
     b.radius = scene_radius(s, object);
@@ -81,12 +104,19 @@ static inline geom_body scene_body(const froe_scene *s, uint32_t object) {
     return b;
 }
 
+/** Prefetches where its corners begin; the vertex of a corner. */
+static inline void scene_ask_start(const froe_scene *s, uint32_t object) {
+    if (s->start_of) __builtin_prefetch(s->start_of + object);
+}
+static inline void scene_ask_corner(const froe_scene *s, uint32_t corner) {
+    if (s->vertex_of) __builtin_prefetch(s->vertex_of + corner);
+}
 /** Prefetches what scene_body() reads, and, where all objects are triangles, the ids of its corners. */
 static inline void scene_ask(const froe_scene *s, uint32_t object) {
-    const size_t guess = 3 * (size_t)object < s->corner_count ? 3 * (size_t)object : 0;
-    __builtin_prefetch(s->forms + object);
-    __builtin_prefetch(s->starts + object);
-    __builtin_prefetch(s->corners + guess);
+    const uint64_t guess = s->start_of ? 3 * (uint64_t)object : scene_start(s, object);
+    if (s->form_of) __builtin_prefetch(s->form_of + object);
+    scene_ask_start(s, object);
+    scene_ask_corner(s, guess < s->corner_count ? (uint32_t)guess : 0);
 }
 /** Prefetches its points, up to three, once that is in the cache. */
 static inline void scene_ask_points(const froe_scene *s, uint32_t object) {
@@ -114,7 +144,7 @@ void scene_ball_bounds(int dim, const double *centre, double radius, double *lo,
 /** The same, for loops over many objects that know the dimension. */
 static inline void scene_bounds_in(const froe_scene *s, int dim, uint32_t object, double *lo, double *hi) {
     const double *x = scene_point(s, object, 0);
-    if (s->forms[object] == FROE_BALL) {
+    if (scene_form(s, object) == FROE_BALL) {
         scene_ball_bounds(dim, x, scene_radius(s, object), lo, hi);
         return;
     }
@@ -144,6 +174,11 @@ bool scene_equal(const froe_scene *s, uint32_t a, uint32_t b);
 /** For each object the lowest id equal to it (out[o] <= o). O(corners) expected. */
 froe_status scene_originals(const froe_scene *s, const froe_allocator *alloc, uint32_t *out);
 
+/** The same scene in *out with all arrays, as files hold them; those that it lacks are made. Only for reading, while
+ * the scene is there. FROE_E_MEMORY. O(corners). */
+froe_status scene_explicit(const froe_scene *s, const froe_allocator *alloc, froe_scene *out);
+void scene_explicit_free(const froe_scene *s, const froe_allocator *alloc, froe_scene *out);
+
 /** Are these the strings of a coordinate system of this kind, as scenes keep them? */
 bool scene_crs_fits(uint32_t kind, const char *strings, size_t size);
 
@@ -151,8 +186,8 @@ bool scene_crs_fits(uint32_t kind, const char *strings, size_t size);
  * index, ring, form and coordinate, and that no two vertices are equal. Bounds are not looked at.
  * FROE_E_FORMAT with the first violation. O(corners) expected. */
 froe_status scene_validate(const froe_scene *s, const froe_allocator *alloc, froe_diagnostic *diag);
-/** A scene over arrays that lie in a file mapping: `arrays` gives dim, counts and arrays, all
- * else is ignored. Validates, computes the bounds. The mapping stays the caller's, must outlive the
+/** A scene over arrays that lie in a file mapping: `arrays` gives dim, counts and arrays, none of objects or corners
+ * missing; all else is ignored. Validates, computes the bounds. The mapping stays the caller's, must outlive the
  * scene and is not written to; froe_scene_free() frees the rest. The scene has one hold and never
  * grows. FROE_E_FORMAT, FROE_E_MEMORY. */
 froe_status scene_mapped(const froe_scene *arrays, const froe_allocator *alloc, froe_scene **out,

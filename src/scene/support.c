@@ -57,27 +57,29 @@ froe_cut scene_support(const froe_scene *s, uint32_t object, geom_plane *plane) 
 }
 
 uint32_t scene_object_of(const froe_scene *s, uint32_t corner) {
-    uint32_t lo = 0, hi = s->object_count, guess = corner / 3; /* starts[lo] <= corner < starts[hi] */
-    if (guess < hi && s->starts[guess] <= corner && corner < s->starts[guess + 1]) return guess;
+    uint32_t lo = 0, hi = s->object_count, guess = corner / 3; /* start of lo <= corner < start of hi */
+    if (!s->start_of) return corner / s->each;
+    if (guess < hi && s->start_of[guess] <= corner && corner < s->start_of[guess + 1]) return guess;
     while (hi - lo > 1) {
         uint32_t middle = lo + (hi - lo) / 2;
-        *(s->starts[middle] <= corner ? &lo : &hi) = middle;
+        *(s->start_of[middle] <= corner ? &lo : &hi) = middle;
     }
     return lo;
 }
 
 bool froe_scene_edge(const froe_scene *s, uint32_t edge, uint32_t vertices[2]) {
     if (edge >= s->corner_count) return false;
-    uint32_t object = scene_object_of(s, edge), next = edge + 1 < s->starts[object + 1] ? edge + 1 : s->starts[object];
+    uint32_t object = scene_object_of(s, edge), first = scene_start(s, object);
+    uint32_t next = edge + 1 < scene_start(s, object + 1) ? edge + 1 : first;
     if (scene_form(s, object) != FROE_SEGMENT && scene_form(s, object) != FROE_POLYGON) return false;
-    vertices[0] = s->corners[edge];
-    vertices[1] = s->corners[next];
+    vertices[0] = scene_corner_vertex(s, edge);
+    vertices[1] = scene_corner_vertex(s, next);
     return true;
 }
 
 void scene_crossing_line(const froe_scene *s, uint32_t id, const double *ends[2]) {
     uint32_t vertices[2];
-    froe_scene_edge(s, s->dim == 2 ? s->starts[id] : id, vertices);
+    froe_scene_edge(s, s->dim == 2 ? scene_start(s, id) : id, vertices);
     for (int i = 0; i < 2; i++) ends[i] = scene_vertex(s, vertices[i]);
 }
 

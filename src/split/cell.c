@@ -196,8 +196,7 @@ froe_status cell_take(split_work *work, const split_lowest_nodes *lowest, split_
         /* Asks for the coordinates of objects that are about to be read, all at once: without this a cell of ten
          * objects waits ten times for memory. Measured: a quarter of the time to build. */
         for (uint32_t i = 0; i < (count < PREFETCH ? count : PREFETCH); i++) {
-            const uint32_t *corner = set->scene->corners + set->scene->starts[lowest->ids[cell->whole + i]];
-            __builtin_prefetch(scene_vertex(set->scene, corner[0]));
+            __builtin_prefetch(scene_point(set->scene, lowest->ids[cell->whole + i], 0));
         }
     }
     for (uint32_t i = 0; i < count; i++)

@@ -62,13 +62,13 @@ static file_array array_of(const froe_tree *t, file_id id) {
     case FILE_COORDS:
         return (file_array){s->coords, (uint64_t)s->vertex_count * (uint64_t)s->dim, sizeof *s->coords};
     case FILE_KINDS:
-        return (file_array){s->kinds, objects, sizeof *s->kinds};
+        return (file_array){s->kind_of, objects, sizeof *s->kind_of};
     case FILE_FORMS:
-        return (file_array){s->forms, objects, sizeof *s->forms};
+        return (file_array){s->form_of, objects, sizeof *s->form_of};
     case FILE_STARTS:
-        return (file_array){s->starts, objects + 1, sizeof *s->starts};
+        return (file_array){s->start_of, objects + 1, sizeof *s->start_of};
     case FILE_CORNERS:
-        return (file_array){s->corners, s->corner_count, sizeof *s->corners};
+        return (file_array){s->vertex_of, s->corner_count, sizeof *s->vertex_of};
     case FILE_RADII:
         return (file_array){s->radii, s->radius_count, sizeof *s->radii};
     case FILE_TAGS:

@@ -128,10 +128,10 @@ static froe_status claim_arrays(opening *o, froe_tree *t) {
     s->dim = (int)o->header->dim;
     s->up = s->dim == 3 ? (int)(o->header->up + 2) % 3 : -1;
     s->coords = section(o, FILE_COORDS, &coords);
-    s->kinds = section(o, FILE_KINDS, &s->object_count);
-    s->forms = section(o, FILE_FORMS, &forms);
-    s->starts = section(o, FILE_STARTS, &starts);
-    s->corners = section(o, FILE_CORNERS, &s->corner_count);
+    s->kind_of = section(o, FILE_KINDS, &s->object_count);
+    s->form_of = section(o, FILE_FORMS, &forms);
+    s->start_of = section(o, FILE_STARTS, &starts);
+    s->vertex_of = section(o, FILE_CORNERS, &s->corner_count);
     s->radii = section(o, FILE_RADII, &s->radius_count);
     s->tags = section(o, FILE_TAGS, &tags);
     s->faces = section(o, FILE_FACES, &faces);

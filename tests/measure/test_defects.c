@@ -227,8 +227,8 @@ static froe_defects brute_force(const froe_scene *s) {
     for (uint32_t i = 0; i < s->object_count; i++) {
         for (uint32_t j = 0; j < i && !duplicate[i]; j++) duplicate[i] = scene_equal(s, i, j);
         d.duplicates += duplicate[i];
-        d.zero_length += s->kinds[i] == FROE_SEGMENT && s->forms[i] == FROE_POINT;
-        d.zero_area += s->kinds[i] == FROE_POLYGON && s->forms[i] != FROE_POLYGON;
+        d.zero_length += scene_kind(s, i) == FROE_SEGMENT && scene_form(s, i) == FROE_POINT;
+        d.zero_area += scene_kind(s, i) == FROE_POLYGON && scene_form(s, i) != FROE_POLYGON;
     }
     for (uint32_t a = 0; a < s->object_count; a++)
         for (uint32_t b = a + 1; b < s->object_count; b++) {

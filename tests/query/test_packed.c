@@ -213,7 +213,7 @@ static uint32_t first_by_force(const froe_scene *s, const double *point, int dir
     mpq_init(here);
     for (uint32_t i = 0; i < s->object_count; i++) {
         packed_ends(s, i, ends);
-        if (s->kinds[i] != FROE_SEGMENT || !oracle_height(ends[0], ends[1], point, direction, here)) continue;
+        if (scene_kind(s, i) != FROE_SEGMENT || !oracle_height(ends[0], ends[1], point, direction, here)) continue;
         if (object == FROE_NONE || mpq_cmp(here, best) * direction < 0) mpq_set(best, here), object = i;
     }
     mpq_clear(best);

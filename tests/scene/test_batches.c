@@ -197,6 +197,18 @@ static void a_struct_that_is_not_from_defaults_is_refused(void **state) {
     froe_scene_free(s);
 }
 
+static void a_struct_from_before_it_had_threads_is_taken(void **state) {
+    (void)state;
+    froe_scene *s = new_scene(2);
+    const double xy[] = {0, 0, 1, 1};
+    froe_objects b = batch_of(FROE_POINT, 2, xy);
+    b.size = offsetof(froe_objects, threads);
+    b.threads = 0xdeadbeef; /* memory of the caller's behind the struct */
+    add(s, b);
+    assert_int_equal(froe_scene_object_count(s), 2);
+    froe_scene_free(s);
+}
+
 static void wrong_arguments_are_refused(void **state) {
     (void)state;
     froe_scene *s = new_scene(2), *deep = new_scene(4);
@@ -457,6 +469,7 @@ int main(void) {
         cmocka_unit_test(indices_and_starts_select_corners),
         cmocka_unit_test(labels_appear_with_the_first_object_that_has_them),
         cmocka_unit_test(a_struct_that_is_not_from_defaults_is_refused),
+        cmocka_unit_test(a_struct_from_before_it_had_threads_is_taken),
         cmocka_unit_test(wrong_arguments_are_refused),
         cmocka_unit_test(offsets_must_ascend_by_enough_corners),
         cmocka_unit_test(more_than_the_limit_is_refused_before_anything_is_read),

@@ -221,10 +221,10 @@ static void *copy(const void *from, size_t size) {
 static froe_scene exact_copy(const froe_scene *s) {
     froe_scene c = *s;
     c.coords = copy(s->coords, (size_t)s->vertex_count * (size_t)s->dim * 8);
-    c.kinds = copy(s->kinds, s->object_count);
-    c.forms = copy(s->forms, s->object_count);
-    c.starts = copy(s->starts, 4 * ((size_t)s->object_count + 1));
-    c.corners = copy(s->corners, 4 * (size_t)s->corner_count);
+    c.kind_of = copy(s->kind_of, s->object_count);
+    c.form_of = copy(s->form_of, s->object_count);
+    c.start_of = copy(s->start_of, 4 * ((size_t)s->object_count + 1));
+    c.vertex_of = copy(s->vertex_of, 4 * (size_t)s->corner_count);
     c.radii = copy(s->radii, 8 * (size_t)s->radius_count);
     c.groups = copy(s->groups, 4 * (size_t)s->object_count);
     c.group_table = copy(s->group_table, sizeof(scene_group) * s->group_count);
@@ -233,7 +233,7 @@ static froe_scene exact_copy(const froe_scene *s) {
 }
 
 static void free_copy(froe_scene *c) {
-    free(c->coords), free(c->kinds), free(c->forms), free(c->starts), free(c->corners);
+    free(c->coords), free(c->kind_of), free(c->form_of), free(c->start_of), free(c->vertex_of);
     free(c->radii), free(c->groups), free(c->group_table), free(c->text);
 }
 
@@ -262,10 +262,10 @@ static void corrupt(froe_scene *c, uint64_t hash) {
         void *data;
         size_t size;
     } arrays[] = {{c->coords, (size_t)c->vertex_count * 24},
-                  {c->kinds, c->object_count},
-                  {c->forms, c->object_count},
-                  {c->starts, 4 * ((size_t)c->object_count + 1)},
-                  {c->corners, 4 * (size_t)c->corner_count},
+                  {c->kind_of, c->object_count},
+                  {c->form_of, c->object_count},
+                  {c->start_of, 4 * ((size_t)c->object_count + 1)},
+                  {c->vertex_of, 4 * (size_t)c->corner_count},
                   {c->radii, 8 * (size_t)c->radius_count},
                   {c->groups, 4 * (size_t)c->object_count},
                   {c->group_table, sizeof(scene_group) * c->group_count},
@@ -314,8 +314,8 @@ static void missing_parts_and_wrong_counts_are_refused(void **state) {
         if (fault == 3) c.vertex_count = 0;
         if (fault == 4) c.corner_count--;
         if (fault == 5) c.text_size--;
-        if (fault == 6) c.kinds = NULL;
-        if (fault == 7) c.starts = NULL;
+        if (fault == 6) c.kind_of = NULL;
+        if (fault == 7) c.start_of = NULL;
         if (fault == 8) c.text_size = 0;
         assert_int_equal(scene_mapped(&c, NULL, &m, NULL), FROE_E_FORMAT);
     }

@@ -131,7 +131,7 @@ static void broken_structure_is_found(void **state) {
         {&t->bounds[ring + 1], 4, 1, "ring entry"},
         {&t->bounds[ring + 1], 4, TREE_EDGE_CUT | leaf, "ring entry"},
         {&t->bounds[ring + 1], 4, TREE_EDGE_CUT | (t->node_count - 1), "ring entry"},
-        {&t->scene->forms[0], 1, FROE_BALL, "wrong kind or form"},
+        {&t->scene->form_of[0], 1, FROE_BALL, "wrong kind or form"},
         {&t->meta.leaf, 4, UINT32_MAX, "description"},
         {&t->meta.promise_count, 4, 13, "description"},
         {&t->piece_count, 4, t->piece_count + 1, "no node uses"},

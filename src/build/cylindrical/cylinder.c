@@ -139,7 +139,7 @@ static split_verdict cut_segment(split_set *set, const split_cylinder_frame *fra
     stretch s = {.fragment = f, .u = scene_corner(scene, f->object, 0), .v = scene_corner(scene, f->object, 1)};
     if (!order_xy(scene_vertex(scene, s.u), scene_vertex(scene, s.v))) return cut_vertex(set, f, cut); /* vertical */
     for (uint32_t i = 0; i < 2; i++) s.end[i] = split_corner_of(set, f, i);
-    s.edge = space ? scene->starts[f->object] : f->object;
+    s.edge = space ? scene_start(scene, f->object) : f->object;
     turn_right(scene, &s);
     froe_cut line = space ? edge_cut(scene, s.edge) : (froe_cut){.kind = FROE_CUT_OBJECT, .id = {f->object}};
     return cut_stretch(set, frame, &s, &line, cut);
@@ -184,7 +184,7 @@ static froe_status is_done(const split_cylinder *c, split_work *work, const spli
 static froe_status own_edge(const split_cylinder *c, split_work *work, const split_cell *cell, const split_fragment *f,
                             uint32_t *at) {
     const split_set *set = &work->set;
-    uint32_t count = split_corner_count(set, f), first = set->scene->starts[f->object], best = FROE_NONE;
+    uint32_t count = split_corner_count(set, f), first = scene_start(set->scene, f->object), best = FROE_NONE;
     double longest = 0;
     *at = FROE_NONE;
     for (uint32_t i = 0; i < count; i++) {
@@ -203,7 +203,7 @@ static split_verdict cut_polygon(const split_cylinder *c, split_work *work, cons
                                  const split_fragment *f, froe_cut *cut) {
     split_set *set = &work->set;
     const froe_scene *scene = set->scene;
-    uint32_t at, edge = scene->starts[f->object];
+    uint32_t at, edge = scene_start(scene, f->object);
     if (own_edge(c, work, cell, f, &at)) return SPLIT_MEMORY;
     if (at != FROE_NONE) {
         /* the edge from the corner, turned so that it runs to the right */

@@ -90,7 +90,7 @@ froe_status build_in_space(build_job *job, double growth, froe_tree **out) {
         space_item *item = w.items.data + w.items.count++;
         scene_bounds_in(s, 3, i, item->lo, item->hi);
         item->object = i;
-        item->corner = space_is_triangle(s, i) ? s->starts[i] : FROE_NONE;
+        item->corner = space_is_triangle(s, i) ? scene_start(s, i) : FROE_NONE;
     }
     for (int k = 0; objects && k < 3; k++) {
         job->meta.root_lo[k] = s->lo[k] + 0.0;

@@ -119,8 +119,8 @@ static void decide_open(pairing *p) {
     for (size_t i = 0; i < count && !p->status; i += 2) {
         if (i % OBJECTS_AHEAD == 0) {
             const size_t end = count - i < OBJECTS_AHEAD ? count : i + OBJECTS_AHEAD;
-            for (size_t j = i; j < end; j++) __builtin_prefetch(s->starts + open[j]);
-            for (size_t j = i; j < end; j++) __builtin_prefetch(s->corners + s->starts[open[j]]);
+            for (size_t j = i; j < end; j++) scene_ask_start(s, open[j]);
+            for (size_t j = i; j < end; j++) scene_ask_corner(s, scene_start(s, open[j]));
             for (size_t j = i; j < end; j++) {
                 __builtin_prefetch(scene_point(s, open[j], 0));
                 __builtin_prefetch(scene_point(s, open[j], scene_corners(s, open[j]) - 1));

@@ -101,7 +101,7 @@ static uint32_t test(froe_query *q, uint32_t block, uint32_t count, const double
     const double *ends[2];
     q->packed->decided += h.count;
     for (uint32_t i = 0; i < h.count; i++) {
-        if (q->tree->scene->kinds[h.candidates[i]] != FROE_SEGMENT) continue; /* points never are sure */
+        if (scene_kind(q->tree->scene, h.candidates[i]) != FROE_SEGMENT) continue; /* points never are sure */
         packed_ends(q->tree->scene, h.candidates[i], ends);
         if (!query_height_at(&q->numbers, ends[0], ends[1], point, direction, &here)) continue;
         int order = object == FROE_NONE ? -1 : query_height_compare(&q->numbers, &here, &best) * direction;

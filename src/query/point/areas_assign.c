@@ -39,7 +39,7 @@ static void assign_first_roles(border_search *v) {
     }
     v->count = 0;
     for (uint32_t i = 0; i < s->object_count; i++) { /* segments of groups without rings are borders for now */
-        if (!roles[i] || s->forms[i] != FROE_SEGMENT) continue;
+        if (!roles[i] || scene_form(s, i) != FROE_SEGMENT) continue;
         if (v->groups[s->groups[i]] == GROUP_UNKNOWN) roles[i] = AREA_BORDER;
         for (uint32_t end = 0; end < 2 && roles[i] == AREA_BORDER; end++)
             v->pairs[v->count++] = (base_pair){(uint64_t)s->groups[i] << 32 | scene_corner(s, i, end), i};

@@ -93,7 +93,7 @@ static void take_list(range_walk *w, const tree_objects *list) {
     for (uint32_t i = 0; i < list->count && !w->memory; i++) {
         const uint32_t object = tree_object(list, i);
         if (query_seen(q, list, i, object)) continue;
-        const bool there = w->tree->scene->forms[object] < FROE_BOX && !tree_is_space(w->tree);
+        const bool there = scene_form(w->tree->scene, object) < FROE_BOX && !tree_is_space(w->tree);
         if (there || query_range_meets(q, object, &w->memory)) query_found(q, object);
         if (w->r->any && q->found.count) return;
     }

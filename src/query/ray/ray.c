@@ -71,7 +71,7 @@ static inline froe_status gather_met(froe_query *q, double t_max, uint32_t kinds
         if (!query_expect(q, list.count)) status = FROE_E_MEMORY;
         for (uint32_t i = 0; i < list.count && more && !status; i++) {
             const uint32_t object = tree_object(&list, i);
-            const bool asked = kinds == UINT32_MAX || kinds >> q->tree->scene->kinds[object] & 1;
+            const bool asked = kinds == UINT32_MAX || kinds >> scene_kind(q->tree->scene, object) & 1;
             if (!asked || query_seen(q, &list, i, object)) continue;
             if (!query_ray_meets(q, &q->ray.ray, object, t_max, &met)) continue;
             if (!array_reserve(&q->alloc, &q->ray.met, 1)) status = FROE_E_MEMORY;

@@ -342,6 +342,7 @@ static split_view_plane plane_across(const split_view *v, const double *normal, 
 }
 
 bool split_view_cut(const split_view *v, const froe_scene *scene, const froe_cut *cut, split_view_plane *out) {
+    uint32_t corners[3];
     switch (cut->kind) {
     case FROE_CUT_AXIS:
         *out = split_view_axis(v, cut->axis, cut->value);
@@ -353,7 +354,8 @@ bool split_view_cut(const split_view *v, const froe_scene *scene, const froe_cut
     case FROE_CUT_EDGE:
         return plane_through(v, scene, cut->id, 2, 0, out);
     case FROE_CUT_OBJECT:
-        return plane_through(v, scene, scene->corners + scene->starts[cut->id[0]], v->dim, 0, out);
+        for (uint32_t i = 0; i < (uint32_t)v->dim; i++) corners[i] = scene_corner(scene, cut->id[0], i);
+        return plane_through(v, scene, corners, v->dim, 0, out);
     default:
         return plane_through(v, scene, cut->id, v->dim, THIN, out);
     }

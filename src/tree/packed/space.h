@@ -42,11 +42,11 @@ typedef struct space_item {
 
 /** Corner c of a triangle. */
 static inline const double *space_corner(const froe_scene *s, const space_item *item, uint32_t c) {
-    return s->coords + 3 * (size_t)s->corners[item->corner + c];
+    return s->coords + 3 * (size_t)scene_corner_vertex(s, item->corner + c);
 }
 /** Prefetches the ids of a triangle's corners; once they are in the cache, the corners. */
 static inline void space_ask(const froe_scene *s, const space_item *item) {
-    if (item->corner != FROE_NONE) __builtin_prefetch(s->corners + item->corner);
+    if (item->corner != FROE_NONE) scene_ask_corner(s, item->corner);
 }
 static inline void space_ask_corners(const froe_scene *s, const space_item *item) {
     for (uint32_t c = 0; item->corner != FROE_NONE && c < 3; c++) {
@@ -77,7 +77,7 @@ static inline bool tree_is_space(const froe_tree *t) {
     return tree_is_packed(t) && t->scene->dim == 3;
 }
 static inline bool space_is_triangle(const froe_scene *s, uint32_t object) {
-    return s->forms[object] == FROE_POLYGON && scene_corners(s, object) == 3;
+    return scene_form(s, object) == FROE_POLYGON && scene_corners(s, object) == 3;
 }
 
 /** Can units hold the coordinates of scenes within these bounds? */

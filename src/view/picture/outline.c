@@ -150,7 +150,7 @@ bool view_outline(view_outliner *o, uint32_t patch, print_ring *points, print_en
         if (!is_drawn(o, object)) continue;
         /* Sides as they turn left, but for those that the patch goes on across. */
         for (uint32_t i = 0; ok && i < n; i++) {
-            const uint32_t edge = s->edge_of[scene->starts[object] + i], *use = s->uses + s->edge_starts[edge];
+            const uint32_t edge = s->edge_of[scene_start(scene, object) + i], *use = s->uses + s->edge_starts[edge];
             const uint32_t a = scene_corner(scene, object, i), b = scene_corner(scene, object, i + 1 < n ? i + 1 : 0);
             const uint32_t from = front ? a : b, to = front ? b : a, side = (uint32_t)o->sides.count;
             if (s->inside[edge] && is_drawn(o, use[0] == object ? use[1] : use[0])) continue;

@@ -18,7 +18,7 @@ static uint32_t entry(const piece_ring *o, uint32_t i) {
 }
 
 static uint32_t edge_of(const view_sightlines *s, uint32_t object, uint32_t side) {
-    return s->surface->edge_of[s->tree->scene->starts[object] + side];
+    return s->surface->edge_of[scene_start(s->tree->scene, object) + side];
 }
 
 /* The way along an entry, the piece on its positive side; `facing` is the side of the eye. For an own edge the ring
@@ -48,7 +48,7 @@ static bool make_ring(view_sightlines *s, uint32_t piece, const piece_ring *o, v
         const uint32_t i = facing > 0 ? j : o->count - 1 - j, i_before = i ? i - 1 : o->count - 1;
         const uint32_t before = entry(o, i_before), after = entry(o, i);
         const bool own = !((before | after) & TREE_EDGE_CUT);
-        if (own && s->surface->straight[s->tree->scene->starts[o->object] + after]) continue;
+        if (own && s->surface->straight[scene_start(s->tree->scene, o->object) + after]) continue;
         view_corner k = {.vertex = own ? scene_corner(s->tree->scene, o->object, after) : FROE_NONE};
         k.way = way_of(s, piece, o->object, facing > 0 ? after : before, facing);
         if (k.way == FROE_NONE) return false;

@@ -111,7 +111,7 @@ static crossing_line line_of_crossing(const froe_visibility *v, uint32_t line, b
 
 froe_status view_look_along_section(froe_visibility *v, uint32_t object) {
     view_sightlines *s = &v->sights;
-    const uint32_t *edges = s->surface->edge_of + s->tree->scene->starts[object];
+    const uint32_t *edges = s->surface->edge_of + scene_start(s->tree->scene, object);
     const froe_scene *scene = s->tree->scene;
     const geom_plane plane = tree_plane_at(s->tree, 0);
     const uint32_t n = scene_corners(scene, object);
@@ -123,7 +123,7 @@ froe_status view_look_along_section(froe_visibility *v, uint32_t object) {
     int count = 0, reached = 0, last = geom_side_vertex(&s->context, &plane, scene_point(scene, object, n - 1));
     for (uint32_t i = 0; i < n; i++) {
         const int side = geom_side_vertex(&s->context, &plane, scene_point(scene, object, i));
-        const uint32_t before = s->surface->edge_of[scene->starts[object] + (i ? i - 1 : n - 1)];
+        const uint32_t before = s->surface->edge_of[scene_start(scene, object) + (i ? i - 1 : n - 1)];
         reached |= side > 0 ? 2 : side < 0 ? 1 : 0;
         if (!side && count < 2) mark[count++] = (view_mark){.vertex = scene_corner(scene, object, i)};
         if (side * last < 0 && count < 2 && view_stop_edge(s, before, FROE_NONE, line, &mark[count++]))

@@ -10,11 +10,11 @@ static uint32_t *take_numbers(const froe_allocator *alloc, size_t count, bool *o
 
 /* Is it a segment, or a point, that was added as one of both? A polygon without area is neither. */
 static bool is_wire(const froe_scene *s, uint32_t object) {
-    return s->kinds[object] == FROE_SEGMENT && scene_form(s, object) == FROE_SEGMENT;
+    return scene_kind(s, object) == FROE_SEGMENT && scene_form(s, object) == FROE_SEGMENT;
 }
 
 static bool is_point(const froe_scene *s, uint32_t object) {
-    return s->kinds[object] <= FROE_SEGMENT && scene_form(s, object) == FROE_POINT;
+    return scene_kind(s, object) <= FROE_SEGMENT && scene_form(s, object) == FROE_POINT;
 }
 
 static void list_wires_and_points(froe_surface *out) {
@@ -32,7 +32,7 @@ static void list_wires_and_points(froe_surface *out) {
 froe_status surface_find_edges(froe_surface *out) {
     const froe_scene *s = out->scene;
     const froe_allocator *alloc = &out->alloc;
-    const uint32_t corners = s->object_count ? s->starts[s->object_count] : 0, most = corners ? corners : 1;
+    const uint32_t corners = s->corner_count, most = corners ? corners : 1;
     base_pair *pairs = support_calloc(alloc, 2 * (size_t)most, sizeof *pairs);
     bool ok = pairs != NULL;
     uint32_t *object_of = take_numbers(alloc, most, &ok);
@@ -43,7 +43,7 @@ froe_status surface_find_edges(froe_surface *out) {
             for (uint32_t i = 0; i < n; i++) { /* lower vertex, higher vertex; the corner that the edge leaves */
                 const uint32_t a = scene_corner(s, o, i), b = scene_corner(s, o, i + 1 < n ? i + 1 : 0);
                 const uint64_t key = (uint64_t)(a < b ? a : b) << 32 | (a < b ? b : a);
-                pairs[out->use_count++] = (base_pair){key, s->starts[o] + i};
+                pairs[out->use_count++] = (base_pair){key, scene_start(s, o) + i};
             }
         }
         base_radix_sort(pairs, pairs + most, out->use_count);
@@ -61,7 +61,7 @@ froe_status surface_find_edges(froe_surface *out) {
     if (ok) {
         for (uint32_t i = 0; i < corners; i++) out->edge_of[i] = FROE_NONE;
         for (uint32_t o = 0; o < s->object_count; o++)
-            for (uint32_t i = s->starts[o]; i < s->starts[o + 1]; i++) object_of[i] = o;
+            for (uint32_t i = scene_start(s, o); i < scene_start(s, o + 1); i++) object_of[i] = o;
         uint32_t edge = 0;
         for (uint32_t i = 0; i < out->use_count; i++) {
             if (i == 0 || pairs[i].key != pairs[i - 1].key) {

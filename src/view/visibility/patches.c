@@ -51,7 +51,7 @@ static void number(froe_surface *s, uint32_t *parent) {
 }
 
 froe_status surface_find_patches(froe_surface *s, num_context *context) {
-    const size_t n = s->scene->object_count, corners = n ? s->scene->starts[n] : 0;
+    const size_t n = s->scene->object_count, corners = s->scene->corner_count;
     uint32_t *parent = support_calloc(&s->alloc, n + 1, sizeof *parent);
     s->patch_of = support_calloc(&s->alloc, n + 1, sizeof *s->patch_of);
     s->patch_starts = support_calloc(&s->alloc, n + 2, sizeof *s->patch_starts);
@@ -81,7 +81,7 @@ froe_status surface_find_patches(froe_surface *s, num_context *context) {
             const double *const p[3] = {scene_point(scene, o, i ? i - 1 : count - 1), scene_point(scene, o, i),
                                         scene_point(scene, o, i + 1 < count ? i + 1 : 0)};
             const geom_plane plane = geom_plane_points(3, p);
-            s->straight[scene->starts[o] + i] = !geom_plane_valid(context, &plane);
+            s->straight[scene_start(scene, o) + i] = !geom_plane_valid(context, &plane);
         }
     }
     support_free(&s->alloc, parent, (n + 1) * sizeof *parent);

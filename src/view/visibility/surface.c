@@ -11,7 +11,7 @@ static void free_words(const froe_surface *s, uint32_t *words, size_t count) {
 void froe_surface_free(froe_surface *s) {
     if (!s) return;
     const froe_allocator alloc = s->alloc;
-    const size_t n = s->scene->object_count, corners = n ? s->scene->starts[n] : 0;
+    const size_t n = s->scene->object_count, corners = s->scene->corner_count;
     free_words(s, s->edge_of, corners);
     free_words(s, s->vertices, 2 * surface_line_count(s));
     free_words(s, s->wires, s->wire_count);
@@ -84,7 +84,7 @@ uint32_t froe_surface_edge_of(const froe_surface *s, uint32_t object, uint32_t c
     if (object >= scene->object_count || scene_form(scene, object) != FROE_POLYGON ||
         corner >= scene_corners(scene, object))
         return FROE_NONE;
-    return s->edge_of[scene->starts[object] + corner];
+    return s->edge_of[scene_start(scene, object) + corner];
 }
 
 size_t froe_surface_wire_count(const froe_surface *s) {
@@ -106,7 +106,7 @@ uint32_t froe_surface_point(const froe_surface *s, uint32_t point) {
 bool surface_ascends(const froe_surface *s, uint32_t object, uint32_t edge) {
     const froe_scene *scene = s->scene;
     for (uint32_t i = 0; i < scene_corners(scene, object); i++)
-        if (s->edge_of[scene->starts[object] + i] == edge)
+        if (s->edge_of[scene_start(scene, object) + i] == edge)
             return scene_corner(scene, object, i) == s->vertices[2 * (size_t)edge];
     return false;
 }
