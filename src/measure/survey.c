@@ -11,7 +11,7 @@ static froe_status list_objects(measure_survey *v) {
     for (uint32_t i = 0; i < s->object_count && !status; i++) { /* candidates take the place of originals */
         const bool original = v->objects[i] == i;
         v->duplicates += !original;
-        if (!original || s->forms[i] != form || s->dim > 3) continue;
+        if (!original || scene_form(s, i) != form || s->dim > 3) continue;
         v->objects[v->count++] = i;
         if (2 * (size_t)scene_corners(s, i) > v->side_count) v->side_count = 2 * (size_t)scene_corners(s, i);
     }
