@@ -1,6 +1,7 @@
 /* batch.c: the same question about many ranges or points, on several threads.
  *
  *     queries   0 .. 255 | 256 .. 511 | ...     chunks, in any order, each with the context of its thread
+ *     found     3 1 4 1 5 | 9 2 6 | ...         by one thread, chunk after chunk: of a single thread, the answers
  *     answers   one after the other, in the order of the queries
  */
 #include "base/floats.h"
@@ -12,12 +13,18 @@
 #include "support/fail.h"
 #include <string.h>
 
-enum { QUERIES_PER_CHUNK = 256 };
+enum { QUERIES_PER_CHUNK = 256, MOST_EXPECTED = 16 };
+
+/* What one thread finds. */
+typedef struct batch_found {
+    query_ids ids;
+    ARRAY(double) values;
+    size_t queries; /* answered */
+} batch_found;
 
 typedef struct batch_chunk {
-    ARRAY(uint32_t) ids;
-    ARRAY(double) values;
-    uint32_t counts[QUERIES_PER_CHUNK];
+    const batch_found *found; /* of the thread that answered it, */
+    size_t first;             /* from here on */
     froe_diagnostic diag;
 } batch_chunk;
 
@@ -47,6 +54,9 @@ struct batch {
     value_fn *value;   /* NULL: answers are ids alone */
     size_t count, chunk_count;
     batch_chunk *chunks;
+    batch_found *found; /* [thread] */
+    batch_found all;    /* gathered */
+    size_t *starts;     /* of answers; from 1 on how many each query has, until they are summed up. NULL: none */
 };
 
 void froe_answers_free(froe_answers *answers) {
@@ -150,14 +160,83 @@ static froe_status check_all(const batch *b, froe_query *q, size_t first, size_t
     return FROE_OK;
 }
 
+/* Makes room for what the thread will find, if its further queries find as much as those before; for a few times as
+ * much as there is, at most. An array that grows bit by bit is copied again and again. */
+static void expect_as_much(const batch *b, const froe_query *q, batch_found *found) {
+    const size_t share = b->count / b->workers.count, left = share > found->queries ? share - found->queries : 0;
+    if (!found->queries || !b->starts) return;
+    const double each = 1.125 * (double)found->ids.count / (double)found->queries;
+    const double most = MOST_EXPECTED * (double)found->ids.count, wanted = each * (double)left;
+    const size_t more = (size_t)(wanted < most ? wanted : most);
+    (void)array_reserve(&q->alloc, &found->ids, more); /* without memory now, there may be enough later */
+    if (b->value) (void)array_reserve(&q->alloc, &found->values, more);
+}
+
+/* Are the ranges windows on a packed tree of the plane? They are answered all at once, too. */
+static bool are_windows(const batch *b, const froe_query *q, size_t first, size_t end) {
+    while (first < end && query_range_is_packed_window(q, b->ranges + first)) first++;
+    return first == end;
+}
+
+/* What the context finds goes to the thread's answers. */
+static froe_status answer_windows(const batch *b, froe_query *q, size_t first, size_t end, batch_found *found,
+                                  froe_diagnostic *diag) {
+    froe_status status = FROE_OK;
+    for (size_t i = first; i < end && !status; i++) {
+        status = query_range_check(b->ranges + i, 2, diag);
+        if (status) diag->object = (uint32_t)i;
+    }
+    for (size_t count; first < end && !status; first += count) {
+        count = found->queries < end - first ? found->queries + 1 : end - first; /* one, two, four ... */
+        if (count > end - first) count = end - first;
+        expect_as_much(b, q, found);
+        const query_ids own = q->found;
+        q->found = found->ids;
+        if (packed_ranges(q, b->ranges + first, count, b->starts + first + 1)) status = support_fail_memory(diag);
+        found->ids = q->found;
+        q->found = own;
+        q->found.count = 0;
+        found->queries += count;
+    }
+    return status;
+}
+
+static froe_status answer_one_by_one(const batch *b, froe_query *q, size_t first, size_t end, batch_found *found,
+                                     froe_diagnostic *diag) {
+    query_leaf leaves[QUERIES_PER_CHUNK];
+    /* The leaves of all points are found together, so that their cache misses overlap. */
+    if (b->ask_in && query_leaf_find_all(q, point_of(b, b->points, first), end - first, leaves))
+        return support_fail_memory(diag);
+    expect_as_much(b, q, found);
+    if (b->ask_in && b->areas) query_areas_ask(b->areas, leaves, end - first);
+    for (size_t i = first; i < end; i++) {
+        froe_status status = b->ask_in ? b->ask_in(b, q, i, leaves + (i - first), diag) : b->ask(b, q, i, diag);
+        const size_t count = q->found.count;
+        if (!status && b->starts) {
+            if (!array_append(&q->alloc, &found->ids, q->found.data, count) ||
+                (b->value && !array_reserve(&q->alloc, &found->values, count)))
+                status = support_fail_memory(diag);
+            for (size_t k = 0; !status && b->value && k < count; k++)
+                found->values.data[found->values.count++] = b->value(q, k);
+            b->starts[i + 1] = count;
+        }
+        if (status) diag->object = (uint32_t)i;
+        if (status) return status;
+        found->queries++;
+    }
+    return FROE_OK;
+}
+
 static froe_status answer_chunk(void *user, unsigned worker, size_t job) {
     const batch *b = user;
     froe_query *q = b->workers.queries[worker];
     batch_chunk *c = b->chunks + job;
+    batch_found *found = b->found + worker;
     const size_t first = job * QUERIES_PER_CHUNK, left = b->count - first;
     const size_t end = first + (left < QUERIES_PER_CHUNK ? left : QUERIES_PER_CHUNK);
     const double *points = b->points ? point_of(b, b->points, first) : NULL;
-    query_leaf leaves[QUERIES_PER_CHUNK];
+    c->found = found;
+    c->first = found->ids.count;
     /* On a packed tree rays are answered all at once: one computes while others wait for memory. */
     const bool upright = b->ask == ask_vertical && q->packed;
     const bool in_space = (b->ask == ask_ray || b->ask == ask_ray_any) && q->space && q->tree->packed.wide;
@@ -168,80 +247,93 @@ static froe_status answer_chunk(void *user, unsigned worker, size_t job) {
                           b->hits ? b->hits + first : NULL, b->objects ? b->objects + first : NULL, &c->diag);
     if (upright) status = packed_vertical(q, points, end - first, b->direction, b->objects + first);
     if (upright) return status ? support_fail_memory(&c->diag) : FROE_OK;
-    /* The leaves of all points are found together, so that their cache misses overlap. */
-    if (b->ask_in && query_leaf_find_all(q, points, end - first, leaves)) return support_fail_memory(&c->diag);
-    if (b->ask_in && b->areas) query_areas_ask(b->areas, leaves, end - first);
-    for (size_t i = first; i < end && !status; i++) {
-        status = b->ask_in ? b->ask_in(b, q, i, leaves + (i - first), &c->diag) : b->ask(b, q, i, &c->diag);
-        const size_t count = q->found.count;
-        if (!status &&
-            !(array_reserve(&q->alloc, &c->ids, count) && (!b->value || array_reserve(&q->alloc, &c->values, count))))
-            status = support_fail_memory(&c->diag);
-        if (status) {
-            c->diag.object = (uint32_t)i;
-            return status;
-        }
-        if (count) memcpy(c->ids.data + c->ids.count, q->found.data, count * sizeof *q->found.data);
-        c->ids.count += count;
-        for (size_t k = 0; b->value && k < count; k++) c->values.data[c->values.count++] = b->value(q, k);
-        c->counts[i - first] = (uint32_t)count;
-    }
-    return status;
+    if (b->ranges && are_windows(b, q, first, end)) return answer_windows(b, q, first, end, found, &c->diag);
+    return answer_one_by_one(b, q, first, end, found, &c->diag);
 }
 
 /* --------------------------------------------------------------- gathering -- */
 
-static froe_status gather_answers(const batch *b, froe_answers *out) {
+/* Room for exactly `count` items, or one: froe_answers_free() gives back no more. */
+static bool fit(const froe_allocator *alloc, void **data, size_t *capacity, size_t count, size_t size) {
+    const size_t room = count ? count : 1;
+    void *fitted = *capacity == room ? *data : support_realloc(alloc, *data, *capacity * size, room * size);
+    if (!fitted) return false;
+    *data = fitted;
+    *capacity = room;
+    return true;
+}
+
+static void free_found(const froe_allocator *alloc, batch_found *found) {
+    array_free(alloc, &found->ids);
+    array_free(alloc, &found->values);
+}
+
+/* Copies what one chunk has found to where it belongs. */
+static froe_status gather_chunk(void *user, unsigned worker, size_t job) {
+    const batch *b = user;
+    const batch_chunk *c = b->chunks + job;
+    const size_t first = job * QUERIES_PER_CHUNK, left = b->count - first, at = b->starts[first];
+    const size_t count = b->starts[first + (left < QUERIES_PER_CHUNK ? left : QUERIES_PER_CHUNK)] - at;
+    (void)worker;
+    if (count) memcpy(b->all.ids.data + at, c->found->ids.data + c->first, count * sizeof(uint32_t));
+    if (count && b->value) memcpy(b->all.values.data + at, c->found->values.data + c->first, count * sizeof(double));
+    return FROE_OK;
+}
+
+static froe_status gather_answers(batch *b, froe_answers *out) {
     const froe_allocator *alloc = &b->query->alloc;
-    froe_answers answers = {.queries = b->count, .alloc = *alloc};
-    size_t total = 0;
-    for (size_t i = 0; i < b->chunk_count; i++) total += b->chunks[i].ids.count;
-    answers.starts = support_calloc(alloc, b->count + 1, sizeof *answers.starts);
-    if (!answers.starts) return FROE_E_MEMORY;
-    answers.ids = support_calloc(alloc, total ? total : 1, sizeof *answers.ids);
-    if (b->value) answers.values = support_calloc(alloc, total ? total : 1, sizeof *answers.values);
-    if (!answers.ids || (b->value && !answers.values)) {
-        support_free(alloc, answers.starts, (b->count + 1) * sizeof *answers.starts);
-        support_free(alloc, answers.ids, (total ? total : 1) * sizeof *answers.ids);
-        support_free(alloc, answers.values, (total ? total : 1) * sizeof *answers.values);
+    for (size_t i = 0; i < b->count; i++) b->starts[i + 1] += b->starts[i];
+    const size_t total = b->starts[b->count];
+    batch_found *all = b->found[0].ids.count == total ? &b->found[0] : &b->all;
+    if (!fit(alloc, (void **)&all->ids.data, &all->ids.capacity, total, sizeof(uint32_t)) ||
+        (b->value && !fit(alloc, (void **)&all->values.data, &all->values.capacity, total, sizeof(double))))
         return FROE_E_MEMORY;
-    }
-    for (size_t i = 0, at = 0; i < b->chunk_count; i++) {
-        const batch_chunk *c = b->chunks + i;
-        if (c->ids.count) memcpy(answers.ids + at, c->ids.data, c->ids.count * sizeof *answers.ids);
-        if (c->values.count) memcpy(answers.values + at, c->values.data, c->values.count * sizeof *answers.values);
-        at += c->ids.count;
-    }
-    for (size_t i = 0; i < b->count; i++)
-        answers.starts[i + 1] = answers.starts[i] + b->chunks[i / QUERIES_PER_CHUNK].counts[i % QUERIES_PER_CHUNK];
-    *out = answers;
+    const froe_status status =
+        all == &b->all ? base_run(&b->workers.task, 0, b->chunk_count, gather_chunk, b) : FROE_OK;
+    if (status) return status;
+    *out = (froe_answers){b->starts, all->ids.data, all->values.data, b->count, *alloc};
+    *all = (batch_found){0};
+    b->starts = NULL;
     return FROE_OK;
 }
 
 /* ----------------------------------------------------------------- running -- */
 
+/* The first query that failed says why. */
+static void explain_failure(const batch *b, froe_status status, froe_diagnostic *diag) {
+    size_t i = 0;
+    while (i < b->chunk_count && b->chunks[i].diag.status != status) i++;
+    if (i == b->chunk_count)
+        status == FROE_E_CANCELLED ? support_fail_cancelled(diag) : support_fail_memory(diag);
+    else if (diag)
+        *diag = b->chunks[i].diag;
+}
+
+static froe_status ask_all(batch *b, const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag) {
+    const froe_allocator *alloc = &b->query->alloc;
+    froe_status status = query_workers_take(b->query, options, b->chunk_count, &b->workers, diag);
+    if (status) return status;
+    b->found = support_calloc(alloc, b->workers.count, sizeof *b->found);
+    b->chunks = support_calloc(alloc, b->chunk_count, sizeof *b->chunks);
+    if (out) b->starts = support_calloc(alloc, b->count + 1, sizeof *b->starts);
+    if (!b->found || !b->chunks || (out && !b->starts)) return support_fail_memory(diag);
+    status = base_run(&b->workers.task, 1, b->chunk_count, answer_chunk, b);
+    if (!status && out) status = gather_answers(b, out);
+    if (status) explain_failure(b, status, diag);
+    return status;
+}
+
 static froe_status run_batch(batch *b, const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag) {
     const froe_allocator *alloc = &b->query->alloc;
     if (b->count > UINT32_MAX - 1) return support_fail(diag, FROE_E_LIMIT, "A batch has at most 2^32 - 2 queries.");
     b->chunk_count = (b->count + QUERIES_PER_CHUNK - 1) / QUERIES_PER_CHUNK;
-    b->chunks = support_calloc(alloc, b->chunk_count, sizeof *b->chunks);
-    if (!b->chunks) return support_fail_memory(diag);
-    froe_status status = query_workers_take(b->query, options, b->chunk_count, &b->workers, diag);
-    if (!status && (status = base_run(&b->workers.task, 1, b->chunk_count, answer_chunk, b))) {
-        size_t i = 0; /* the first query that failed with this status says why */
-        while (i < b->chunk_count && b->chunks[i].diag.status != status) i++;
-        if (i == b->chunk_count)
-            status == FROE_E_CANCELLED ? support_fail_cancelled(diag) : support_fail_memory(diag);
-        else if (diag)
-            *diag = b->chunks[i].diag;
-    }
-    if (!status && out && (status = gather_answers(b, out))) support_fail_memory(diag);
-    query_workers_give(&b->workers);
-    for (size_t i = 0; i < b->chunk_count; i++) {
-        array_free(alloc, &b->chunks[i].ids);
-        array_free(alloc, &b->chunks[i].values);
-    }
+    const froe_status status = ask_all(b, options, out, diag);
+    for (unsigned i = 0; b->found && i < b->workers.count; i++) free_found(alloc, b->found + i);
+    free_found(alloc, &b->all);
+    support_free(alloc, b->found, b->workers.count * sizeof *b->found);
     support_free(alloc, b->chunks, b->chunk_count * sizeof *b->chunks);
+    support_free(alloc, b->starts, (b->count + 1) * sizeof *b->starts);
+    query_workers_give(&b->workers);
     return status;
 }
 

@@ -41,6 +41,8 @@ typedef struct query_shared {
     _Atomic(query_part *) parts[QUERY_PARTS];
 } query_shared;
 
+typedef ARRAY(uint32_t) query_ids;
+
 struct froe_query {
     const froe_tree *tree;
     froe_allocator alloc;
@@ -55,8 +57,8 @@ struct froe_query {
     struct space_work *space;   /**< packed trees of space only (query/packed/space.h) */
     struct {
         query_members inside, touched;
-    } groups;              /**< of a point, while it is looked for (query/point/areas.h) */
-    ARRAY(uint32_t) found; /**< objects reported by the query in progress, or by the last one */
+    } groups;        /**< of a point, while it is looked for (query/point/areas.h) */
+    query_ids found; /**< objects reported by the query in progress, or by the last one */
 };
 
 /** Makes one; *out has what was taken also on failure, for query_part's free (which must bear that). */

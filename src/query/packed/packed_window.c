@@ -12,6 +12,14 @@
 #include <string.h>
 
 enum { ALL_OPEN = 15, MOST_STARTS = 9 };
+enum { VISITS_AHEAD = 24 };                 /* visits whose blocks are on their way from memory */
+enum { FLOCK = 8, FLOCK_VISITS = 48 };      /* windows of which all visits are found before the first is made; visits */
+enum { NODES_AHEAD = 8, TABLE_AHEAD = 16 }; /* windows */
+
+/* Cells of the table. */
+typedef struct packed_span {
+    uint32_t from[2], to[2]; /* both included */
+} packed_span;
 
 /* ----------------------------------------------------------------- context -- */
 
@@ -49,19 +57,32 @@ static const packed_header *block_at(const froe_tree *t, uint32_t block) {
     return (const packed_header *)(const void *)(t->packed.blocks + (size_t)block * PACKED_BLOCK);
 }
 
+/* gcc drops calls of functions that do nothing but prefetch. */
+__attribute__((always_inline)) static inline void ask_visit(const froe_tree *t, const packed_visit *v) {
+    const uint8_t *bytes = t->packed.blocks + (size_t)v->block * PACKED_BLOCK;
+    if (v->end) __builtin_prefetch(block_at(t, v->end));
+    for (uint32_t at = 0; at < 32 + 12 * v->count; at += 64) __builtin_prefetch(bytes + at);
+}
+
+static void forget_visits(packed_work *work) {
+    work->visits.count = work->unsure.count = 0;
+}
+
+/* False without memory. */
+static bool add_visit(froe_query *q, packed_visit visit) {
+    packed_work *work = q->packed;
+    if (work->visits.count < VISITS_AHEAD) ask_visit(q->tree, &visit);
+    return array_push(&q->alloc, &work->visits, visit);
+}
+
 static bool visit_leaf(froe_query *q, uint32_t block, uint32_t count) {
-    const packed_visit visit = {block, 0, count};
-    if (!count) return true;
-    const uint8_t *bytes = q->tree->packed.blocks + (size_t)block * PACKED_BLOCK;
-    for (uint32_t at = 0; at < 32 + 12 * count; at += 64) __builtin_prefetch(bytes + at);
-    return array_push(&q->alloc, &q->packed->visits, visit);
+    return !count || add_visit(q, (packed_visit){block, 0, count});
 }
 
 /* All leaves below a node whose closed cells meet the window. False without memory. */
 static bool walk_window(froe_query *q, const packed_window *w, uint32_t node, uint32_t open) {
     const tree_node *nodes = q->tree->nodes;
-    packed_work *work = q->packed;
-    packed_waiting *stack = work->stack.data, *top = stack;
+    packed_waiting *stack = q->packed->stack.data, *top = stack;
     *top++ = (packed_waiting){node, open};
     while (top > stack) {
         packed_waiting at = *--top;
@@ -79,10 +100,7 @@ static bool walk_window(froe_query *q, const packed_window *w, uint32_t node, ui
             const tree_node *last = n = nodes + at.node;
             while (!tree_is_leaf(n)) n = nodes + n->child;
             while (!tree_is_leaf(last)) last = nodes + last->child + 1;
-            const packed_visit visit = {n->child, last->child + packed_size(last->u.list.count), 0};
-            __builtin_prefetch(block_at(q->tree, visit.block));
-            __builtin_prefetch(block_at(q->tree, visit.end));
-            if (!array_push(&q->alloc, &work->visits, visit)) return false;
+            if (!add_visit(q, (packed_visit){n->child, last->child + packed_size(last->u.list.count), 0})) return false;
         } else if (!visit_leaf(q, n->child, n->u.list.count)) {
             return false;
         }
@@ -90,16 +108,20 @@ static bool walk_window(froe_query *q, const packed_window *w, uint32_t node, ui
     return true;
 }
 
+/* Columns and rows of the table that a window reaches. False: it has to begin at the root. */
+static inline bool find_span(const tree_table *table, const packed_window *w, packed_span *out) {
+    if (!table) return false;
+    for (int k = 0; k < 2; k++) tree_table_span(table, k, w->lo[k], w->hi[k], &out->from[k], &out->to[k]);
+    return (uint64_t)(out->to[0] - out->from[0] + 1) * (out->to[1] - out->from[1] + 1) <= MOST_STARTS;
+}
+
 /* Entries of the table that cover the window, each once; 0: it has to begin at the root. */
-static uint32_t find_starts(const tree_table *table, const packed_window *w, tree_entry starts[MOST_STARTS]) {
-    uint32_t from[2], to[2], count = 0, ragged = 0;
-    if (!table) return 0;
-    for (int k = 0; k < 2; k++) tree_table_span(table, k, w->lo[k], w->hi[k], &from[k], &to[k]);
-    if ((uint64_t)(to[0] - from[0] + 1) * (to[1] - from[1] + 1) > MOST_STARTS) return 0;
+static uint32_t find_starts(const tree_table *table, const packed_span *s, tree_entry starts[MOST_STARTS]) {
+    uint32_t count = 0, ragged = 0;
     for (int k = 0; k < 2; k++)
-        for (uint32_t line = from[k] + 1; line <= to[k]; line++) ragged |= table->crooked[k][line];
-    for (uint32_t i = from[0]; i <= to[0]; i++)
-        for (uint32_t j = from[1]; j <= to[1]; j++) {
+        for (uint32_t line = s->from[k] + 1; line <= s->to[k]; line++) ragged |= table->crooked[k][line];
+    for (uint32_t i = s->from[0]; i <= s->to[0]; i++)
+        for (uint32_t j = s->from[1]; j <= s->to[1]; j++) {
             tree_entry entry = tree_table_at(table, i, j);
             uint32_t k = 0;
             ragged |= entry.kind == TABLE_RAGGED;
@@ -109,26 +131,33 @@ static uint32_t find_starts(const tree_table *table, const packed_window *w, tre
     return ragged && count > 1 ? 0 : count;
 }
 
-/* Fills visits. */
-static froe_status collect(froe_query *q, const packed_window *w) {
+/* Adds the visits of a window. Its span NULL: it begins at the root. False without memory. */
+static bool collect(froe_query *q, const packed_window *w, const packed_span *span) {
     tree_entry starts[MOST_STARTS];
     const tree_meta *m = &q->tree->meta;
     uint32_t count, open = 0;
-    q->packed->visits.count = q->packed->unsure.count = 0;
     for (int k = 0; k < 2; k++) { /* sides of the window that are beyond the root box are not open */
-        if (w->lo[k] > m->root_hi[k] || w->hi[k] < m->root_lo[k]) return FROE_OK;
+        if (w->lo[k] > m->root_hi[k] || w->hi[k] < m->root_lo[k]) return true;
         if (w->lo[k] > m->root_lo[k]) open |= 1u << (2 * k);
         if (w->hi[k] < m->root_hi[k]) open |= 2u << (2 * k);
     }
-    count = find_starts(q->tree->packed.table, w, starts);
-    if (!count) return walk_window(q, w, 0, open) ? FROE_OK : FROE_E_MEMORY;
+    count = span ? find_starts(q->tree->packed.table, span, starts) : 0;
+    if (!count) return walk_window(q, w, 0, open);
     for (uint32_t i = 0; i < count; i++) {
         bool leaf = starts[i].kind & TABLE_LEAF;
         if (!(leaf ? visit_leaf(q, starts[i].at, starts[i].kind & ~TABLE_LEAF)
                    : walk_window(q, w, starts[i].at, ALL_OPEN)))
-            return FROE_E_MEMORY;
+            return false;
     }
-    return FROE_OK;
+    return true;
+}
+
+/* The visits of one window alone. */
+static bool collect_alone(froe_query *q, const packed_window *w) {
+    packed_span span;
+    forget_visits(q->packed);
+    q->found.count = 0;
+    return collect(q, w, find_span(q->tree->packed.table, w, &span) ? &span : NULL);
 }
 
 /* ------------------------------------------------------------------ answers -- */
@@ -206,42 +235,105 @@ static packed_window window_of(const double *lo, const double *hi) {
     return (packed_window){{lo[0], lo[1]}, {hi[0], hi[1]}};
 }
 
+/* Visit i, whose blocks have been prefetched, while those of a later one are. */
+static inline const packed_visit *make_visit(froe_query *q, size_t i) {
+    const packed_work *work = q->packed;
+    if (i + VISITS_AHEAD < work->visits.count) ask_visit(q->tree, work->visits.data + i + VISITS_AHEAD);
+    return work->visits.data + i;
+}
+
+/* Appends the answers of visits `from` .. `to` - 1 to query->found. False without memory. */
+static bool answer_visits(froe_query *q, size_t from, size_t to, const packed_window *w) {
+    for (size_t i = from; i < to; i++)
+        if (!answer_window(q, make_visit(q, i), w)) return false;
+    return settle_unsure(q, w);
+}
+
 froe_status packed_range(froe_query *q, const double *lo, const double *hi) {
-    packed_window w = window_of(lo, hi);
-    froe_status status = collect(q, &w);
-    q->found.count = 0;
-    for (size_t i = 0; i < q->packed->visits.count && !status; i++)
-        if (!answer_window(q, q->packed->visits.data + i, &w)) status = FROE_E_MEMORY;
-    return status || settle_unsure(q, &w) ? status : FROE_E_MEMORY;
+    const packed_window w = window_of(lo, hi);
+    return collect_alone(q, &w) && answer_visits(q, 0, q->packed->visits.count, &w) ? FROE_OK : FROE_E_MEMORY;
 }
 
 froe_status packed_count_range(froe_query *q, const double *lo, const double *hi, uint64_t *out) {
-    packed_window w = window_of(lo, hi);
-    froe_status status = collect(q, &w);
+    const packed_window w = window_of(lo, hi);
+    bool memory = collect_alone(q, &w);
     uint64_t sum = 0;
-    q->found.count = 0;
-    for (size_t i = 0; i < q->packed->visits.count && !status; i++) {
-        const packed_visit *v = q->packed->visits.data + i;
+    for (size_t i = 0; i < q->packed->visits.count && memory; i++) {
+        const packed_visit *v = make_visit(q, i);
         if (v->end)
             sum += block_at(q->tree, v->end)->owner - block_at(q->tree, v->block)->owner, q->stats.slices++;
-        else if (!answer_window(q, v, &w))
-            status = FROE_E_MEMORY;
+        else
+            memory = answer_window(q, v, &w);
         sum += q->found.count;
         q->found.count = 0;
     }
-    if (!status && !settle_unsure(q, &w)) status = FROE_E_MEMORY;
+    memory = memory && settle_unsure(q, &w);
     sum += q->found.count;
     q->found.count = 0;
-    if (!status) *out = sum;
-    return status;
+    if (memory) *out = sum;
+    return memory ? FROE_OK : FROE_E_MEMORY;
 }
 
 froe_status packed_any(froe_query *q, const double *lo, const double *hi) {
-    packed_window w = window_of(lo, hi);
-    froe_status status = collect(q, &w);
-    q->found.count = 0;
-    for (size_t i = 0; i < q->packed->visits.count && !status && !q->found.count; i++) {
-        if (!answer_window(q, q->packed->visits.data + i, &w) || !settle_unsure(q, &w)) status = FROE_E_MEMORY;
+    const packed_window w = window_of(lo, hi);
+    bool memory = collect_alone(q, &w);
+    for (size_t i = 0; i < q->packed->visits.count && memory && !q->found.count; i++)
+        memory = answer_window(q, make_visit(q, i), &w) && settle_unsure(q, &w);
+    return memory ? FROE_OK : FROE_E_MEMORY;
+}
+
+/* ------------------------------------------------------------------- flocks -- */
+
+/* A window of a batch: its entries in the table are asked for first, then the nodes that these name, then blocks. */
+typedef struct flying {
+    packed_window window;
+    packed_span span;
+    bool spans;
+    size_t end; /* of its visits */
+} flying;
+
+__attribute__((always_inline)) static inline flying launch(const froe_tree *t, const double *corners) {
+    const tree_table *table = t->packed.table;
+    flying f = {.window = window_of(corners, corners + 2)};
+    f.spans = find_span(table, &f.window, &f.span);
+    for (uint32_t i = f.span.from[0]; f.spans && i <= f.span.to[0]; i++)
+        __builtin_prefetch(table->entries + (size_t)i * table->cells[1] + f.span.from[1]);
+    return f;
+}
+
+/* Prefetches nodes of the first and last entry: of most windows, of all. */
+__attribute__((always_inline)) static inline void ask_nodes(const froe_tree *t, const flying *f) {
+    if (!f->spans) return;
+    const tree_entry first = tree_table_at(t->packed.table, f->span.from[0], f->span.from[1]);
+    const tree_entry last = tree_table_at(t->packed.table, f->span.to[0], f->span.to[1]);
+    if (!(first.kind & TABLE_LEAF)) __builtin_prefetch(t->nodes + first.at);
+    if (!(last.kind & TABLE_LEAF)) __builtin_prefetch(t->nodes + last.at);
+}
+
+froe_status packed_ranges(froe_query *q, const froe_range *ranges, size_t count, size_t *counts) {
+    packed_work *work = q->packed;
+    flying flock[3 * FLOCK];
+    size_t launched = 0, asked = 0, collected = 0, done = 0;
+    q->stats.queries += count;
+    while (done < count) {
+        forget_visits(work);
+        while (collected < count && collected - done < FLOCK && work->visits.count < FLOCK_VISITS) {
+            for (; launched < count && launched <= collected + TABLE_AHEAD; launched++)
+                flock[launched % (3 * FLOCK)] = launch(q->tree, ranges[launched].points);
+            for (; asked < count && asked <= collected + NODES_AHEAD; asked++)
+                ask_nodes(q->tree, flock + asked % (3 * FLOCK));
+            flying *f = flock + collected % (3 * FLOCK);
+            if (!collect(q, &f->window, f->spans ? &f->span : NULL)) return FROE_E_MEMORY;
+            f->end = work->visits.count;
+            collected++;
+        }
+        for (size_t from = 0; done < collected; done++) {
+            const flying *f = flock + done % (3 * FLOCK);
+            const size_t before = q->found.count;
+            if (!answer_visits(q, from, f->end, &f->window)) return FROE_E_MEMORY;
+            counts[done] = q->found.count - before;
+            from = f->end;
+        }
     }
-    return status;
+    return FROE_OK;
 }

@@ -10,11 +10,13 @@ static bool is_window(const froe_range *range) {
     return range->size == sizeof *range && range->shape == FROE_SHAPE_BOX && range->eps == 0 &&
            range->walk == FROE_WALK_AUTO;
 }
-static bool is_packed_window(const froe_query *q, const froe_range *range) {
+bool query_range_is_packed_window(const froe_query *q, const froe_range *range) {
     return q->packed && is_window(range);
 }
 froe_status query_range_ask(froe_query *q, const froe_range *range, bool any, froe_diagnostic *diag) {
-    const int dim = is_packed_window(q, range) ? 2 : q->space && q->tree->packed.wide && is_window(range) ? 3 : 0;
+    const int dim = query_range_is_packed_window(q, range)                 ? 2
+                    : q->space && q->tree->packed.wide && is_window(range) ? 3
+                                                                           : 0;
     froe_status status = dim ? query_range_check(range, dim, diag) : query_range_take(q, range, diag);
     if (status) return status;
     if (dim) { /* a window on a packed tree */
@@ -42,7 +44,7 @@ froe_status froe_query_range(froe_query *query, const froe_range *range, froe_li
 froe_status froe_query_count(froe_query *query, const froe_range *range, uint64_t *out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!query || !range || !out) return support_fail_null(diag, __func__);
-    if (!is_packed_window(query, range)) {
+    if (!query_range_is_packed_window(query, range)) {
         const froe_status status = query_range_ask(query, range, false, diag);
         if (!status) *out = query->found.count;
         return status;
