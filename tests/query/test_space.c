@@ -44,6 +44,7 @@ static froe_tree *tree_of(const kind_of_scene *k) {
         }
         assert_int_equal(trees_add(scene, FROE_POLYGON, 1, c, NULL, NULL), FROE_OK);
         for (int j = 0; j < 3; j++) lo[j] = fmin(c[j], c[3 + j]), hi[j] = fmax(c[j], c[3 + j]);
+        if (i % 10 == 1) assert_int_equal(trees_add(scene, FROE_POLYGON, 1, c, NULL, NULL), FROE_OK); /* once more */
         const double box[6] = {lo[0], lo[1], lo[2], hi[0], hi[1], hi[2]};
         if (i % 10 == 3) assert_int_equal(trees_add(scene, FROE_BOX, 1, box, NULL, NULL), FROE_OK);
         froe_objects ball = froe_objects_defaults();
@@ -115,32 +116,65 @@ static void check_window(froe_query *q, froe_query *reference, uint64_t draw, co
     assert_int_equal(count, wanted_count);
 }
 
-/* Through corners, along axes and nearly so, from far away, in the planes of triangles. */
+/* Through a corner or the middle of an edge of an object, along an edge, or in its plane. */
+static void aim_at_object(const froe_tree *t, uint64_t draw, double o[3], double d[3]) {
+    const froe_scene *s = t->scene;
+    const uint32_t object = trees_random(16, draw, s->object_count), corners = scene_corners(s, object);
+    const double *p = scene_point(s, object, 0),
+                 *q = scene_point(s, object, corners > 1 && s->forms[object] != FROE_BALL);
+    for (int k = 0; k < 3; k++) {
+        if (draw % 3 == 1) d[k] = 0.5 * (p[k] + q[k]) - o[k];
+        if (draw % 3 == 2) d[k] = q[k] - p[k], o[k] = p[k] - (draw % 2 ? 2 : 0) * d[k];
+        if (draw % 3 == 0) d[k] = q[k] - o[k];
+    }
+}
+
+/* Through corners, along axes and nearly so, from far away, in the planes of triangles, in long and in short steps. */
 static void odd_ray(const froe_tree *t, uint64_t draw, double o[3], double d[3]) {
     double to[3];
     odd_point(t, 1000 + 2 * draw, o);
     odd_point(t, 1001 + 2 * draw, to);
     for (int k = 0; k < 3; k++) d[k] = to[k] - o[k];
+    if (draw % 4 == 3) aim_at_object(t, draw / 4, o, d);
     if (draw % 5 == 1) d[draw % 3] = 0;
     if (draw % 7 == 1) d[draw % 3] *= 0x1p-70;
     if (d[0] == 0 && d[1] == 0 && d[2] == 0) d[2] = t->meta.root_hi[2] - t->meta.root_lo[2];
     if (d[2] == 0 && d[0] == 0 && d[1] == 0) d[2] = 1;
     if (draw % 9 == 2)
         for (int k = 0; k < 3; k++) o[k] -= (draw % 2 ? 100 : 0x1p30) * d[k];
+    const double most = fmax(fabs(d[0]), fmax(fabs(d[1]), fabs(d[2])));
+    const double step = draw % 16 == 5 ? 1e300 / most : draw % 16 == 6 ? 0x1p-1060 / most : 1; /* the last: denormal */
+    for (int k = 0; k < 3; k++) d[k] *= isfinite(step) ? step : 1;
+    if (d[0] == 0 && d[1] == 0 && d[2] == 0) d[2] = 1;
 }
 
-static void check_ray(froe_query *q, froe_query *reference, uint64_t draw, const char *name) {
-    double o[3], d[3];
+static void check_ray_until(froe_query *q, froe_query *reference, const double *o, const double *d, double t_max,
+                            const char *name, uint64_t draw) {
     froe_hit hit, wanted;
     uint32_t any;
-    odd_ray(q->tree, draw, o, d);
-    assert_int_equal(froe_query_ray(reference, o, d, INFINITY, &wanted, NULL), FROE_OK);
-    assert_int_equal(froe_query_ray(q, o, d, INFINITY, &hit, NULL), FROE_OK);
+    query_met met;
+    assert_int_equal(froe_query_ray(reference, o, d, t_max, &wanted, NULL), FROE_OK);
+    assert_int_equal(froe_query_ray(q, o, d, t_max, &hit, NULL), FROE_OK);
     if (hit.object != wanted.object || hit.t != wanted.t)
-        fail_msg("%s, ray %d: object %u at %a, not %u at %a", name, (int)draw, hit.object, hit.t, wanted.object,
-                 wanted.t);
-    assert_int_equal(froe_query_ray_any(q, o, d, INFINITY, &any, NULL), FROE_OK);
-    assert_int_equal(any == FROE_NONE, wanted.object == FROE_NONE);
+        fail_msg("%s, ray %d up to %a: object %u at %a, not %u at %a", name, (int)draw, t_max, hit.object, hit.t,
+                 wanted.object, wanted.t);
+    assert_int_equal(froe_query_ray_any(q, o, d, t_max, &any, NULL), FROE_OK);
+    const bool met_any = any != FROE_NONE && query_ray_meets(reference, &reference->ray.ray, any, t_max, &met);
+    if (met_any != (wanted.object != FROE_NONE) || met_any != (any != FROE_NONE))
+        fail_msg("%s, ray %d up to %a: object %u is not any", name, (int)draw, t_max, any);
+}
+
+/* Up to infinity, to the first hit, to just before it, and to just beyond it. */
+static void check_ray(froe_query *q, froe_query *reference, uint64_t draw, const char *name) {
+    double o[3], d[3];
+    froe_hit hit;
+    odd_ray(q->tree, draw, o, d);
+    check_ray_until(q, reference, o, d, INFINITY, name, draw);
+    assert_int_equal(froe_query_ray(reference, o, d, INFINITY, &hit, NULL), FROE_OK);
+    if (hit.object == FROE_NONE) return;
+    check_ray_until(q, reference, o, d, hit.t, name, draw);
+    check_ray_until(q, reference, o, d, nextafter(hit.t, -1) > 0 ? nextafter(hit.t, -1) : 0, name, draw);
+    check_ray_until(q, reference, o, d, hit.t * (1 + 0x1p-18), name, draw);
 }
 
 static void check_near(froe_query *q, froe_query *reference, uint64_t draw, const char *name) {
@@ -263,6 +297,7 @@ static void assert_same(const space_found *a, const space_found *b) {
     assert_true(a->least == b->least);
     assert_memory_equal(a->objects, b->objects, a->count * sizeof *a->objects);
     assert_memory_equal(a->keys, b->keys, a->count * sizeof *a->keys);
+    assert_memory_equal(a->ends, b->ends, a->count * sizeof *a->ends);
 }
 
 /* Bit for bit. */
@@ -271,7 +306,7 @@ static void kernels_agree(void **state) {
     const tree_wide *wide = t->packed.wide;
     const space_kernels *first = space_kernels_at(0), *other;
     uint32_t room = (uint32_t)t->report.max_leaf + PACKED_LANES, objects[2][512];
-    float keys[2][512], near[2][PACKED_LANES];
+    float keys[2][512], ends[2][512], near[2][PACKED_LANES];
     froe_query *q;
     (void)state;
     assert_true(room <= 512);
@@ -283,7 +318,7 @@ static void kernels_agree(void **state) {
             odd_point(t, 2 * draw + 1, q->ray.ray.d);
             memcpy(q->near.point, q->ray.ray.o, sizeof(double[3]));
             q->near.scale = 1;
-            assert_int_equal(space_walk_ray(q, &q->space->walk, &q->ray.ray, &begun), FROE_OK);
+            assert_int_equal(space_walk_ray(q, &q->space->walk, &q->ray.ray, INFINITY, SPACE_ALL, &begun), FROE_OK);
             assert_true(begun);
             assert_int_equal(space_walk_near(q, &q->space->walk, &begun), FROE_OK);
             assert_true(begun);
@@ -299,7 +334,8 @@ static void kernels_agree(void **state) {
             for (uint32_t n = 0; n < t->node_count; n++) {
                 if (!tree_is_leaf(t->nodes + n)) continue;
                 const space_header *h = space_block(t, t->nodes[n].child);
-                space_found a = {objects[0], keys[0], 0, INFINITY}, b = {objects[1], keys[1], 0, INFINITY};
+                space_found a = {objects[0], keys[0], ends[0], 0, INFINITY},
+                            b = {objects[1], keys[1], ends[1], 0, INFINITY};
                 first->ray(h, &q->space->walk.ray, 0, INFINITY, &a);
                 other->ray(h, &q->space->walk.ray, 0, INFINITY, &b);
                 assert_same(&a, &b);
@@ -311,6 +347,61 @@ static void kernels_agree(void **state) {
         }
     froe_query_free(q);
     froe_tree_free(t);
+}
+
+/* A parameter up to or from a key. */
+static double parameter_of_key(const space_walk *w, float key, double rounding) {
+    return (w->ray.start + (double)key) * (1 + rounding) / w->per;
+}
+
+/* Every object of a block that a ray meets is found, not after its key; what is sure is met, and not after its end. */
+static void check_block(froe_query *q, const space_kernels *kernels, const space_header *h, uint64_t *sure) {
+    const space_walk *w = &q->space->walk;
+    uint32_t objects[512];
+    float keys[512], ends[512];
+    space_found found = {objects, keys, ends, 0, INFINITY};
+    kernels->ray(h, &w->ray, 0, INFINITY, &found);
+    for (uint32_t i = 0; i < h->count; i++) {
+        const uint32_t object = space_ids(h)[i] & PACKED_OBJECT;
+        query_met met;
+        const bool meets = query_ray_meets(q, &q->ray.ray, object, INFINITY, &met);
+        size_t at = 0;
+        while (at < found.count && objects[at] != object) at++;
+        if (at == found.count) {
+            assert_false(meets && i < h->triangles); /* of the rest, only parts in the cell are there */
+            continue;
+        }
+        const double from = parameter_of_key(w, keys[at], -0x1p-45), to = parameter_of_key(w, ends[at], 0x1p-45);
+        if (meets && i < h->triangles) assert_true(geom_hit_compare_to(&q->numbers, &q->ray.ray, &met.hit, from) >= 0);
+        if (!isfinite(ends[at])) continue;
+        assert_true(meets);
+        assert_true(geom_hit_compare_to(&q->numbers, &q->ray.ray, &met.hit, to) <= 0);
+        ++*sure;
+    }
+}
+
+static void kernels_are_sure_only_of_what_is_met(void **state) {
+    (void)state;
+    for (int i = 0; i < KINDS; i++) {
+        froe_tree *t = tree_of(kinds + i);
+        froe_query *q;
+        bool begun = true;
+        uint64_t sure = 0;
+        assert_int_equal(froe_query_new(t, &q, NULL), FROE_OK);
+        for (uint64_t draw = 0; draw < 60 && t->packed.wide; draw++) {
+            q->ray.ray = (geom_ray){.dim = 3};
+            odd_ray(t, draw, q->ray.ray.o, q->ray.ray.d);
+            assert_int_equal(space_walk_ray(q, &q->space->walk, &q->ray.ray, INFINITY, SPACE_ALL, &begun), FROE_OK);
+            for (uint32_t n = 0; begun && n < t->node_count; n++)
+                if (tree_is_leaf(t->nodes + n))
+                    check_block(q, space_kernels_at(space_kernels_at(1) ? draw % 2 : 0),
+                                space_block(t, t->nodes[n].child), &sure);
+        }
+        assert_true(sure > 0 || kinds[i].count == 1 || !t->packed.wide || kinds[i].scale < 0x1p-100 ||
+                    kinds[i].shift != 0);
+        froe_query_free(q);
+        froe_tree_free(t);
+    }
 }
 
 /* -------------------------------------------------------------------- blocks -- */
@@ -439,6 +530,7 @@ int main(void) {
         cmocka_unit_test(batches_answer_as_rays_alone),
         cmocka_unit_test(batches_refuse_bad_rays),
         cmocka_unit_test(kernels_agree),
+        cmocka_unit_test(kernels_are_sure_only_of_what_is_met),
         cmocka_unit_test(damaged_blocks_are_noticed),
         cmocka_unit_test(boxes_larger_than_their_objects_are_found),
         cmocka_unit_test(corners_just_outside_of_boxes_are_found),

@@ -299,6 +299,14 @@ static int meets_triangle(const geom_ray *ray, const geom_body *body, geom_hit *
     return 1;
 }
 
+geom_hit geom_ray_through(const geom_body *body) {
+    return (geom_hit){.source = GEOM_PLANE,
+                      .p = geom_body_point(body, 0),
+                      .q = geom_body_point(body, 1),
+                      .r = geom_body_point(body, 2),
+                      .t = {0, INFINITY}};
+}
+
 bool geom_ray_meets(num_context *context, const geom_ray *ray, const geom_body *body, geom_hit *first) {
     if (body->count == 3 && body->form == FROE_POLYGON && ray->dim == 3 && context->first == NUM_FILTER &&
         num_rounding_trusted()) {

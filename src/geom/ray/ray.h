@@ -41,6 +41,8 @@ typedef struct geom_hit {
 
 /** False: it does not. Keeps pointers to the body's points. */
 bool geom_ray_meets(num_context *context, const geom_ray *ray, const geom_body *body, geom_hit *first);
+/** Where a ray meets a polygon of space that it is known to pass through, in one inner point; without an image. */
+geom_hit geom_ray_through(const geom_body *body);
 /** Sign of a - b. */
 int geom_hit_compare(num_context *context, const geom_ray *ray, const geom_hit *a, const geom_hit *b);
 /** Sign of a - t, t >= 0 or infinite. */

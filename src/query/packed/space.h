@@ -5,7 +5,8 @@
  * A walk takes the entry on top. It replaces a node by those of its children that may be met, and a leaf by those of
  * its objects. An object is handed out, and the caller decides it exactly. Keys are lower bounds, of a ray's parameter
  * or of squared distances. So objects come nearly in order, few of them are not the answer, and none that may be the
- * answer is missed.
+ * answer is missed. What a kernel is sure a ray meets need not be decided: it lowers the limit, and waits among the
+ * hits of the walk, of which one is left in the end as a rule.
  *
  * It speaks for space_walk.c, space_rays.c and space_window.c. */
 #ifndef FROE_QUERY_PACKED_SPACE_H
@@ -14,16 +15,28 @@
 #include "query/packed/space_kernel.h"
 #include "tree/list.h"
 
+/** What a walk along a ray is for: all objects; the first; any. */
+typedef enum space_wanted { SPACE_ALL, SPACE_FIRST, SPACE_ANY } space_wanted;
+
+/** An object that a ray certainly meets, and between which keys. */
+typedef struct space_hit {
+    uint32_t object;
+    float key, end;
+} space_hit;
+
 /** A walk along a ray, or around a point. */
 typedef struct space_walk {
     bool near; /**< by distance, not along a ray */
+    space_wanted wanted;
     space_ray ray;
     space_point point;
     double per;      /**< units of the ray's parameter, of squared distances, per 1 */
     double told;     /**< the limit as it was last seen, and ... */
     float limit;     /**< ... what it means for keys */
+    float within;    /**< a key up to this is certainly within the first limit */
     uint32_t object; /**< the one handed out */
     ARRAY(uint64_t) stack;
+    ARRAY(space_hit) hits; /**< SPACE_FIRST: met certainly, and perhaps first */
 } space_walk;
 
 typedef struct space_ray_state space_ray_state; /* space_rays.c */
@@ -34,24 +47,28 @@ typedef struct space_work {
     space_walk walk;
     space_ray_state *batch;          /**< NULL until a batch of rays comes */
     ARRAY(uint32_t) objects, others; /**< from kernels */
-    ARRAY(float) keys;
+    ARRAY(float) keys, ends;
 } space_work;
 
 froe_status space_work_new(const froe_tree *t, space_work **out);
 void space_work_free(space_work *work, const froe_allocator *alloc);
 
-/** Begins along a ray, or around query->near.point. *begun false: single precision cannot hold these numbers, and the
- * general walk has to be used. FROE_E_MEMORY. */
-froe_status space_walk_ray(froe_query *query, space_walk *walk, const geom_ray *ray, bool *begun);
+/** Begins along a ray, up to t_max, or around query->near.point. *begun false: single precision cannot hold these
+ * numbers, and the general walk has to be used. FROE_E_MEMORY. */
+froe_status space_walk_ray(froe_query *query, space_walk *walk, const geom_ray *ray, double t_max, space_wanted wanted,
+                           bool *begun);
 froe_status space_walk_near(froe_query *query, space_walk *walk, bool *begun);
 /** The next object, as a list, unless it is beyond the limit, which may have fallen; none: there is none left.
  * FROE_E_MEMORY. */
 froe_status space_walk_next(froe_query *query, space_walk *walk, double limit, tree_objects *list);
 
-typedef enum space_step { SPACE_ON, SPACE_OBJECT, SPACE_END, SPACE_NO_MEMORY } space_step;
-/** One step of a walk that is one of many: it prefetches what the next step reads, so that other walks can go on until
- * that is in the cache. SPACE_OBJECT: walk->object is handed out. */
-space_step space_walk_step(froe_query *query, space_walk *walk, double limit);
+/** SPACE_OBJECT: walk->object is handed out, and has to be decided. SPACE_MET, of SPACE_ANY: it is met. */
+typedef enum space_step { SPACE_ON, SPACE_OBJECT, SPACE_MET, SPACE_END, SPACE_NO_MEMORY } space_step;
+/** Steps up to an object or the end; or, of a walk that is one of many, one step, after which what the next one reads
+ * is prefetched, so that other walks can go on until that is in the cache. */
+space_step space_walk_step(froe_query *query, space_walk *walk, double limit, bool alone);
+/** Drops hits that are certainly not the first one: how many are left? */
+size_t space_walk_settle(space_walk *walk, double limit);
 
 /** The first hits of rays that have been checked, or, hits NULL, any object met by each. As froe_query_ray() and
  * froe_query_ray_any(), for query->tree->packed.wide. FROE_E_MEMORY. */

@@ -45,6 +45,7 @@ typedef struct space_window {
 typedef struct space_found {
     uint32_t *objects;
     float *keys;
+    float *ends; /**< rays: the object is certainly met, and no later than this; infinite: it may be */
     size_t count;
     float least; /**< near: lowered to what one object's squared distance certainly does not exceed */
 } space_found;

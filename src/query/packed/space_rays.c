@@ -1,4 +1,5 @@
-/* space_rays.c: rays in batches: while one waits for memory, others go on.
+/* space_rays.c: the first hit of rays, or any hit: of one ray, or of many, of which others go on while one waits for
+ * memory.
  *
  *     ray 0   [node] ........ [node] ........ [leaf] ........ [object] ........ [decided]
  *     ray 1     [node] ........ [leaf] ........ [node] ........ [leaf] ........ [node]
@@ -20,6 +21,7 @@ struct space_ray_state {
     double limit;
     query_met best;   /* object FROE_NONE: none so far */
     uint32_t pending; /* an object to be decided; FROE_NONE: none */
+    bool walked;      /* only hits are left */
     size_t at;        /* of the ray among all */
 };
 
@@ -35,7 +37,10 @@ typedef struct ray_batch {
 
 void space_batch_free(space_ray_state *rays, const froe_allocator *alloc) {
     if (!rays) return;
-    for (int i = 0; i < RAYS_AT_ONCE; i++) array_free(alloc, &rays[i].walk.stack);
+    for (int i = 0; i < RAYS_AT_ONCE; i++) {
+        array_free(alloc, &rays[i].walk.stack);
+        array_free(alloc, &rays[i].walk.hits);
+    }
     support_free(alloc, rays, RAYS_AT_ONCE * sizeof *rays);
 }
 
@@ -44,40 +49,72 @@ static froe_status launch_ray(ray_batch *f, space_ray_state *r, bool *flies) {
     *flies = false;
     while (f->next < f->count && !*flies) {
         r->at = f->next++;
-        r->ray = (geom_ray){.dim = 3};
+        r->ray.dim = 3;
         memcpy(r->ray.o, f->origins + 3 * r->at, 3 * sizeof(double));
         memcpy(r->ray.d, f->directions + 3 * r->at, 3 * sizeof(double));
         r->limit = f->t_max;
         r->best.object = r->pending = FROE_NONE;
-        if (space_walk_ray(f->query, &r->walk, &r->ray, flies)) return support_fail_memory(f->diag);
+        r->walked = false;
+        const space_wanted wanted = f->hits ? SPACE_FIRST : SPACE_ANY;
+        if (space_walk_ray(f->query, &r->walk, &r->ray, f->t_max, wanted, flies)) return support_fail_memory(f->diag);
         if (*flies) break;
         /* A ray whose numbers single precision cannot hold: the general walk answers it. */
-        const double *o = r->ray.o, *d = r->ray.d;
-        const froe_status status = f->hits ? froe_query_ray(f->query, o, d, f->t_max, f->hits + r->at, f->diag)
-                                           : froe_query_ray_any(f->query, o, d, f->t_max, f->objects + r->at, f->diag);
+        const froe_status status =
+            query_ray_walked(f->query, r->ray.o, r->ray.d, f->t_max, f->hits ? f->hits + r->at : NULL,
+                             f->hits ? NULL : f->objects + r->at, f->diag);
         if (status) return status;
     }
     f->query->stats.queries += *flies;
     return FROE_OK;
 }
 
-/* Decides the object that is pending exactly, then takes a step. SPACE_END: the ray is answered. */
-static space_step step_ray(const ray_batch *f, space_ray_state *r) {
-    const uint32_t object = r->pending;
+/* Decides an object exactly. */
+static void decide_object(const ray_batch *f, space_ray_state *r, uint32_t object) {
     query_met met;
-    r->pending = FROE_NONE;
-    if (object != FROE_NONE && object != r->best.object && query_ray_meets(f->query, &r->ray, object, f->t_max, &met) &&
-        (r->best.object == FROE_NONE || query_ray_nearer(f->query, &r->ray, &met, &r->best))) {
-        r->best = met;
-        const double limit = query_ray_latest(&met.hit);
-        if (limit < r->limit) r->limit = limit;
-        if (!f->hits) return SPACE_END;
+    if (object == r->best.object || !query_ray_meets(f->query, &r->ray, object, f->t_max, &met)) return;
+    if (r->best.object != FROE_NONE && !query_ray_nearer(f->query, &r->ray, &met, &r->best)) return;
+    r->best = met;
+    const double limit = query_ray_latest(&met.hit);
+    if (limit < r->limit) r->limit = limit;
+}
+
+/* The first of the hits of the walk and the best so far. One hit alone is the first, without a decision. */
+static void decide_hits(const ray_batch *f, space_ray_state *r) {
+    const space_hit *hits = r->walk.hits.data;
+    const size_t count = r->walk.hits.count;
+    bool alone = r->best.object == FROE_NONE;
+    for (size_t i = 1; i < count && alone; i++) alone = hits[i].object == hits[0].object;
+    if (alone) {
+        const geom_body body = scene_body(f->query->tree->scene, hits[0].object);
+        r->best = (query_met){geom_ray_through(&body), hits[0].object};
+        return;
     }
-    const space_step did = space_walk_step(f->query, &r->walk, r->limit);
-    if (did != SPACE_OBJECT) return did;
-    r->pending = r->walk.object;
-    scene_ask_points(f->query->tree->scene, r->pending);
-    return SPACE_ON;
+    for (size_t i = 0; i < count; i++) decide_object(f, r, hits[i].object);
+}
+
+/* Decides the object that is pending, then takes a step. SPACE_END: the ray is answered. */
+static space_step step_ray(const ray_batch *f, space_ray_state *r, bool alone) {
+    const froe_scene *scene = f->query->tree->scene;
+    if (r->walked) {
+        decide_hits(f, r);
+        return SPACE_END;
+    }
+    if (r->pending != FROE_NONE) decide_object(f, r, r->pending);
+    r->pending = FROE_NONE;
+    if (!f->hits && r->best.object != FROE_NONE) return SPACE_END;
+    space_step did = space_walk_step(f->query, &r->walk, r->limit, alone);
+    if (did == SPACE_MET) r->best.object = r->walk.object;
+    if (did == SPACE_OBJECT) scene_ask_points(scene, r->pending = r->walk.object);
+    r->walked = did == SPACE_END && space_walk_settle(&r->walk, r->limit);
+    for (size_t i = 0; r->walked && i < r->walk.hits.count; i++) scene_ask_points(scene, r->walk.hits.data[i].object);
+    return did == SPACE_NO_MEMORY ? did : did == SPACE_MET || (did == SPACE_END && !r->walked) ? SPACE_END : SPACE_ON;
+}
+
+static void answer_ray(const ray_batch *f, const space_ray_state *r) {
+    if (f->objects) f->objects[r->at] = r->best.object;
+    if (!f->hits) return;
+    f->hits[r->at] = (froe_hit){.object = r->best.object};
+    if (r->best.object != FROE_NONE) f->hits[r->at].t = geom_hit_round(&f->query->numbers, &r->ray, &r->best.hit);
 }
 
 froe_status space_rays(froe_query *q, const double *origins, const double *directions, size_t count, double t_max,
@@ -94,18 +131,19 @@ froe_status space_rays(froe_query *q, const double *origins, const double *direc
     for (; flying < RAYS_AT_ONCE && flies && !status; flying += flies) status = launch_ray(&f, rays + flying, &flies);
     for (size_t i = 0; flying && !status; i = i + 1 < flying ? i + 1 : 0) {
         space_ray_state *r = rays + i;
-        const space_step did = step_ray(&f, r);
+        const space_step did = step_ray(&f, r, count == 1);
         if (did == SPACE_NO_MEMORY) return support_fail_memory(diag);
         if (did != SPACE_END) continue;
-        if (objects) objects[r->at] = r->best.object;
-        if (hits) hits[r->at] = (froe_hit){.object = r->best.object};
-        if (hits && r->best.object != FROE_NONE) hits[r->at].t = geom_hit_round(&q->numbers, &r->ray, &r->best.hit);
+        answer_ray(&f, r);
         status = launch_ray(&f, r, &flies);
         if (flies || status) continue;
+        if (i == --flying) {
+            i = 0;
+            continue;
+        }
         const space_ray_state gone = *r;
-        *r = rays[--flying];
+        *r = rays[flying];
         rays[flying] = gone;
-        if (i == flying) i = 0;
     }
     q->stats.exact += q->numbers.stats.exact - exact;
     return status;

@@ -22,9 +22,11 @@ void space_work_free(space_work *work, const froe_allocator *alloc) {
     if (!work) return;
     space_batch_free(work->batch, alloc);
     array_free(alloc, &work->walk.stack);
+    array_free(alloc, &work->walk.hits);
     array_free(alloc, &work->objects);
     array_free(alloc, &work->others);
     array_free(alloc, &work->keys);
+    array_free(alloc, &work->ends);
     support_free(alloc, work, sizeof *work);
 }
 
@@ -34,7 +36,7 @@ static froe_status begin_space_walk(froe_query *q, space_walk *w, bool near, boo
     w->near = near;
     w->told = -1;
     w->limit = (float)INFINITY;
-    w->stack.count = 0;
+    w->stack.count = w->hits.count = 0;
     return !meets || array_push(&q->alloc, &w->stack, 0) ? FROE_OK : FROE_E_MEMORY;
 }
 
@@ -70,7 +72,15 @@ static double power_of_2(double x) {
     return x;
 }
 
-froe_status space_walk_ray(froe_query *q, space_walk *w, const geom_ray *ray, bool *begun) {
+/* A key that is certainly no later than t; -1: none is. */
+static float key_within(const space_walk *w, double t) {
+    const double start = w->ray.start, u = t * w->per;
+    const double x = (u - 0x1p-20 * fabs(u - start) - 0x1p-50 * start - start) * (1 - 0x1p-22) - (double)FLT_MIN;
+    return isinf(t) ? FLT_MAX : x > 0 ? x < FLT_MAX ? (float)x : FLT_MAX : -1;
+}
+
+froe_status space_walk_ray(froe_query *q, space_walk *w, const geom_ray *ray, double t_max, space_wanted wanted,
+                           bool *begun) {
     const tree_wide *wide = q->tree->packed.wide;
     space_ray *r = &w->ray;
     double most = 0;
@@ -98,7 +108,9 @@ froe_status space_walk_ray(froe_query *q, space_walk *w, const geom_ray *ray, bo
     r->largest = r->d[last];
     for (int i = 0; i < 2; i++) r->shear[i] = (float)(r->d[r->axis[i]] / r->largest);
     w->per = wide->scale * size;
+    w->wanted = wanted;
     const bool meets = enter_scene(r, &q->tree->meta);
+    w->within = key_within(w, t_max);
     return begin_space_walk(q, w, false, meets);
 }
 
@@ -199,40 +211,51 @@ static bool push_children(froe_query *q, space_walk *w, uint32_t index, bool ask
     return true;
 }
 
-static bool push_objects(froe_query *q, space_walk *w, uint32_t block, float key) {
+/* The object is certainly met, and no later than `end`. */
+static bool take_hit(froe_query *q, space_walk *w, uint32_t object, float key, float end) {
+    lower_limit(w, end);
+    const space_hit hit = {object, key, end};
+    return array_push(&q->alloc, &w->hits, hit);
+}
+
+/* Replaces a leaf by its objects. SPACE_MET: any is wanted, and one is met. */
+static space_step push_objects(froe_query *q, space_walk *w, uint32_t block, float key) {
     space_work *work = q->space;
     const space_header *h = space_block(q->tree, block);
     const size_t room = h->count + PACKED_LANES, from = w->stack.count;
     if (!array_reserve(&q->alloc, &work->objects, room) || !array_reserve(&q->alloc, &work->keys, room) ||
-        !array_reserve(&q->alloc, &w->stack, room))
-        return false;
-    space_found found = {work->objects.data, work->keys.data, 0, (float)INFINITY};
+        !array_reserve(&q->alloc, &work->ends, room) || !array_reserve(&q->alloc, &w->stack, room))
+        return SPACE_NO_MEMORY;
+    space_found found = {work->objects.data, work->keys.data, work->ends.data, 0, (float)INFINITY};
     if (w->near)
         work->kernels->near(h, &w->point, key, w->limit, &found);
     else
         work->kernels->ray(h, &w->ray, key, w->limit, &found);
     q->stats.leaves++;
     if (w->near && q->near.one) lower_limit(w, found.least);
-    for (size_t i = 0; i < found.count; i++)
-        if (found.keys[i] <= w->limit) {
-            scene_ask(q->tree->scene, found.objects[i]);
-            w->stack.data[w->stack.count++] = entry(found.keys[i], SPACE_ITEM_OBJECT | found.objects[i]);
-        }
+    for (size_t i = 0; i < found.count; i++) {
+        w->object = found.objects[i];
+        if (found.keys[i] > w->limit) continue;
+        const bool sure = !w->near && found.ends[i] <= w->within;
+        if (sure && w->wanted == SPACE_ANY) return SPACE_MET;
+        scene_ask(q->tree->scene, w->object);
+        if (!sure || w->wanted == SPACE_ALL)
+            w->stack.data[w->stack.count++] = entry(found.keys[i], SPACE_ITEM_OBJECT | w->object);
+        else if (!take_hit(q, w, w->object, found.keys[i], found.ends[i]))
+            return SPACE_NO_MEMORY;
+    }
     sort_top(w, from);
-    return true;
+    return SPACE_ON;
 }
 
 /* Takes the entry on top: an object is handed out; a node or a leaf is replaced by what may be met of it. */
 static space_step take_space_item(froe_query *q, space_walk *w, bool ask) {
     const uint64_t top = w->stack.data[--w->stack.count];
     const uint32_t what = (uint32_t)top;
-    if (what & SPACE_ITEM_OBJECT && !(what & WIDE_LEAF)) {
-        w->object = what & WIDE_INDEX;
-        return SPACE_OBJECT;
-    }
-    const bool done =
-        what & WIDE_LEAF ? push_objects(q, w, what & WIDE_INDEX, key_of(top)) : push_children(q, w, what, ask);
-    return done ? SPACE_ON : SPACE_NO_MEMORY;
+    if (what & WIDE_LEAF) return push_objects(q, w, what & WIDE_INDEX, key_of(top));
+    if (!(what & SPACE_ITEM_OBJECT)) return push_children(q, w, what, ask) ? SPACE_ON : SPACE_NO_MEMORY;
+    w->object = what & WIDE_INDEX;
+    return SPACE_OBJECT;
 }
 
 /* Drops entries beyond the limit. False: none is left. */
@@ -241,18 +264,26 @@ static bool settle_item(space_walk *w) {
     return w->stack.count;
 }
 
-froe_status space_walk_next(froe_query *q, space_walk *w, double limit, tree_objects *list) {
+space_step space_walk_step(froe_query *q, space_walk *w, double limit, bool alone) {
     space_step step = SPACE_ON;
     update_limit(w, limit);
-    while (step == SPACE_ON) step = settle_item(w) ? take_space_item(q, w, true) : SPACE_END;
+    if (!alone && !settle_item(w)) return SPACE_END;
+    if (!alone) step = take_space_item(q, w, false);
+    while (alone && step == SPACE_ON) step = settle_item(w) ? take_space_item(q, w, true) : SPACE_END;
+    if (step == SPACE_ON && settle_item(w)) ask_for(q->tree, (uint32_t)w->stack.data[w->stack.count - 1]);
+    return step;
+}
+
+froe_status space_walk_next(froe_query *q, space_walk *w, double limit, tree_objects *list) {
+    const space_step step = space_walk_step(q, w, limit, true);
     *list = (tree_objects){.at = &w->object, .stride = 1, .mask = UINT32_MAX, .count = step == SPACE_OBJECT};
     return step == SPACE_NO_MEMORY ? FROE_E_MEMORY : FROE_OK;
 }
 
-space_step space_walk_step(froe_query *q, space_walk *w, double limit) {
+size_t space_walk_settle(space_walk *w, double limit) {
+    size_t kept = 0;
     update_limit(w, limit);
-    if (!settle_item(w)) return SPACE_END;
-    const space_step step = take_space_item(q, w, false);
-    if (step == SPACE_ON && settle_item(w)) ask_for(q->tree, (uint32_t)w->stack.data[w->stack.count - 1]);
-    return step;
+    for (size_t i = 0; i < w->hits.count; i++)
+        if (w->hits.data[i].key <= w->limit) w->hits.data[kept++] = w->hits.data[i];
+    return w->hits.count = kept;
 }

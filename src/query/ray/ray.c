@@ -9,6 +9,7 @@
 #include "query/check.h"
 #include "query/context.h"
 #include "query/heap.h"
+#include "query/packed/space.h"
 #include "support/fail.h"
 #include <string.h>
 
@@ -97,31 +98,40 @@ froe_status query_ray_first(froe_query *q, double t_max, uint32_t kinds, froe_di
     return gather_met(q, t_max, kinds, RAY_FIRST, diag);
 }
 
+froe_status query_ray_walked(froe_query *q, const double *origin, const double *direction, double t_max, froe_hit *hit,
+                             uint32_t *object, froe_diagnostic *diag) {
+    froe_status status = query_ray_take(q, origin, direction, t_max, diag);
+    if (!status) status = gather_met(q, t_max, UINT32_MAX, hit ? RAY_FIRST : RAY_ANY, diag);
+    if (status) return status;
+    const query_met *met = q->ray.met.count ? q->ray.met.data : NULL;
+    if (object) *object = met ? met->object : FROE_NONE;
+    if (hit) *hit = (froe_hit){.object = met ? met->object : FROE_NONE};
+    if (hit && met) hit->t = geom_hit_round(&q->numbers, &q->ray.ray, &met->hit);
+    return FROE_OK;
+}
+
+static froe_status ask_one(froe_query *q, const double *origin, const double *direction, double t_max, froe_hit *hit,
+                           uint32_t *object, froe_diagnostic *diag) {
+    if (!q->space || !q->tree->packed.wide) return query_ray_walked(q, origin, direction, t_max, hit, object, diag);
+    const froe_status status = query_ray_take(q, origin, direction, t_max, diag);
+    return status ? status : space_rays(q, origin, direction, 1, t_max, hit, object, diag);
+}
+
 froe_status froe_query_ray(froe_query *query, const double *origin, const double *direction, double t_max,
                            froe_hit *hit, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!query || !origin || !direction || !hit) return support_fail_null(diag, __func__);
-    froe_status status = query_ray_take(query, origin, direction, t_max, diag);
-    if (!status) status = query_ray_first(query, t_max, UINT32_MAX, diag);
-    if (status) return status;
-    *hit = (froe_hit){.object = FROE_NONE};
-    if (!query->ray.met.count) return FROE_OK;
-    hit->object = query->ray.met.data[0].object;
-    hit->t = geom_hit_round(&query->numbers, &query->ray.ray, &query->ray.met.data[0].hit);
-    return FROE_OK;
+    return ask_one(query, origin, direction, t_max, hit, NULL, diag);
 }
-
-/* ------------------------------------------------------------- any and all -- */
 
 froe_status froe_query_ray_any(froe_query *query, const double *origin, const double *direction, double t_max,
                                uint32_t *object, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!query || !origin || !direction || !object) return support_fail_null(diag, __func__);
-    froe_status status = query_ray_take(query, origin, direction, t_max, diag);
-    if (!status) status = gather_met(query, t_max, UINT32_MAX, RAY_ANY, diag);
-    if (!status) *object = query->ray.met.count ? query->ray.met.data[0].object : FROE_NONE;
-    return status;
+    return ask_one(query, origin, direction, t_max, NULL, object, diag);
 }
+
+/* --------------------------------------------------------------------- all -- */
 
 static bool hit_is_later(void *user, uint32_t a, uint32_t b) {
     froe_query *q = user;

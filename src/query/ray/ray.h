@@ -42,6 +42,10 @@ froe_status query_ray_take(struct froe_query *query, const double *origin, const
                            froe_diagnostic *diag);
 /** The object of certain kinds (bits, as added) that the ray taken meets first: query->ray.met has it, or nothing. */
 froe_status query_ray_first(struct froe_query *query, double t_max, uint32_t kinds, froe_diagnostic *diag);
+/** The first object that a ray meets, or, hit NULL, any: by the walk that goes through trees of all kinds. The ray has
+ * been checked. */
+froe_status query_ray_walked(struct froe_query *query, const double *origin, const double *direction, double t_max,
+                             froe_hit *hit, uint32_t *object, froe_diagnostic *diag);
 /** Does a ray meet an object up to t_max? */
 bool query_ray_meets(struct froe_query *query, const geom_ray *ray, uint32_t object, double t_max, query_met *out);
 /** Does it meet one before another? Where it meets both at once, that of lower id. */

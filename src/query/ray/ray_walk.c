@@ -56,7 +56,8 @@ static bool push_step(froe_query *q, query_step step) {
 froe_status query_walk_begin(froe_query *q, froe_diagnostic *diag) {
     const query_planes *planes;
     q->ray.packed = false;
-    if (q->space && space_walk_ray(q, &q->space->walk, &q->ray.ray, &q->ray.packed)) return support_fail_memory(diag);
+    if (q->space && space_walk_ray(q, &q->space->walk, &q->ray.ray, q->ray.limit, SPACE_ALL, &q->ray.packed))
+        return support_fail_memory(diag);
     if (q->ray.packed) return FROE_OK;
     froe_status status = query_planes_of(q, &planes, diag);
     /* The part of the ray that may be within the bounds of the scene. */
