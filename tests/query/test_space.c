@@ -121,7 +121,7 @@ static void aim_at_object(const froe_tree *t, uint64_t draw, double o[3], double
     const froe_scene *s = t->scene;
     const uint32_t object = trees_random(16, draw, s->object_count), corners = scene_corners(s, object);
     const double *p = scene_point(s, object, 0),
-                 *q = scene_point(s, object, corners > 1 && s->forms[object] != FROE_BALL);
+                 *q = scene_point(s, object, corners > 1 && scene_form(s, object) != FROE_BALL);
     for (int k = 0; k < 3; k++) {
         if (draw % 3 == 1) d[k] = 0.5 * (p[k] + q[k]) - o[k];
         if (draw % 3 == 2) d[k] = q[k] - p[k], o[k] = p[k] - (draw % 2 ? 2 : 0) * d[k];
