@@ -19,6 +19,7 @@
 #include "base/random.h"
 #include "base/sort.h"
 #include "build/cylindrical/cylinder.h"
+#include "build/cylindrical/plane.h"
 #include "build/method.h"
 #include "support/fail.h"
 #include <math.h>
@@ -66,16 +67,17 @@ static froe_status grow_cylindrical(build_job *job, const uint32_t *order, uint3
                                     froe_diagnostic *why, froe_tree **out) {
     atomic_bool deep;
     atomic_init(&deep, false);
-    split_cylinder cylinder = {
+    const plane_rules plane = {.leaf = job->leaf, .deepest = deepest, .too_deep = &deep};
+    const split_cylinder cylinder = {
         .leaf = job->leaf, .deepest = deepest, .refuse = job->option[CROSSING] == 0, .too_deep = &deep};
-    split_method method = {.config = &cylinder,
-                           .choose = split_cylinder_choose,
-                           .room = sizeof(split_cylinder_frame),
-                           .divided = split_cylinder_divided};
+    const split_method method = {.config = &cylinder,
+                                 .choose = split_cylinder_choose,
+                                 .room = sizeof(split_cylinder_frame),
+                                 .divided = split_cylinder_divided};
     split_job split = build_split_job(job);
     split.order = order;
     split.diag = why;
-    froe_status status = split_grow(&split, &method, out);
+    froe_status status = job->scene->dim == 2 ? plane_grow(&split, &plane, out) : split_grow(&split, &method, out);
     *too_deep = status == FROE_E_BUDGET && atomic_load(&deep);
     return status;
 }

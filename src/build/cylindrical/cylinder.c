@@ -1,33 +1,23 @@
-/* cylinder.c: cylindrical partitions, cut by cut (Agarwal, Erickson and Guibas, "Kinetic BSPs for intersecting
+/* cylinder.c: cylindrical partitions of space, cut by cut (Agarwal, Erickson and Guibas, "Kinetic BSPs for intersecting
  * segments and disjoint triangles", SODA 1998).
  *
- *        left wall :        above         : right wall      The first fragment of a cell, in the order of
- *                  :______________________:                 priority, says how the cell is cut. Where it
- *                  :    :           :     :                 ends inside, at a vertex or where it crosses
- *                  :    o-----------+     :                 the edge below or above, walls go up and
- *                  :    :     s    /:\    :                 down to the borders of the cell; then comes
- *                  :____:_________/_:_\___:                 its own line.
- *                            below
- *
- * So every cell is a trapezoid: left and right of it are walls (which may meet at infinity), below and
- * above edges that span it. In space the trapezoid is the view from above: polygons first cut by the vertical
- * planes through their edges, one after the other, until they span the cell, then by their own plane.
- *
- * Walls are sheared (geom/plane.h), so that nothing needs a case of its own: vertical segments, equal x, shared ends.
- * An end on a wall that is there already needs no other. What lies in a line or plane that cuts stays in its list.
- * Source and proofs: the paper's section 2. docs/design/cylindrical.md derives the form cell by cell and shows that it
- * gives the paper's tree. */
+ * Seen from above, cells are the trapezoids of trapezoid.h: left and right of them are walls, below and above edges that
+ * span them. The first fragment of a cell, in the order of priority, says how the cell is cut: by the vertical planes
+ * through its edges, one after the other, until it spans the cell, then by its own plane. Where such an edge ends
+ * inside of the cell, at a vertex or where it crosses the edge below or above, walls come first. What lies in a plane
+ * that cuts stays in its list.
+ * Source and proofs: the paper's section 2. */
 #include "build/cylindrical/cylinder.h"
 #include "split/cell.h"
 #include <string.h>
 
 enum { LEFT, RIGHT };
 
-/** What is cut: a segment or, in space, an edge of a polygon; or a vertical polygon, as seen from above. */
+/** What is cut: a segment, or an edge of a polygon; or a vertical polygon, as seen from above. */
 typedef struct stretch {
     const split_fragment *fragment;
     split_corner end[2]; /**< left and right */
-    uint32_t edge;       /**< for crossings: the object (plane) or the number of the edge (space) */
+    uint32_t edge;       /**< its number, for crossings */
     uint32_t u, v;       /**< vertices of the line, left and right */
 } stretch;
 
@@ -70,8 +60,7 @@ static froe_cut edge_cut(const froe_scene *scene, uint32_t edge) {
     return (froe_cut){.kind = FROE_CUT_EDGE, .id = {v[falls], v[!falls], edge}}; /* trees do not keep the third */
 }
 
-/** The wall where two lines cross: the second must cross the first from its right to its left. */
-static froe_cut crossing_cut(split_set *set, uint32_t a, uint32_t b) {
+froe_cut split_cylinder_crossing(split_set *set, uint32_t a, uint32_t b) {
     const double *line[2], *other[2];
     scene_crossing_line(set->scene, a, line);
     scene_crossing_line(set->scene, b, other);
@@ -94,18 +83,17 @@ static bool wall_at(split_set *set, const split_cylinder_frame *frame, const str
         froe_cut second = split_cut_at(set, end->b);
         if (is_wall(second.kind) || by.kind != FROE_CUT_EDGE) by = second;
     }
-    bool space = set->scene->dim == 3;
-    if (is_wall(by.kind) || (space && by.kind != FROE_CUT_EDGE) || is_on_wall(set, frame, s, side)) return false;
-    uint32_t other = space ? FROE_NONE : by.id[0];
-    /* in space: the edge below or above on which the end of the stretch lies */
-    for (int i = 0; i < 2 && space && other == FROE_NONE; i++) {
+    if (by.kind != FROE_CUT_EDGE || is_on_wall(set, frame, s, side)) return false;
+    /* the edge below or above on which the end of the stretch lies */
+    uint32_t other = FROE_NONE;
+    for (int i = 0; i < 2 && other == FROE_NONE; i++) {
         if (frame->edge[i] == FROE_NONE) continue;
         froe_cut border = edge_cut(set->scene, frame->edge[i]);
         split_plane plane = split_plane_of(set->scene, &border);
         if (!split_corner_side(set, &plane, s->fragment->object, end)) other = frame->edge[i];
     }
     if (other == FROE_NONE) return false;
-    *cut = crossing_cut(set, other, s->edge); /* the stretch has its ends on both sides of the other line */
+    *cut = split_cylinder_crossing(set, other, s->edge); /* the stretch has its ends on both sides of the other line */
     return true;
 }
 
@@ -135,13 +123,12 @@ static split_verdict cut_vertex(const split_set *set, const split_fragment *f, f
 static split_verdict cut_segment(split_set *set, const split_cylinder_frame *frame, const split_fragment *f,
                                  froe_cut *cut) {
     const froe_scene *scene = set->scene;
-    bool space = scene->dim == 3;
     stretch s = {.fragment = f, .u = scene_corner(scene, f->object, 0), .v = scene_corner(scene, f->object, 1)};
     if (!order_xy(scene_vertex(scene, s.u), scene_vertex(scene, s.v))) return cut_vertex(set, f, cut); /* vertical */
     for (uint32_t i = 0; i < 2; i++) s.end[i] = split_corner_of(set, f, i);
-    s.edge = space ? scene_start(scene, f->object) : f->object;
+    s.edge = scene_start(scene, f->object);
     turn_right(scene, &s);
-    froe_cut line = space ? edge_cut(scene, s.edge) : (froe_cut){.kind = FROE_CUT_OBJECT, .id = {f->object}};
+    const froe_cut line = edge_cut(scene, s.edge);
     return cut_stretch(set, frame, &s, &line, cut);
 }
 

@@ -1,4 +1,4 @@
-/* cylinder.h: the next cut in a cell of a cylindrical partition. */
+/* cylinder.h: the next cut in a cell of a cylindrical partition of space. */
 #ifndef FROE_BUILD_CYLINDRICAL_CYLINDER_H
 #define FROE_BUILD_CYLINDRICAL_CYLINDER_H
 #include "split/grow.h"
@@ -11,7 +11,7 @@ typedef struct split_cylinder {
     atomic_bool *too_deep; /**< set when `deepest` was why */
 } split_cylinder;
 
-/** What a cell keeps in its room: the walls left and right of it, and in space the edges below and above. */
+/** What a cell keeps in its room: the walls left and right of it, and the edges below and above. */
 typedef struct split_cylinder_frame {
     uint32_t wall[2], edge[2]; /**< nodes (ring numbering) and edges; FROE_NONE: none */
 } split_cylinder_frame;
@@ -21,4 +21,6 @@ split_verdict split_cylinder_choose(const void *config, split_work *work, const 
 /** split_method.divided: which walls and edges bound the children. */
 void split_cylinder_divided(const void *config, const split_work *work, const split_cell *cell, const froe_cut *cut,
                             bool guard, void *positive, void *negative);
+/** The wall where two lines cross, of segments in the plane or of edges in space, by their numbers. */
+froe_cut split_cylinder_crossing(split_set *set, uint32_t a, uint32_t b);
 #endif
