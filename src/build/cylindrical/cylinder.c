@@ -1,11 +1,11 @@
 /* cylinder.c: cylindrical partitions of space, cut by cut (Agarwal, Erickson and Guibas, "Kinetic BSPs for intersecting
  * segments and disjoint triangles", SODA 1998).
  *
- * Seen from above, cells are the trapezoids of trapezoid.h: left and right of them are walls, below and above edges that
- * span them. The first fragment of a cell, in the order of priority, says how the cell is cut: by the vertical planes
- * through its edges, one after the other, until it spans the cell, then by its own plane. Where such an edge ends
- * inside of the cell, at a vertex or where it crosses the edge below or above, walls come first. What lies in a plane
- * that cuts stays in its list.
+ * Seen from above, cells are the trapezoids of trapezoid.h: left and right of them are walls, below and above edges
+ * that span them. The first fragment of a cell, in the order of priority, says how the cell is cut: by the vertical
+ * planes through its edges, one after the other, until it spans the cell, then by its own plane. Where such an edge
+ * ends inside of the cell, at a vertex or where it crosses the edge below or above, walls come first. What lies in a
+ * plane that cuts stays in its list.
  * Source and proofs: the paper's section 2. */
 #include "build/cylindrical/cylinder.h"
 #include "split/cell.h"

@@ -116,7 +116,7 @@ static froe_status seal_growth(plane_growth *g, froe_tree **out) {
     for (size_t i = 0; i < count; i++) grafts[i] = (tree_graft){g->tasks.data[i].cell.node, &g->tasks.data[i].draft};
     for (unsigned i = 0; i < g->worker_count; i++) num_stats_add(&g->main.predicates, &g->workers[i].set.context.stats);
     const froe_status status = draft_seal(&g->main, grafts, count, g->job->scene, g->job->meta, out);
-    support_free(&g->job->alloc, grafts, (count ? count : 1) * sizeof *grafts);
+    support_free(&g->job->alloc, grafts, count ? count * sizeof *grafts : 1);
     return status;
 }
 
