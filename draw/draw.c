@@ -197,7 +197,7 @@ static froe_status make(const froe_tree *tree, froe_draw_format format, const fr
     return status;
 }
 
-froe_status froe_draw_write(const froe_tree *tree, froe_draw_format format, froe_draw_write_fn *fn, void *user,
+froe_status froe_draw_write(const froe_tree *tree, froe_draw_format format, froe_write_fn *fn, void *user,
                             const froe_draw_options *options, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
     if (!tree || !fn) return support_fail_null(diag, __func__);

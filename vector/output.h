@@ -5,7 +5,7 @@
 #include <froe/render.h>
 
 typedef struct vector_output {
-    froe_render_write_fn *fn;
+    froe_write_fn *fn;
     void *user;
     uint64_t count;     /**< bytes so far */
     froe_status status; /**< the first failure, after which nothing is written: FROE_E_IO, FROE_E_MEMORY */

@@ -159,7 +159,7 @@ froe_status froe_render(const froe_tree *tree, const char *path, const froe_rend
     return status;
 }
 
-froe_status froe_render_write(const froe_tree *tree, froe_render_format format, froe_render_write_fn *fn, void *user,
+froe_status froe_render_write(const froe_tree *tree, froe_render_format format, froe_write_fn *fn, void *user,
                               const froe_render_options *options, froe_render_report *report, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
     const froe_render_options standard = froe_render_defaults();

@@ -138,10 +138,8 @@ FROE_API froe_draw_options froe_draw_defaults(void);
 FROE_API froe_status froe_draw(const froe_tree *tree, const char *path, const froe_draw_options *options,
                                froe_diagnostic *diag);
 
-/** Receives the bytes of a picture in order; false stops (FROE_E_IO). */
-typedef froe_render_write_fn froe_draw_write_fn;
 /** The same picture, byte for byte, to a callback. */
-FROE_API froe_status froe_draw_write(const froe_tree *tree, froe_draw_format format, froe_draw_write_fn *fn, void *user,
+FROE_API froe_status froe_draw_write(const froe_tree *tree, froe_draw_format format, froe_write_fn *fn, void *user,
                                      const froe_draw_options *options, froe_diagnostic *diag);
 
 /** The picture of froe_render() as a PNG of options->pixels pixels per unit of the page; `path` may have any name. Same

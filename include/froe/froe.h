@@ -103,6 +103,9 @@ typedef struct froe_allocator {
  * thread at a time; false cancels: the call returns FROE_E_CANCELLED. */
 typedef bool froe_progress_fn(void *user, double done);
 
+/** Receives the bytes of a file in order, some at a time; false stops (FROE_E_IO). */
+typedef bool froe_write_fn(void *user, const void *bytes, size_t count);
+
 /* ---------------------------------------------------------- floating point -- */
 
 /** froe rounds to nearest, keeps denormal numbers, and traps no exception. A call that computes sets the processor so
@@ -496,6 +499,10 @@ FROE_API froe_status froe_tree_audit(const froe_tree *tree, const froe_audit_opt
 /** Writes the tree with its scene (docs/format.md), atomically: `path` holds the
  * old file or the new one, whole, whatever happens. FROE_E_IO. */
 FROE_API froe_status froe_tree_save(const froe_tree *tree, const char *path, froe_diagnostic *diag);
+/** The same bytes to a function; after a failure, what it has received is the beginning of a file at most. */
+FROE_API froe_status froe_tree_write(const froe_tree *tree, froe_write_fn *fn, void *user, froe_diagnostic *diag);
+/** How many bytes that are. */
+FROE_API uint64_t froe_tree_saved_size(const froe_tree *tree);
 /** Does the file begin as a saved tree does? False as well for a file that cannot be read. */
 FROE_API bool froe_is_tree(const char *path);
 /** Opens a saved tree by mapping the file, which must not be shortened or written to in
@@ -504,6 +511,9 @@ FROE_API bool froe_is_tree(const char *path);
  * not have written. FROE_E_IO, FROE_E_MEMORY. O(size of the file). */
 FROE_API froe_status froe_tree_open(const char *path, const froe_allocator *alloc, froe_tree **out,
                                     froe_diagnostic *diag);
+/** The same of the bytes of a file in memory, which are copied: the caller may free them at once. */
+FROE_API froe_status froe_tree_open_memory(const void *bytes, size_t count, const froe_allocator *alloc,
+                                           froe_tree **out, froe_diagnostic *diag);
 
 #ifdef __cplusplus
 }

@@ -149,12 +149,10 @@ typedef enum froe_render_format {
 FROE_API froe_status froe_render(const froe_tree *tree, const char *path, const froe_render_options *options,
                                  froe_render_report *report, froe_diagnostic *diag);
 
-/** Receives the bytes of a picture in order; false stops (FROE_E_IO). */
-typedef bool froe_render_write_fn(void *user, const void *bytes, size_t count);
 /** The same picture, byte for byte, to a function, some kilobytes at a time. After a failure, what it has received is
  * the beginning of a picture at most. */
-FROE_API froe_status froe_render_write(const froe_tree *tree, froe_render_format format, froe_render_write_fn *fn,
-                                       void *user, const froe_render_options *options, froe_render_report *report,
+FROE_API froe_status froe_render_write(const froe_tree *tree, froe_render_format format, froe_write_fn *fn, void *user,
+                                       const froe_render_options *options, froe_render_report *report,
                                        froe_diagnostic *diag);
 
 /** One SVG that shows a picture from each of `count` cameras (see froe_camera_turn) in turn, for ever, in `seconds` a

@@ -57,7 +57,10 @@ froe_status froe_scene_new(int dim, const froe_allocator *caller, froe_scene **o
 void froe_scene_free(froe_scene *scene) {
     if (!scene || atomic_fetch_sub_explicit(&scene->holds, 1, memory_order_acq_rel) != 1) return;
     froe_allocator alloc = scene->alloc;
-    if (scene->map) munmap(scene->map, scene->map_size);
+    if (scene->copied)
+        support_free(&alloc, scene->map, scene->map_size);
+    else if (scene->map)
+        munmap(scene->map, scene->map_size);
     if (scene->store) store_free(&alloc, scene->store), support_free(&alloc, scene->crs, scene->crs_size);
     support_free(&alloc, scene, sizeof *scene);
 }

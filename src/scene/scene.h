@@ -34,6 +34,7 @@ struct froe_scene {
     bool mapped;
     void *map; /**< the file they lie in, which goes with the scene; trees that hold it may lie there, too */
     size_t map_size;
+    bool copied; /**< the file lies in memory of alloc; otherwise it is mapped */
     int dim;
     int up; /**< the axis that points up; -1: not in space */
     uint32_t vertex_count, object_count, group_count, radius_count, corner_count;

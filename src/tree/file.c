@@ -1,15 +1,17 @@
 /* file.c: what save and open share: the checksum, and which array is which section. */
 #include "tree/file.h"
 #include "base/random.h"
+#include "support/fail.h"
 #include <string.h>
 
-bool file_machine_fits(void) {
+froe_status file_check_machine(froe_diagnostic *diag) {
     const double x = -2.5;
     uint64_t bits;
     uint8_t first;
     memcpy(&bits, &x, sizeof bits);
     memcpy(&first, &bits, 1); /* little-endian: the last byte of the mantissa */
-    return bits == 0xc004000000000000u && first == 0;
+    if (bits == 0xc004000000000000u && first == 0) return FROE_OK;
+    return support_fail(diag, FROE_E_UNSUPPORTED, "Tree files are little-endian, and this machine is not.");
 }
 
 /* Eight lanes of one multiplication and one rotation a word. Each step is a bijection of the

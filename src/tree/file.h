@@ -64,8 +64,8 @@ _Static_assert(sizeof(tree_meta) == 1264 && sizeof(tree_promise) == 48, "as spec
 _Static_assert(sizeof(tree_node) == 16 && sizeof(tree_cut) == 24 && sizeof(tree_piece) == 8, "as specified");
 _Static_assert(sizeof(scene_group) == 20, "as specified");
 
-/** Does this machine store numbers as the file does? */
-bool file_machine_fits(void);
+/** FROE_E_UNSUPPORTED: this machine does not store numbers as the file does. */
+froe_status file_check_machine(froe_diagnostic *diag);
 /** Checksum of bytes followed by zeros up to a multiple of 64, continuing `seed` (0 at first). A change within
  * any 8 aligned bytes changes it for certain. */
 uint64_t file_checksum(const void *bytes, size_t size, uint64_t seed);

@@ -1,4 +1,5 @@
-/* open.c: a saved tree by mapping its file. Nothing in it is used before it has been checked:
+/* open.c: a saved tree by mapping its file, or from a copy of its bytes. Nothing in it is used before it has been
+ * checked:
  *
  *     header, table      magic, version, sizes, places, checksums     here
  *     scene              scene_mapped()
@@ -21,6 +22,9 @@
 typedef struct opening {
     const char *path;
     froe_diagnostic *diag;
+    void *map; /* what the bytes lie in */
+    size_t map_size;
+    bool copied; /* see froe_scene */
     const uint8_t *bytes;
     size_t size;
     const file_header *header;
@@ -53,11 +57,24 @@ static froe_status map_file(opening *o) {
     } else {
         void *map = mmap(NULL, (size_t)info.st_size, PROT_READ, MAP_PRIVATE, fd, 0);
         if (map == MAP_FAILED) status = unreadable(o, errno);
-        o->bytes = status ? NULL : map;
-        o->size = (size_t)info.st_size;
+        o->bytes = o->map = status ? NULL : map;
+        o->size = o->map_size = (size_t)info.st_size;
     }
     close(fd);
     return status;
+}
+
+static froe_status copy_file(opening *o, const void *bytes, size_t size, const froe_allocator *alloc) {
+    if (size < sizeof(file_header)) return bad_file(o, size ? "it is too short" : "it is empty");
+    o->copied = true;
+    o->map_size = size + FILE_ALIGN;
+    o->map = size < SIZE_MAX - FILE_ALIGN ? support_realloc(alloc, NULL, 0, o->map_size) : NULL;
+    if (!o->map) return support_fail_memory(o->diag);
+    uint8_t *aligned = (uint8_t *)o->map + (FILE_ALIGN - (uintptr_t)o->map % FILE_ALIGN) % FILE_ALIGN;
+    memcpy(aligned, bytes, size);
+    o->bytes = aligned;
+    o->size = size;
+    return FROE_OK;
 }
 
 /* ------------------------------------------------------------------ layout -- */
@@ -174,35 +191,50 @@ bool froe_is_tree(const char *path) {
     return is;
 }
 
+/* The tree in the bytes, which go with its scene, or on failure at once. */
+static froe_status open_bytes(opening *o, const froe_allocator *alloc, froe_tree **out) {
+    froe_tree *t = support_calloc(alloc, 1, sizeof *t);
+    froe_status status = t ? FROE_OK : support_fail_memory(o->diag);
+    if (t) t->alloc = *alloc, t->mapped = true;
+    if (!status) status = check_layout(o);
+    if (!status) status = claim_arrays(o, t);
+    if (!status) status = scene_mapped(&o->scene, alloc, &t->scene, o->diag);
+    if (!status) status = tree_validate(t, o->diag);
+    if (!status && tree_finish(t)) status = support_fail_memory(o->diag);
+    if (!status) {
+        t->scene->map = o->map;
+        t->scene->map_size = o->map_size;
+        t->scene->copied = o->copied;
+        *out = t;
+        return FROE_OK;
+    }
+    froe_tree_free(t);
+    if (o->copied)
+        support_free(alloc, o->map, o->map_size);
+    else
+        munmap(o->map, o->map_size);
+    return status;
+}
+
 froe_status froe_tree_open(const char *path, const froe_allocator *caller, froe_tree **out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     opening o = {.path = path, .diag = diag};
     if (!path || !out) return support_fail_null(diag, __func__);
-    if (!file_machine_fits())
-        return support_fail(diag, FROE_E_UNSUPPORTED, "Tree files are little-endian, and this machine is not.");
-    froe_status status = num_rounding_check(diag);
+    const froe_allocator alloc = support_allocator(caller);
+    froe_status status = file_check_machine(diag);
+    if (!status) status = num_rounding_check(diag);
     if (!status) status = map_file(&o);
-    if (status) return status;
-    froe_allocator alloc = support_allocator(caller);
-    froe_tree *t = support_calloc(&alloc, 1, sizeof *t);
-    if (!t) {
-        munmap((void *)(uintptr_t)o.bytes, o.size);
-        return support_fail_memory(diag);
-    }
-    t->alloc = alloc;
-    t->mapped = true;
-    status = check_layout(&o);
-    if (!status) status = claim_arrays(&o, t);
-    if (!status) status = scene_mapped(&o.scene, &alloc, &t->scene, diag);
-    if (!status) status = tree_validate(t, diag);
-    if (!status && tree_finish(t)) status = support_fail_memory(diag);
-    if (status) {
-        froe_tree_free(t);
-        munmap((void *)(uintptr_t)o.bytes, o.size);
-        return status;
-    }
-    t->scene->map = (void *)(uintptr_t)o.bytes;
-    t->scene->map_size = o.size;
-    *out = t;
-    return FROE_OK;
+    return status ? status : open_bytes(&o, &alloc, out);
+}
+
+froe_status froe_tree_open_memory(const void *bytes, size_t count, const froe_allocator *caller, froe_tree **out,
+                                  froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
+    opening o = {.path = "memory", .diag = diag};
+    if ((count && !bytes) || !out) return support_fail_null(diag, __func__);
+    const froe_allocator alloc = support_allocator(caller);
+    froe_status status = file_check_machine(diag);
+    if (!status) status = num_rounding_check(diag);
+    if (!status) status = copy_file(&o, bytes, count, &alloc);
+    return status ? status : open_bytes(&o, &alloc, out);
 }

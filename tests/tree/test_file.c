@@ -190,6 +190,78 @@ static void what_is_saved_is_opened(void **state) {
     unlink("again.froe");
 }
 
+/* What froe_tree_write() hands over, as far as it is taken. */
+typedef struct receiver {
+    uint8_t *bytes;
+    size_t count, calls, most;
+} receiver;
+
+static bool receive(void *user, const void *bytes, size_t count) {
+    receiver *r = user;
+    assert_true(count > 0);
+    if (r->calls++ == r->most) return false;
+    r->bytes = realloc(r->bytes, r->count + count);
+    assert_non_null(r->bytes);
+    memcpy(r->bytes + r->count, bytes, count);
+    r->count += count;
+    return true;
+}
+
+/* Written, moved to an odd address, opened, and freed. */
+static void trees_go_through_memory(void **state) {
+    (void)state;
+    for (int layout = PLANE; layout < LAYOUTS; layout++) {
+        froe_tree *tree = rich_tree(layout), *again = NULL;
+        size_t size;
+        receiver r = {.most = SIZE_MAX};
+        assert_saved(tree, NAME);
+        uint8_t *file = slurp(NAME, &size);
+        unlink(NAME);
+        assert_int_equal(froe_tree_write(tree, receive, &r, NULL), FROE_OK);
+        assert_int_equal(r.count, size);
+        assert_int_equal(froe_tree_saved_size(tree), size);
+        assert_memory_equal(r.bytes, file, size);
+        uint8_t *odd = malloc(size + 1);
+        assert_non_null(odd);
+        memcpy(odd + 1, file, size);
+        assert_int_equal(froe_tree_open_memory(odd + 1, size, NULL, &again, NULL), FROE_OK);
+        memset(odd, 0xff, size + 1);
+        free(odd);
+        trees_assert_equal(tree, again);
+        assert_scenes_equal(froe_tree_scene(tree), froe_tree_scene(again));
+        assert_reports_equal(froe_tree_report(tree), froe_tree_report(again));
+        look_at_all(again);
+        froe_tree_free(again);
+        free(file);
+        froe_tree_free(tree);
+        free(r.bytes);
+    }
+}
+
+/* Wherever the caller's function stops, it has received the beginning of the file. */
+static void a_receiver_may_stop(void **state) {
+    (void)state;
+    froe_tree *tree = rich_tree(PLANE);
+    receiver all = {.most = SIZE_MAX};
+    froe_diagnostic why;
+    assert_int_equal(froe_tree_write(tree, receive, &all, NULL), FROE_OK);
+    for (size_t most = 0; most < all.calls; most++) {
+        receiver some = {.most = most};
+        assert_int_equal(froe_tree_write(tree, receive, &some, &why), FROE_E_IO);
+        assert_int_equal(some.calls, most + 1);
+        assert_true(some.count < all.count);
+        if (some.count) assert_memory_equal(some.bytes, all.bytes, some.count);
+        free(some.bytes);
+    }
+    assert_int_equal(froe_tree_write(tree, NULL, NULL, &why), FROE_E_ARG);
+    assert_int_equal(froe_tree_open_memory(NULL, 1, NULL, &tree, &why), FROE_E_ARG);
+    assert_int_equal(froe_tree_open_memory(NULL, 0, NULL, &tree, &why), FROE_E_FORMAT);
+    assert_non_null(strstr(why.message, "empty"));
+    assert_int_equal(froe_tree_open_memory(all.bytes, 63, NULL, &tree, &why), FROE_E_FORMAT);
+    froe_tree_free(tree);
+    free(all.bytes);
+}
+
 /* By the offsets of docs/format.md, not by the structs of the code under test. */
 static uint64_t number(const uint8_t *bytes, size_t offset, size_t size) {
     uint64_t value = 0;
@@ -301,8 +373,7 @@ static void a_scene_from_a_file_never_grows(void **state) {
 
 static froe_status try_bytes(const uint8_t *bytes, size_t size, froe_diagnostic *why) {
     froe_tree *tree = NULL;
-    spill(NAME, bytes, size);
-    froe_status status = froe_tree_open(NAME, NULL, &tree, why);
+    froe_status status = froe_tree_open_memory(bytes, size, NULL, &tree, why);
     if (status == FROE_OK) {
         look_at_all(tree);
         froe_tree_free(tree);
@@ -546,6 +617,14 @@ static void a_file_replaced_while_open_does_not_change(void **state) {
 
 /* ------------------------------------------------------------------ memory -- */
 
+static froe_status sending(void *user, const froe_allocator *alloc) {
+    const receiver *r = user;
+    froe_tree *tree = NULL;
+    const froe_status status = froe_tree_open_memory(r->bytes, r->count, alloc, &tree, NULL);
+    froe_tree_free(tree);
+    return status;
+}
+
 static froe_status saving(void *user, const froe_allocator *alloc) {
     const froe_tree *model = user;
     froe_tree *tree = NULL;
@@ -561,6 +640,10 @@ static void any_allocation_may_fail(void **state) {
     froe_tree *tree = rich_tree(3);
     assert_saved(tree, "model.froe");
     assert_true(test_memory_each(saving, tree) >= 6);
+    receiver r = {.most = SIZE_MAX};
+    assert_int_equal(froe_tree_write(tree, receive, &r, NULL), FROE_OK);
+    assert_true(test_memory_each(sending, &r) >= 6);
+    free(r.bytes);
     froe_tree_free(tree);
     unlink(NAME);
     unlink("model.froe");
@@ -576,6 +659,8 @@ static int clean_up(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_saved_is_opened),
+        cmocka_unit_test(trees_go_through_memory),
+        cmocka_unit_test(a_receiver_may_stop),
         cmocka_unit_test(checksums_are_as_specified),
         cmocka_unit_test(files_are_as_specified),
         cmocka_unit_test(files_of_other_versions_are_refused),
