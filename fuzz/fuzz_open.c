@@ -70,6 +70,22 @@ static size_t size_of_file(const uint8_t *data, size_t size) {
     return h.size < size ? (size_t)h.size : size;
 }
 
+/* The bytes that are still expected. */
+static bool expect(void *user, const void *bytes, size_t count) {
+    fuzz_bytes *left = user;
+    if (count > left->size || memcmp(bytes, left->data, count) != 0) abort();
+    left->data += count;
+    left->size -= count;
+    return true;
+}
+
+/* A file that opens is what its tree is written as. */
+static void check_bytes(const froe_tree *tree, const uint8_t *file, size_t size) {
+    fuzz_bytes left = {file, size};
+    if (froe_tree_saved_size(tree) != size) abort();
+    if (froe_tree_write(tree, expect, &left, NULL) == FROE_OK && left.size) abort();
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     char path[256];
     froe_tree *tree;
@@ -80,10 +96,15 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     if (file) memcpy(copy, data, file);
     forge_checksums(copy, file);
     fuzz_file("", ".froe", copy, file, path, sizeof path);
+    const bool opens = froe_tree_open_memory(copy, file, NULL, &tree, NULL) == FROE_OK;
+    if (opens) {
+        check_bytes(tree, copy, file);
+        froe_tree_free(tree);
+    }
     free(copy);
     const bool is_tree = froe_is_tree(path);
     if (froe_tree_open(path, NULL, &tree, NULL) == FROE_OK) {
-        if (!is_tree) abort();
+        if (!is_tree || !opens) abort();
         look_at_all(tree, &questions);
         froe_tree_free(tree);
     }

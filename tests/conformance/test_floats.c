@@ -36,6 +36,32 @@ static bool note_cell(void *user, const froe_cell *cell) {
     return true;
 }
 
+typedef struct saved_bytes {
+    floats_run *run;
+    uint8_t *bytes;
+    size_t count;
+} saved_bytes;
+
+static bool note_bytes(void *user, const void *bytes, size_t count) {
+    saved_bytes *to = user;
+    floats_called(to->run);
+    memcpy(to->bytes + to->count, bytes, count);
+    to->count += count;
+    return true;
+}
+
+/** Through memory, instead of through a file. */
+static void send_tree(floats_run *r, const froe_tree *tree) {
+    saved_bytes to = {r, malloc(froe_tree_saved_size(tree)), 0};
+    froe_tree *again;
+    assert_non_null(to.bytes);
+    MUST(r, froe_tree_write(tree, note_bytes, &to, NULL));
+    floats_note(r, to.bytes, to.count);
+    MUST(r, froe_tree_open_memory(to.bytes, to.count, &(froe_allocator){floats_memory, r}, &again, NULL));
+    TELL(r, froe_tree_free(again));
+    free(to.bytes);
+}
+
 /** Bits of the file, and of what is asked of a tree itself. */
 static void ask_tree(floats_run *r, const froe_tree *tree) {
     const froe_scene *scene = froe_tree_scene(tree);
@@ -55,6 +81,7 @@ static void ask_tree(floats_run *r, const froe_tree *tree) {
         floats_note(r, &info.cut.value, 8);
     }
     TELL(r, froe_tree_free(again));
+    send_tree(r, tree);
     o.progress = floats_progress;
     o.user = r;
     if (ASK(r, froe_tree_audit(tree, &o, &diag))) fail_msg("%s", diag.message);
