@@ -2,6 +2,7 @@
  * object that it belongs to, and that object is the one that the rule names. Lines kept apart by object are the same
  * lines. */
 #include "support/small_scenes.h"
+#include <froe/formats.h>
 #include <froe/view.h>
 #include <math.h>
 
@@ -32,21 +33,33 @@ typedef struct sight {
     froe_picture *picture;
 } sight;
 
-static sight look_at(const froe_tree *tree, bool parallel, const uint32_t *chains, double halo) {
+static sight look_by(const froe_tree *tree, const froe_camera *camera, const froe_picture_options *options) {
     sight s = {.scene = froe_tree_scene(tree)};
-    froe_camera camera = froe_camera_defaults();
-    froe_picture_options o = froe_picture_defaults();
-    camera.parallel = parallel;
-    assert_int_equal(froe_camera_place(&camera, s.scene, &s.view, NULL), FROE_OK);
+    froe_picture_options o = *options;
+    assert_int_equal(froe_camera_place(camera, s.scene, &s.view, NULL), FROE_OK);
     assert_int_equal(froe_surface_new(s.scene, NULL, &s.surface, NULL), FROE_OK);
     o.view = &s.view;
     o.no_fills = true;
+    assert_int_equal(froe_picture_new(tree, s.surface, &o, &s.picture, NULL), FROE_OK);
+    return s;
+}
+
+static sight look_at(const froe_tree *tree, bool parallel, const uint32_t *chains, double halo) {
+    froe_camera camera = froe_camera_defaults();
+    froe_picture_options o = froe_picture_defaults();
+    camera.parallel = parallel;
     o.lines = 127;
     o.hidden = true;
     o.halo = halo;
     o.chains = chains;
-    assert_int_equal(froe_picture_new(tree, s.surface, &o, &s.picture, NULL), FROE_OK);
-    return s;
+    return look_by(tree, &camera, &o);
+}
+
+static sight look_for(const froe_tree *tree, uint32_t lines) {
+    const froe_camera camera = froe_camera_defaults();
+    froe_picture_options o = froe_picture_defaults();
+    o.lines = lines;
+    return look_by(tree, &camera, &o);
 }
 
 static void close_sight(sight *s) {
@@ -168,10 +181,33 @@ static void lines_of_objects_apart_are_the_same_lines(void **state) {
     froe_tree_free(tree);
 }
 
+/* The outlines of a terrain. Cuts that go through vertices end edges there, too, and different cuts different edges. */
+static void lines_do_not_depend_on_the_tree(void **state) {
+    static const char *const methods[] = {"density", "autopartition", "kd", "grain"};
+    size_t strokes = 0, points = 0;
+    (void)state;
+    for (int m = 0; m < 4; m++) {
+        froe_scene *scene;
+        assert_int_equal(froe_generate("terrain", 1000, 1, NULL, &scene, NULL), FROE_OK);
+        froe_tree *tree = tree_of(scene, methods[m], 1);
+        sight s = look_for(tree, FROE_LINE_BORDER | FROE_LINE_SILHOUETTE | FROE_LINE_CREASE);
+        size_t sum = 0;
+        for (size_t i = 0; i < froe_picture_stroke_count(s.picture); i++)
+            sum += froe_picture_stroke(s.picture, i).count;
+        if (!m) strokes = froe_picture_stroke_count(s.picture), points = sum;
+        assert_int_equal(froe_picture_stroke_count(s.picture), strokes);
+        assert_int_equal(sum, points);
+        close_sight(&s);
+        froe_tree_free(tree);
+    }
+    assert_true(strokes > 10 && points > 5 * strokes);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lines_lie_on_the_objects_that_they_name),
         cmocka_unit_test(lines_of_objects_apart_are_the_same_lines),
+        cmocka_unit_test(lines_do_not_depend_on_the_tree),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -454,6 +454,40 @@ static void bad_views_are_refused(void **state) {
     froe_tree_free(tree), froe_tree_free(other);
 }
 
+/* Triangles beside each other at many depths: lines across the window and sides of others divide them, which tells
+ * nothing, as all of them are seen. */
+static void what_is_seen_whole_is_kept_whole(void **state) {
+    enum { SIDE = 12 };
+    (void)state;
+    froe_scene *scene;
+    froe_surface *surface;
+    froe_visibility *v;
+    double x[SIDE * SIDE * 9];
+    size_t n = 0;
+    for (int i = 0; i < SIDE; i++)
+        for (int j = 0; j < SIDE; j++)
+            for (int k = 0; k < 3; k++)
+                x[n++] = i + 0.8 * (k == 1), x[n++] = j + 0.9 * (k == 2), x[n++] = (7 * i + 5 * j) % 11 + 0.125 * k;
+    froe_objects triangles = froe_objects_defaults();
+    triangles.count = n / 9, triangles.coords = x;
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    assert_int_equal(froe_scene_add(scene, &triangles, NULL), FROE_OK);
+    froe_tree *tree;
+    assert_int_equal(froe_build(scene, NULL, &tree, NULL), FROE_OK);
+    froe_scene_free(scene); /* the tree holds it */
+    assert_int_equal(froe_surface_new(tree->scene, NULL, &surface, NULL), FROE_OK);
+    const double window[12] = {-1, -1, 20, SIDE + 1, -1, 20, SIDE + 1, SIDE + 1, 20, -1, SIDE + 1, 20};
+    froe_visibility_options o = froe_visibility_defaults();
+    o.eye = (froe_eye){.at = {0, 0, 1}, .parallel = true};
+    o.window = window, o.window_corners = 4;
+    assert_int_equal(froe_visibility_new(tree, surface, &o, &v, NULL), FROE_OK);
+    assert_int_equal(froe_visibility_piece_count(v), froe_tree_piece_count(tree));
+    assert_int_equal(froe_visibility_statistics(v).visible_patches, SIDE * SIDE);
+    froe_visibility_free(v);
+    froe_surface_free(surface);
+    froe_tree_free(tree);
+}
+
 static bool stop(void *user, double done) {
     (void)user;
     return done < 0.05;
@@ -477,11 +511,11 @@ static froe_status look_with(void *user, const froe_allocator *alloc) {
     froe_tree *tree = user;
     froe_surface *surface = NULL;
     froe_visibility *v = NULL;
-    const double window[9] = {-1, -1, 1.5, 2, -1, 1.5, 0.5, 2, 1.5};
+    const double window[12] = {-1, -1, 1.5, 2, -1, 1.5, 2, 2, 1.5, -1, 2, 1.5};
     froe_visibility_options o = froe_visibility_defaults();
     o.eye.at[2] = 3;
     o.alloc = alloc;
-    o.window = window, o.window_corners = 3;
+    o.window = window, o.window_corners = 4;
     froe_status status = froe_surface_new(tree->scene, alloc, &surface, NULL);
     if (!status) status = froe_visibility_new(tree, surface, &o, &v, NULL);
     froe_visibility_free(v);
@@ -508,6 +542,7 @@ int main(void) {
         cmocka_unit_test(one_sees_through_what_is_clear),
         cmocka_unit_test(corners_lie_where_they_are_seen),
         cmocka_unit_test(bad_views_are_refused),
+        cmocka_unit_test(what_is_seen_whole_is_kept_whole),
         cmocka_unit_test(looking_can_be_cancelled),
         cmocka_unit_test(every_allocation_may_fail),
     };

@@ -7,18 +7,6 @@
 
 /* ---------------------------------------------------------------------- finding -- */
 
-/* The side that leaves corner i of a beam, along its line: see side_of() in region.c. */
-static view_stretch stretch_of(const view_ring *ring, uint32_t i) {
-    const uint32_t count = (uint32_t)ring->count, j = i + 1 < count ? i + 1 : 0;
-    const view_corner *k = ring->data + i, *next = ring->data + j;
-    const view_way before = ring->data[i ? i - 1 : count - 1].way;
-    const uint32_t turned = k->way & 1;
-    view_stretch s = {.edge = k->way >> 1};
-    s.end[turned] = (view_end){k->ray, k->vertex, before ^ 1 ^ turned};
-    s.end[!turned] = (view_end){next->ray, next->vertex, next->way ^ turned};
-    return s;
-}
-
 static bool keep_open(void *user, const view_stretch *part) {
     view_crosser *c = user;
     return array_push(&c->sights->alloc, &c->open, *part);
@@ -61,17 +49,15 @@ froe_status view_look_at_crossings(view_crosser *c, uint32_t piece, const view_r
         const view_line *l = s->lines.data + (ring->data[i].way >> 1);
         const uint32_t node = l->kind == VIEW_CUT ? l->b : FROE_NONE; /* whose cut makes this side */
         if (node == FROE_NONE || (!lists_polygons(s, node) && !(node == 0 && c->section))) continue;
-        const view_stretch side = stretch_of(ring, i);
+        const view_stretch side = view_side_of_ring(ring->data, (uint32_t)ring->count, i);
         view_stretch inside = side;
         c->open.count = 0;
         if (c->hidden && view_cut_to_window(s, side.edge, &inside) &&
             (!keep_open(c, &inside) || !keep_crossed(c, node, patch, &c->all)))
             return FROE_E_MEMORY;
         c->open.count = 0; /* first the open part, as most is hidden */
-        const froe_status status =
-            view_screen_classify(c->screen, &side, side.edge, ring->data, (uint32_t)ring->count, keep_open, c);
-        if (status) return status;
-        if (!keep_crossed(c, node, patch, &c->seen)) return FROE_E_MEMORY;
+        if (!view_screen_side(c->screen, ring->data[i].way, keep_open, c) || !keep_crossed(c, node, patch, &c->seen))
+            return FROE_E_MEMORY;
     }
     return FROE_OK;
 }

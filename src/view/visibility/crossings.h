@@ -19,7 +19,8 @@ typedef struct view_crosser {
     view_ring list_ring; /**< of a piece in the cut */
 } view_crosser;
 /** Finds the stretches along which polygons in cuts cross a piece whose beam is `ring`, as far as they are open, and
- * with a section the parts of its sides that lie in that. FROE_E_MEMORY. */
+ * with a section the parts of its sides that lie in that. REQUIRES: view_screen_look() has just found what is open of
+ * the beam. FROE_E_MEMORY. */
 froe_status view_look_at_crossings(view_crosser *crosser, uint32_t piece, const view_ring *ring);
 /** Appends where the section cuts a polygon that is seen edge-on, to the crossings of the visibility: all of it, since
  * REQUIRES: the eye is on the side of the section that is left out. FROE_E_MEMORY. */

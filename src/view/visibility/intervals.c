@@ -60,6 +60,15 @@ double view_share_of(view_sightlines *s, uint32_t edge, view_mark mark) {
 
 /* ---------------------------------------------------------------------- joining -- */
 
+/* Where a stretch of an edge ends: at a vertex of it, if that is there, however the end was found. Cuts of the tree go
+ * through vertices, and lines are chained at these. */
+static view_mark mark_on_edge(view_sightlines *s, uint32_t edge, uint32_t line, const view_end *end, int side) {
+    const uint32_t vertex = s->surface->vertices[2 * (size_t)edge + (uint32_t)side];
+    const view_end own = {.ray = s->rays[vertex], .vertex = vertex};
+    const bool same = end->vertex == FROE_NONE && view_compare_along(s, line, &own, end) == 0;
+    return view_mark_of(same ? &own : end);
+}
+
 typedef struct interval_joiner {
     froe_visibility *v;
     const view_stretch *stretches;
@@ -102,7 +111,8 @@ froe_status view_join_intervals(froe_visibility *v, const view_stretches *stretc
                 if (view_compare_ends(&v->sights, j.line, &next[0], to) > 0) break;
                 if (view_compare_ends(&v->sights, j.line, &next[1], to) > 0) to = &next[1];
             }
-            const view_mark marks[2] = {view_mark_of(from), view_mark_of(to)};
+            const view_mark marks[2] = {mark_on_edge(&v->sights, e, j.line, from, 0),
+                                        mark_on_edge(&v->sights, e, j.line, to, 1)};
             froe_interval x = {view_share_of(&v->sights, e, marks[0]), view_share_of(&v->sights, e, marks[1])};
             if (x.from < last) x.from = last;
             if (x.to < x.from) x.to = x.from;

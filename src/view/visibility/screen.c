@@ -2,7 +2,8 @@
 #include "view/visibility/screen.h"
 #include <string.h>
 
-enum { ROOT_SLOT = UINT32_MAX }; /* slot: 2 * node + child, or this */
+#define ROOT_SLOT UINT32_MAX /* slot: 2 * node + child, or this */
+enum { TILE_MOST = 32 };      /* how many times as wide or high as a beam its leaf may be */
 
 static void set_child(view_screen *s, uint32_t slot, uint32_t child) {
     if (slot == ROOT_SLOT)
@@ -11,10 +12,25 @@ static void set_child(view_screen *s, uint32_t slot, uint32_t child) {
         s->nodes.data[slot >> 1].child[slot & 1] = child;
 }
 
-/* Puts a node under `slot`: inside the way `inner`, beyond it `outer`. FROE_NONE without memory. */
+static bool is_closed(const view_screen *s, uint32_t child) {
+    return child < VIEW_OPEN ? s->nodes.data[child].above & 1 : child > VIEW_OPEN;
+}
+
+/* Closes the nodes above a slot below which nothing is open any more. */
+static void close_above(view_screen *s, uint32_t slot) {
+    while (slot != ROOT_SLOT) {
+        view_screen_node *n = s->nodes.data + (slot >> 1);
+        if (!is_closed(s, n->child[0]) || !is_closed(s, n->child[1])) return;
+        slot = n->above;
+        n->above |= 1;
+        if (slot == (ROOT_SLOT & ~1u)) return;
+    }
+}
+
+/* Puts a node under `slot`: inside the way `inner`, beyond it `outer`. The slot inside; FROE_NONE without memory. */
 static uint32_t put_node(view_screen *s, uint32_t slot, view_way way, uint32_t inner, uint32_t outer) {
     const uint32_t node = (uint32_t)s->nodes.count, inside = !(way & 1);
-    view_screen_node n = {.line = way >> 1};
+    view_screen_node n = {.line = way >> 1, .above = slot & ~1u};
     if (node >= VIEW_OPEN) return FROE_NONE;
     n.child[inside] = inner;
     n.child[!inside] = outer;
@@ -25,6 +41,29 @@ static uint32_t put_node(view_screen *s, uint32_t slot, view_way way, uint32_t i
 
 /* --------------------------------------------------------------------- window -- */
 
+/* The covector of a side of the window, 0 on it and 1 at the corner `opposite`. */
+static void scale_side(view_screen *s, uint32_t side, uint32_t opposite, double out[3]) {
+    const filter_vector h = view_way_image(s->sights, s->sights->window_ways[side]);
+    const double *ray = s->sights->rays[s->sights->tree->scene->vertex_count + opposite].x;
+    const double at = h.x[0] * ray[0] + h.x[1] * ray[1] + h.x[2] * ray[2];
+    for (int k = 0; k < 3; k++) out[k] = h.x[k] / at;
+}
+
+/* The lines across the window. */
+static froe_status make_tiles(view_screen *s) {
+    view_sightlines *sights = s->sights;
+    s->first_across = (uint32_t)sights->lines.count;
+    for (int axis = 0; axis < 2; axis++)
+        for (uint32_t i = 1; i < sights->tiles; i++)
+            if (view_line_across(sights, axis, i) == FROE_NONE) return FROE_E_MEMORY;
+    if (sights->tiles == 1) return FROE_OK;
+    scale_side(s, 3, 1, s->sides[0][0]);
+    scale_side(s, 1, 0, s->sides[0][1]);
+    scale_side(s, 0, 3, s->sides[1][0]);
+    scale_side(s, 2, 0, s->sides[1][1]);
+    return FROE_OK;
+}
+
 froe_status view_screen_new(view_screen *s, view_sightlines *sights) {
     const uint32_t n = sights->window_count, first = sights->tree->scene->vertex_count;
     uint32_t lines[FROE_WINDOW_MOST], slot = ROOT_SLOT;
@@ -32,7 +71,7 @@ froe_status view_screen_new(view_screen *s, view_sightlines *sights) {
     *s = (view_screen){.sights = sights, .root = VIEW_OPEN, .open = 1};
     for (uint32_t i = 0; i < n; i++)
         if ((lines[i] = view_line_of_window(sights, i)) == FROE_NONE) return FROE_E_MEMORY;
-    /* The turn of the window as the eye sees it: 1 left, -1 right. It must be strictly convex. */
+    /* The turn of the window as the eye sees it. It must be strictly convex. */
     for (uint32_t i = 0; i < n; i++)
         for (uint32_t j = 2; j < n; j++) {
             const uint32_t v = first + (i + j) % n;
@@ -45,17 +84,89 @@ froe_status view_screen_new(view_screen *s, view_sightlines *sights) {
         slot = put_node(s, slot, sights->window_ways[i], VIEW_OPEN, VIEW_OUTSIDE);
         if (slot == FROE_NONE) return FROE_E_MEMORY;
     }
-    return FROE_OK;
+    s->turn = turn;
+    return make_tiles(s);
 }
 
 void view_screen_free(view_screen *s) {
     if (!s->sights) return;
     const froe_allocator *alloc = &s->sights->alloc;
     array_free(alloc, &s->nodes);
+    array_free(alloc, &s->leaves);
+    array_free(alloc, &s->seen);
+    array_free(alloc, &s->ring);
     array_free(alloc, &s->beams);
     array_free(alloc, &s->corners);
-    array_free(alloc, &s->sides);
+    array_free(alloc, &s->where);
     array_free(alloc, &s->stretches);
+}
+
+/* ---------------------------------------------------------------------- tiles -- */
+
+/* Is the line of a node one across the window? Then *axis and *at say which. */
+static bool is_across(const view_screen *s, uint32_t line, int *axis, uint16_t *at) {
+    const uint32_t number = line - s->first_across, each = s->sights->tiles - 1;
+    if (number >= 2 * each) return false;
+    *axis = number >= each;
+    *at = (uint16_t)(number - (*axis ? each : 0) + 1);
+    return true;
+}
+
+/* Which child of such a node has the tiles before the line? Lines of axis 0 have them on their left where the window
+ * turns left, lines of axis 1 on their right. */
+static uint32_t lower_child(const view_screen *s, int axis) {
+    return (s->turn > 0) != (axis == 1);
+}
+
+/* The box of a child. */
+static view_box box_of_child(const view_screen *s, uint32_t line, uint32_t child, view_box box) {
+    int axis;
+    uint16_t at;
+    if (!is_across(s, line, &axis, &at)) return box;
+    *(child == lower_child(s, axis) ? &box.hi[axis] : &box.lo[axis]) = at;
+    return box;
+}
+
+/* How wide and high a beam is, in tiles: about, as this decides about no more than the shape of the tree. */
+static void measure_beam(view_screen *s, const view_corner *ring, uint32_t count) {
+    for (int axis = 0; axis < 2; axis++) {
+        double lo = 1, hi = 0;
+        for (uint32_t i = 0; i < count; i++) {
+            double at[2] = {0, 0};
+            for (int k = 0; k < 3; k++) {
+                at[0] += s->sides[axis][0][k] * ring[i].ray.x[k];
+                at[1] += s->sides[axis][1][k] * ring[i].ray.x[k];
+            }
+            const double sum = at[0] + at[1], share = sum > 0 ? at[0] / sum : i & 1;
+            lo = share < lo ? share : lo;
+            hi = share > hi ? share : hi;
+        }
+        lo = lo > 0 ? lo : 0;
+        hi = hi < 1 ? hi : 1;
+        s->extent[axis] = hi > lo ? (hi - lo) * s->sights->tiles : 0;
+    }
+}
+
+/* Divides an open leaf that is large beside the beam. FROE_NONE: it is not; *ok: there was memory. */
+static uint32_t divide_leaf(view_screen *s, uint32_t slot, view_box box, bool *ok) {
+    double most = TILE_MOST;
+    int axis = -1;
+    for (int k = 0; k < 2; k++) {
+        const int wide = box.hi[k] - box.lo[k];
+        if (wide < 2 || wide <= most * s->extent[k]) continue;
+        axis = k;
+        if (s->extent[k] > 0)
+            most = wide / s->extent[k];
+        else
+            break;
+    }
+    if (axis < 0) return FROE_NONE;
+    const uint32_t at = (box.lo[axis] + box.hi[axis]) / 2u,
+                   line = s->first_across + (axis ? s->sights->tiles - 1 : 0) + at - 1;
+    slot = put_node(s, slot, 2 * line, VIEW_OPEN, VIEW_OPEN);
+    *ok = slot != FROE_NONE;
+    s->open += *ok;
+    return *ok ? slot >> 1 : FROE_NONE;
 }
 
 /* ---------------------------------------------------------------------- beams -- */
@@ -72,7 +183,7 @@ static void cut_off(view_screen *s, size_t first, uint32_t count, uint32_t line,
     const view_way along = 2 * line + (wanted < 0);
     for (uint32_t i = 0; i < count; i++) {
         const view_corner *k = s->corners.data + first + i;
-        const int here = wanted * s->sides.data[i], next = wanted * s->sides.data[i + 1 < count ? i + 1 : 0];
+        const int here = wanted * s->where.data[i], next = wanted * s->where.data[i + 1 < count ? i + 1 : 0];
         if (here > 0) put_corner(s, k, k->way, k->bound);
         if (here == 0) put_corner(s, k, next > 0 ? k->way : along, next > 0 ? k->bound : 1);
         if (here * next >= 0) continue;
@@ -88,7 +199,7 @@ static void cut_off(view_screen *s, size_t first, uint32_t count, uint32_t line,
 }
 
 /* Replaces the topmost beam, its ring at `first`, by its two parts, the negative one on top. */
-static bool divide_beam(view_screen *s, uint32_t node, size_t first, uint32_t count) {
+static bool divide_beam(view_screen *s, uint32_t node, size_t first, uint32_t count, view_box box) {
     const froe_allocator *alloc = &s->sights->alloc;
     const view_screen_node n = s->nodes.data[node];
     if (!array_reserve(alloc, &s->corners, 2 * ((size_t)count + 2)) || !array_reserve(alloc, &s->beams, 2))
@@ -100,61 +211,127 @@ static bool divide_beam(view_screen *s, uint32_t node, size_t first, uint32_t co
     const uint32_t negative = (uint32_t)(s->corners.count - start) - positive;
     memmove(s->corners.data + first, s->corners.data + start, (size_t)(positive + negative) * sizeof *s->corners.data);
     s->corners.count = first + positive + negative;
-    s->beams.data[s->beams.count++] = (view_pending){n.child[1], 2 * node + 1, first, positive};
-    s->beams.data[s->beams.count++] = (view_pending){n.child[0], 2 * node, first + positive, negative};
+    s->beams.data[s->beams.count++] =
+        (view_pending){n.child[1], 2 * node + 1, first, positive, box_of_child(s, n.line, 1, box)};
+    s->beams.data[s->beams.count++] =
+        (view_pending){n.child[0], 2 * node, first + positive, negative, box_of_child(s, n.line, 0, box)};
+    return true;
+}
+
+/* Appends a ring to those that were found. */
+static bool keep_ring(view_screen *s, const view_corner *ring, uint32_t count, view_opening *out) {
+    if (s->ring.count + count > INT32_MAX || !array_reserve(&s->sights->alloc, &s->ring, count)) return false;
+    out->first = (uint32_t)s->ring.count;
+    out->count = count;
+    memcpy(s->ring.data + s->ring.count, ring, count * sizeof *ring);
+    s->ring.count += count;
     return true;
 }
 
 /* Follows the topmost beam down until it ends or is divided. */
-static bool send(view_screen *s, uint32_t cover, view_beam_fn *fn, void *user) {
+static bool send(view_screen *s, bool opaque) {
     const view_pending top = s->beams.data[--s->beams.count];
     uint32_t node = top.node, slot = top.slot;
+    view_box box = top.box;
     const uint32_t count = top.count;
-    if (s->sides.capacity < count && !array_reserve(&s->sights->alloc, &s->sides, count)) return false;
+    if (s->where.capacity < count && !array_reserve(&s->sights->alloc, &s->where, count)) return false;
     view_corner *ring = s->corners.data + top.first;
-    while (node < VIEW_OPEN) {
+    for (;;) {
+        if (node == VIEW_OPEN && opaque) {
+            bool ok = true;
+            const uint32_t divided = divide_leaf(s, slot, box, &ok);
+            if (!ok) return false;
+            if (divided != FROE_NONE) node = divided;
+        }
+        if (is_closed(s, node) || node == VIEW_OPEN) break;
         const view_screen_node *n = s->nodes.data + node;
         unsigned reached = 0; /* bit 0: some corners are on the negative side, bit 1: some on the positive */
         view_way before = ring[count - 1].way;
         for (uint32_t i = 0; i < count; i++) {
             const int side = view_side(s->sights, n->line, &ring[i].ray, ring[i].vertex, before, ring[i].way);
-            s->sides.data[i] = (int8_t)side;
+            s->where.data[i] = (int8_t)side;
             reached |= side < 0 ? 1u : side > 0 ? 2u : 0u;
             before = ring[i].way;
         }
-        if (reached == 3) return divide_beam(s, node, top.first, count);
+        if (reached == 3) return divide_beam(s, node, top.first, count, box);
         for (uint32_t i = 0; i < count; i++) /* a beam on one side of a line may have a side on it */
-            if (!s->sides.data[i] && !s->sides.data[i + 1 < count ? i + 1 : 0]) ring[i].bound = 1;
-        slot = 2 * node + (reached == 2);
-        node = n->child[reached == 2];
+            if (!s->where.data[i] && !s->where.data[i + 1 < count ? i + 1 : 0]) ring[i].bound = 1;
+        const uint32_t child = reached == 2;
+        box = box_of_child(s, n->line, child, box);
+        slot = 2 * node + child;
+        node = n->child[child];
     }
     s->corners.count = top.first;
-    if (node != VIEW_OPEN) return true;
-    if (!fn(user, ring, count)) return false;
-    if (cover == FROE_NONE) return true;
-    /* Covers the open leaf: a chain of those sides of the beam that the tree does not have yet. */
-    s->open--;
-    set_child(s, slot, VIEW_COVERED + cover);
-    for (uint32_t i = 0; i < count; i++) {
-        if (ring[i].bound) continue;
-        slot = put_node(s, slot, ring[i].way, VIEW_COVERED + cover, VIEW_OPEN);
-        if (slot == FROE_NONE) return false;
-        s->open++;
-    }
-    return true;
+    view_opening part = {.slot = slot};
+    if (node != VIEW_OPEN) s->lost = true;
+    return node != VIEW_OPEN || (keep_ring(s, ring, count, &part) && array_push(&s->sights->alloc, &s->leaves, part));
 }
 
-froe_status view_screen_insert(view_screen *s, const view_corner *ring, uint32_t count, uint32_t cover,
-                               view_beam_fn *fn, void *user) {
+froe_status view_screen_look(view_screen *s, const view_corner *ring, uint32_t count, bool opaque) {
     const froe_allocator *alloc = &s->sights->alloc;
-    s->beams.count = s->corners.count = 0;
+    const uint16_t tiles = (uint16_t)s->sights->tiles;
+    s->beams.count = s->corners.count = s->leaves.count = s->seen.count = s->ring.count = 0;
+    s->lost = false;
     if (!array_reserve(alloc, &s->corners, count) || !array_reserve(alloc, &s->beams, 1)) return FROE_E_MEMORY;
     memcpy(s->corners.data, ring, count * sizeof *ring);
     s->corners.count = count;
-    s->beams.data[s->beams.count++] = (view_pending){s->root, ROOT_SLOT, 0, count};
+    s->beams.data[s->beams.count++] = (view_pending){s->root, ROOT_SLOT, 0, count, {{0, 0}, {tiles, tiles}}};
+    if (opaque && tiles > 1) measure_beam(s, ring, count);
     while (s->beams.count)
-        if (!send(s, cover, fn, user)) return FROE_E_MEMORY;
+        if (!send(s, opaque)) return FROE_E_MEMORY;
+    /* Parts of a beam that is wholly open need not be told apart. */
+    if (!array_reserve(alloc, &s->seen, s->leaves.count)) return FROE_E_MEMORY;
+    if (s->leaves.count < 2 || s->lost) {
+        for (size_t i = 0; i < s->leaves.count; i++) s->seen.data[s->seen.count++] = s->leaves.data[i];
+        return FROE_OK;
+    }
+    return keep_ring(s, ring, count, &s->seen.data[s->seen.count++]) ? FROE_OK : FROE_E_MEMORY;
+}
+
+/* Covers an open leaf: a chain of those sides of the beam that the tree does not have yet. */
+froe_status view_screen_cover(view_screen *s, uint32_t object) {
+    for (size_t k = 0; k < s->leaves.count; k++) {
+        const view_opening *part = s->leaves.data + k;
+        const view_corner *ring = s->ring.data + part->first;
+        uint32_t slot = part->slot;
+        s->open--;
+        set_child(s, slot, VIEW_COVERED + object);
+        for (uint32_t i = 0; i < part->count; i++) {
+            if (ring[i].bound) continue;
+            slot = put_node(s, slot, ring[i].way, VIEW_COVERED + object, VIEW_OPEN);
+            if (slot == FROE_NONE) return FROE_E_MEMORY;
+            s->open++;
+        }
+        close_above(s, slot);
+    }
     return FROE_OK;
+}
+
+/* ---------------------------------------------------------------------- sides -- */
+
+/* Its ends are the meetings of its line with the sides before and after: see region.c. */
+view_stretch view_side_of_ring(const view_corner *ring, uint32_t count, uint32_t i) {
+    const uint32_t j = i + 1 < count ? i + 1 : 0;
+    const view_corner *k = ring + i, *next = ring + j;
+    const view_way before = ring[i ? i - 1 : count - 1].way;
+    const uint32_t turned = k->way & 1;
+    view_stretch s = {.edge = k->way >> 1};
+    s.end[turned] = (view_end){k->ray, k->vertex, before ^ 1 ^ turned};
+    s.end[!turned] = (view_end){next->ray, next->vertex, next->way ^ turned};
+    return s;
+}
+
+bool view_screen_side(const view_screen *s, view_way way, view_stretch_fn *fn, void *user) {
+    for (size_t k = 0; k < s->seen.count; k++) {
+        const view_opening *part = s->seen.data + k;
+        const view_corner *ring = s->ring.data + part->first;
+        for (uint32_t i = 0; i < part->count; i++) {
+            if (ring[i].way != way) continue;
+            const view_stretch stretch = view_side_of_ring(ring, part->count, i);
+            if (!fn(user, &stretch)) return false;
+        }
+    }
+    return true;
 }
 
 /* ------------------------------------------------------------------ stretches -- */

@@ -13,17 +13,50 @@
 /* ------------------------------------------------------------------ begin, end -- */
 
 static uint32_t sightline_point_count(const view_sightlines *s) {
-    return s->tree->scene->vertex_count + s->window_count;
+    return s->tree->scene->vertex_count + s->point_count;
+}
+
+/* The number of an end of a line across the window, among the points. */
+static uint32_t end_across(const view_sightlines *s, int axis, uint32_t i, uint32_t end) {
+    return s->window_count + 2 * ((uint32_t)axis * (s->tiles - 1) + i - 1) + end;
+}
+
+/* Finer than the faces of a scene are on the whole, so that what is small gets tiles of its own size. */
+static uint32_t choose_tiles(const froe_surface *surface, uint32_t window_count) {
+    enum { TILES_MOST = 4096 };
+    uint32_t tiles = 1;
+    while (window_count == 4 && tiles < TILES_MOST && (uint64_t)tiles * tiles < 4 * (uint64_t)surface->patch_count)
+        tiles *= 2;
+    return tiles;
+}
+
+/* The corners of the window, and the ends of the lines across it: each on one of its sides, rounded. */
+static bool make_points(view_sightlines *s, const double *window, uint32_t window_count) {
+    s->window_count = window_count;
+    s->tiles = choose_tiles(s->surface, window_count);
+    s->point_count = window_count + 4 * (s->tiles - 1);
+    s->points = support_calloc(&s->alloc, 3 * (size_t)s->point_count + 1, sizeof *s->points);
+    if (!s->points) return false;
+    for (uint32_t k = 0; k < 3 * window_count; k++) s->points[k] = window[k];
+    for (int axis = 0; axis < 2; axis++)
+        for (uint32_t i = 1; i < s->tiles; i++)
+            for (uint32_t end = 0; end < 2; end++) {
+                const uint32_t from = end ? 3 - 2 * (uint32_t)axis : 0, to = end ? 2 : 1 + 2 * (uint32_t)axis;
+                const double share = (double)i / s->tiles;
+                for (uint32_t k = 0; k < 3; k++)
+                    s->points[3 * (size_t)end_across(s, axis, i, end) + k] =
+                        (1 - share) * window[3 * from + k] + share * window[3 * to + k];
+            }
+    return true;
 }
 
 froe_status view_sightlines_new(view_sightlines *s, const froe_tree *tree, const froe_surface *surface,
                                 const geom_eye *eye, const double *window, uint32_t window_count,
                                 const froe_allocator *alloc) {
     *s = (view_sightlines){.alloc = *alloc, .tree = tree, .surface = surface, .eye = *eye};
-    s->window = window;
-    s->window_count = window_count;
     froe_status status = geom_context_new(alloc, &s->context);
     if (status) return status;
+    if (!make_points(s, window, window_count)) return FROE_E_MEMORY;
     const uint32_t objects = tree->scene->object_count, points = sightline_point_count(s);
     s->rays = support_calloc(alloc, (size_t)points + 1, sizeof *s->rays);
     s->eye_sides = support_calloc(alloc, (size_t)objects + 1, sizeof *s->eye_sides);
@@ -36,6 +69,7 @@ froe_status view_sightlines_new(view_sightlines *s, const froe_tree *tree, const
 
 void view_sightlines_free(view_sightlines *s) {
     if (s->rays) support_free(&s->alloc, s->rays, ((size_t)sightline_point_count(s) + 1) * sizeof *s->rays);
+    if (s->points) support_free(&s->alloc, s->points, (3 * (size_t)s->point_count + 1) * sizeof *s->points);
     if (s->eye_sides) support_free(&s->alloc, s->eye_sides, (size_t)s->tree->scene->object_count + 1);
     if (s->of_edge) support_free(&s->alloc, s->of_edge, (surface_line_count(s->surface) + 1) * sizeof *s->of_edge);
     array_free(&s->alloc, &s->lines);
@@ -104,13 +138,19 @@ static uint32_t add_sight_line(view_sightlines *s, uint32_t kind, uint32_t a, ui
 
 uint32_t view_line_of_edge(view_sightlines *s, uint32_t edge) {
     const uint32_t *v = s->surface->vertices + 2 * (size_t)edge;
-    if (!s->of_edge[edge]) s->of_edge[edge] = add_sight_line(s, VIEW_EDGE, v[0], v[1], FROE_NONE) + 1;
+    if (!s->of_edge[edge]) s->of_edge[edge] = add_sight_line(s, VIEW_EDGE, v[0], v[1], edge) + 1;
     return s->of_edge[edge] - 1;
 }
 
 uint32_t view_line_of_window(view_sightlines *s, uint32_t side) {
     const uint32_t first = s->tree->scene->vertex_count;
     return add_sight_line(s, VIEW_EDGE, first + side, first + (side + 1) % s->window_count, FROE_NONE);
+}
+
+uint32_t view_line_across(view_sightlines *s, int axis, uint32_t i) {
+    const uint32_t first = s->tree->scene->vertex_count;
+    return add_sight_line(s, VIEW_EDGE, first + end_across(s, axis, i, 0), first + end_across(s, axis, i, 1),
+                          FROE_NONE);
 }
 
 uint32_t view_line_of_cut(view_sightlines *s, uint32_t patch, uint32_t node) {

@@ -1,6 +1,6 @@
 /* sightlines.h: the sightlines of one picture, and the sides of them on which points of the picture lie.
  *
- *     EDGE    through an edge of the surface, or a side of the window
+ *     EDGE    through an edge of the surface, or a side of the window; or across the window, from side to side
  *     CUT     where the cut of a node divides a patch
  *     STOP    through the point of an edge or wire that lies in the section, or in the plane of a polygon, across
  *             another line
@@ -22,7 +22,8 @@ typedef struct view_line {
     filter_vector image;
     uint32_t kind;
     uint32_t a, b; /**< EDGE: vertices | CUT: patch, node | STOP: edge or wire, axis */
-    uint32_t c;    /**< STOP: the polygon; FROE_NONE: the section, which is the cut of the root */
+    uint32_t c;    /**< EDGE: its number, or FROE_NONE | STOP: the polygon; FROE_NONE: the section, which is the cut of
+                      the root */
 } view_line;
 
 /** An end of a stretch of a line: a vertex, or its meeting with a way. */
@@ -37,8 +38,9 @@ typedef struct view_sightlines {
     const froe_surface *surface;
     geom_eye eye;
     num_context context;
-    const double *window; /**< the vertices after those of the scene */
-    uint32_t window_count;
+    double *points; /**< the vertices after those of the scene: corners of the window, ends of the lines across it */
+    uint32_t point_count, window_count;
+    uint32_t tiles; /**< a power of two: lines divide the window, one of four corners, into tiles x tiles; 1: none do */
     view_way window_ways[FROE_WINDOW_MOST]; /**< along its sides, the inside on their positive sides */
     filter_vector *rays;                    /**< per vertex */
     int8_t *eye_sides;                      /**< per object: side of its plane the eye is on; 2: not known yet */
@@ -54,7 +56,7 @@ void view_sightlines_free(view_sightlines *sights);
 
 static inline const double *view_vertex(const view_sightlines *s, uint32_t vertex) {
     const uint32_t own = s->tree->scene->vertex_count;
-    return vertex < own ? scene_vertex(s->tree->scene, vertex) : s->window + 3 * (size_t)(vertex - own);
+    return vertex < own ? scene_vertex(s->tree->scene, vertex) : s->points + 3 * (size_t)(vertex - own);
 }
 /** Side of an object's plane on which the eye is; exact. */
 int view_facing(view_sightlines *sights, uint32_t object);
@@ -62,6 +64,9 @@ int view_facing(view_sightlines *sights, uint32_t object);
 /** Each gives the line that there is, or makes it; FROE_NONE without memory. */
 uint32_t view_line_of_edge(view_sightlines *sights, uint32_t edge);
 uint32_t view_line_of_window(view_sightlines *sights, uint32_t side);
+/** The lines across the window: from its first side to the third at shares i / tiles of them (axis 0), and from the
+ * fourth to the second (axis 1); i from 1 on. */
+uint32_t view_line_across(view_sightlines *sights, int axis, uint32_t i);
 uint32_t view_line_of_cut(view_sightlines *sights, uint32_t patch, uint32_t node);
 /** The plane of an object, or (FROE_NONE) that of the section, the root's cut. */
 geom_plane view_plane_at(const view_sightlines *sights, uint32_t object);

@@ -22,6 +22,7 @@ typedef struct visibility_search {
     ARRAY(view_piece) pieces;
     uint32_t *ranks; /* per object */
     view_piece now;
+    uint32_t edge; /* whose stretches are being kept */
 } visibility_search;
 
 /* --------------------------------------------------------------------- looking -- */
@@ -31,16 +32,59 @@ static bool keep_stretch(void *user, const view_stretch *part) {
     return array_push(&k->v->alloc, &k->stretches, *part);
 }
 
-static bool keep_beam(void *user, const view_corner *ring, uint32_t count) {
+static bool keep_side(void *user, const view_stretch *side) {
     visibility_search *k = user;
+    const view_stretch part = {k->edge, {side->end[0], side->end[1]}};
+    return keep_stretch(k, &part);
+}
+
+/* Keeps what was found open of the current piece. */
+static froe_status keep_pieces(visibility_search *k) {
     froe_visibility *v = k->v;
-    if (!array_reserve(&v->alloc, &v->corners, count) || !array_reserve(&v->alloc, &k->pieces, 1)) return false;
-    k->now.first = (uint32_t)v->corners.count;
-    k->now.count = count;
-    memcpy(v->corners.data + v->corners.count, ring, count * sizeof *ring);
-    v->corners.count += count;
-    k->pieces.data[k->pieces.count++] = k->now;
-    return v->corners.count <= INT32_MAX;
+    const view_screen *s = &k->screen;
+    for (size_t i = 0; i < s->seen.count; i++) {
+        const view_opening *part = s->seen.data + i;
+        if (!array_reserve(&v->alloc, &v->corners, part->count)) return FROE_E_MEMORY;
+        k->now.first = (uint32_t)v->corners.count;
+        k->now.count = part->count;
+        memcpy(v->corners.data + v->corners.count, s->ring.data + part->first, part->count * sizeof *s->ring.data);
+        v->corners.count += part->count;
+        if (v->corners.count > INT32_MAX || !array_push(&v->alloc, &k->pieces, k->now)) return FROE_E_MEMORY;
+    }
+    return FROE_OK;
+}
+
+static bool is_wanted(const visibility_search *k, uint32_t edge) {
+    return edge != FROE_NONE && (!k->options->edges || k->options->edges[edge]);
+}
+
+/* Stretches of edges where the border of a polygon goes straight on at some corners, which its beam leaves out. */
+static froe_status look_along_sides(visibility_search *k, uint32_t piece) {
+    view_sightlines *s = &k->v->sights;
+    froe_status status = FROE_OK;
+    view_stretch stretch;
+    for (uint32_t i = 0, n = view_side_count(s, piece); i < n && !status; i++) {
+        const bool part = view_stretch_of(s, piece, i, &stretch, &status);
+        if (!part || !is_wanted(k, stretch.edge)) continue;
+        const uint32_t line = view_line_of_edge(s, stretch.edge);
+        status =
+            view_screen_classify(&k->screen, &stretch, line, k->ring.data, (uint32_t)k->ring.count, keep_stretch, k);
+    }
+    return status;
+}
+
+/* Edges are seen where the piece is seen beside them. */
+static froe_status look_at_edges(visibility_search *k, uint32_t piece) {
+    view_sightlines *s = &k->v->sights;
+    if (view_side_count(s, piece) != k->ring.count) return look_along_sides(k, piece);
+    for (size_t i = 0; i < k->ring.count; i++) {
+        const view_way way = k->ring.data[i].way;
+        const view_line *line = s->lines.data + (way >> 1);
+        if (line->kind != VIEW_EDGE || !is_wanted(k, line->c)) continue;
+        k->edge = line->c;
+        if (!view_screen_side(&k->screen, way, keep_side, k)) return FROE_E_MEMORY;
+    }
+    return FROE_OK;
 }
 
 static froe_status look_at(visibility_search *k, uint32_t piece, uint32_t place) {
@@ -51,21 +95,14 @@ static froe_status look_at(visibility_search *k, uint32_t piece, uint32_t place)
     const int facing = view_facing(&v->sights, object);
     if (!facing || (o->cull_back && facing < 0)) return FROE_OK;
     if (!view_beam_of(&v->sights, piece, &k->ring)) return FROE_E_MEMORY;
-    /* Edges and crossings first: the piece must not cover anything yet. */
-    const uint32_t corners = (uint32_t)k->ring.count;
-    froe_status status = FROE_OK;
-    view_stretch stretch;
-    for (uint32_t i = 0, n = view_side_count(&v->sights, piece); i < n && !status; i++) {
-        const bool part = view_stretch_of(&v->sights, piece, i, &stretch, &status);
-        if (!part || (o->edges && !o->edges[stretch.edge])) continue;
-        const uint32_t line = view_line_of_edge(&v->sights, stretch.edge);
-        status = view_screen_classify(&k->screen, &stretch, line, k->ring.data, corners, keep_stretch, k);
-    }
-    if (!status && o->crossings) status = view_look_at_crossings(&k->crosser, piece, &k->ring);
-    if (status) return status;
+    const bool opaque = !o->clear || !o->clear[patch];
+    froe_status status = view_screen_look(&k->screen, k->ring.data, (uint32_t)k->ring.count, opaque);
+    if (!status && k->screen.seen.count) status = look_at_edges(k, piece);
+    if (!status && o->crossings && (k->screen.seen.count || o->hidden_crossings))
+        status = view_look_at_crossings(&k->crosser, piece, &k->ring);
     k->now = (view_piece){.patch = patch, .object = object, .piece = piece, .place = place};
-    const uint32_t cover = !o->clear || !o->clear[patch] ? object : FROE_NONE;
-    return view_screen_insert(&k->screen, k->ring.data, corners, cover, keep_beam, k);
+    if (!status) status = keep_pieces(k);
+    return status || !opaque ? status : view_screen_cover(&k->screen, object);
 }
 
 static froe_status look_at_all(visibility_search *k) {
