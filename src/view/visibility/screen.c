@@ -3,7 +3,7 @@
 #include <string.h>
 
 #define ROOT_SLOT UINT32_MAX /* slot: 2 * node + child, or this */
-enum { TILE_MOST = 32 };      /* how many times as wide or high as a beam its leaf may be */
+enum { TILE_MOST = 32 };     /* how many times as wide or high as a beam its leaf may be */
 
 static void set_child(view_screen *s, uint32_t slot, uint32_t child) {
     if (slot == ROOT_SLOT)
