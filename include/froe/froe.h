@@ -296,7 +296,7 @@ typedef struct froe_method_info {
     const char *source;               /**< paper and theorem */
     const char *guarantee;            /**< what its size, height and time obey, or "none" */
     uint32_t kinds[FROE_MAX_DIM + 1]; /**< [d], bit k set: serves froe_kind k in R^d; 0: does not serve R^d */
-    uint32_t leaf;                    /**< its own leaf capacity; 0 stands for 1 */
+    uint32_t leaf;                    /**< its own leaf capacity, which it may fit to the scene; 0 stands for 1 */
     uint32_t least_leaf;              /**< the smallest it takes */
     const froe_option_info *options;  /**< ended by a NULL name */
 } froe_method_info;

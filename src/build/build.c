@@ -192,13 +192,15 @@ static froe_status build_by_method(froe_scene *scene, const froe_build_options *
         return support_fail(diag, FROE_E_OPTIONS, "A leaf capacity of %u is above %d, the largest there is.", o.leaf,
                             INT32_MAX);
     froe_status status = choose_method(&o, scene, &method, diag);
+    const bool own_leaf = o.leaf == FROE_LEAF_OWN;
     if (!status) o.leaf = leaf_of(&method->info, o.leaf);
     if (!status) status = check_scene(method, scene, o.leaf, diag);
     if (!status) status = check_order(&o, method, scene, diag);
     if (!status && root && !method->rooted)
         status = support_fail(diag, FROE_E_UNSUPPORTED, "Method '%s' takes no first cut.", method->info.name);
     if (status) return status;
-    build_job job = {.scene = scene, .alloc = scene->alloc, .task = &task, .diag = diag, .root = root};
+    build_job job = {
+        .scene = scene, .alloc = scene->alloc, .task = &task, .diag = diag, .root = root, .own_leaf = own_leaf};
     base_task_init(&task, o.threads, o.progress, o.user);
     status = prepare_in_any_locale(&o, method, tuned, &job);
     if (!status && !base_progress(&task, 0)) status = support_fail_cancelled(diag);

@@ -26,6 +26,7 @@ typedef struct build_job {
     base_task *task;
     froe_diagnostic *diag;
     uint32_t leaf;
+    bool own_leaf; /**< the caller names none: the builder may take another, and says so in meta */
     uint64_t seed, max_fragments;
     const uint32_t *order;        /**< of all objects, or NULL */
     const froe_cut *root;         /**< the first cut, or NULL */

@@ -13,18 +13,26 @@
 #include "geom/predicates.h"
 #include "tree/packed/packed.h"
 
-/** The two ends of an object, by x, then y, side by side because they are read together, often. */
+/** The two ends of an object, side by side because they are read together, often. */
 typedef struct axis_ends {
     double p[2], q[2];
 } axis_ends;
 
 typedef struct axis_work {
-    axis_ends *ends; /**< of all objects */
-    num_context *context;
+    const axis_ends *ends; /**< of all objects, as they lie in the scene */
+    num_context context;
 } axis_work;
 
-static inline packed_fragment axis_whole(const axis_ends *ends, uint32_t object) {
-    return (packed_fragment){{ends->p[0], ends->p[1]}, {ends->q[0], ends->q[1]}, object | PACKED_START | PACKED_END, 0};
+/** The ends of an object by x, then y. */
+static inline axis_ends axis_sorted(const axis_work *work, uint32_t object) {
+    const axis_ends *e = work->ends + object;
+    const bool swap = (e->q[0] < e->p[0]) | ((e->q[0] == e->p[0]) & (e->q[1] < e->p[1]));
+    const double *p = swap ? e->q : e->p, *q = swap ? e->p : e->q;
+    return (axis_ends){{p[0], p[1]}, {q[0], q[1]}};
+}
+static inline packed_fragment axis_whole(const axis_work *work, uint32_t object) {
+    const axis_ends e = axis_sorted(work, object);
+    return (packed_fragment){{e.p[0], e.p[1]}, {e.q[0], e.q[1]}, object | PACKED_START | PACKED_END, 0};
 }
 /** Where the line through u and v, which lie on different sides of x[axis] = value, meets that: the other
  * coordinate, between theirs, within *error. The computation has five roundings of relative size at most 2^-52 in any
@@ -47,8 +55,8 @@ static inline int axis_sure_side(const packed_fragment *f, bool last, int axis, 
     double beyond = (last ? f->q : f->p)[axis] - value, error = packed_error(f->error);
     return beyond > error ? 1 : beyond < -error ? -1 : 0;
 }
-/** Divides a fragment (ends: those of all objects) with ends on different sides of x[axis] = value. */
-void axis_divide(const axis_ends *ends, const packed_fragment *f, int axis, double value, packed_fragment *negative,
+/** Divides a fragment with ends on different sides of x[axis] = value. */
+void axis_divide(const axis_work *work, const packed_fragment *f, int axis, double value, packed_fragment *negative,
                  packed_fragment *positive);
 /** Writes the fragment of a segment or point that has a point inside the box. */
 void axis_clip(axis_work *work, uint32_t object, const packed_box *box, packed_fragment *out);

@@ -27,12 +27,12 @@ bool halve_count(axis_work *work, const packed_box *box, const packed_fragment *
     return false;
 }
 
-void halve_deal(const axis_ends *ends, const packed_fragment *f, uint32_t count, const halve_cut *cut,
+void halve_deal(const axis_work *work, const packed_fragment *f, uint32_t count, const halve_cut *cut,
                 const uint8_t *classes, packed_fragment *negative, packed_fragment *positive) {
     for (uint32_t i = 0; i < count; i++) {
         const packed_fragment fragment = f[i];
         if (classes[i] == 3)
-            axis_divide(ends, &fragment, cut->axis, cut->value, negative++, positive++);
+            axis_divide(work, &fragment, cut->axis, cut->value, negative++, positive++);
         else
             *(classes[i] == 1 ? negative++ : positive++) = fragment;
     }

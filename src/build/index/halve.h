@@ -15,6 +15,6 @@ typedef struct halve_cut {
 bool halve_count(axis_work *work, const packed_box *box, const packed_fragment *fragments, uint32_t count,
                  halve_cut *cut, uint8_t *classes);
 /** Deals fragments to two runs, by their classes. */
-void halve_deal(const axis_ends *ends, const packed_fragment *fragments, uint32_t count, const halve_cut *cut,
+void halve_deal(const axis_work *work, const packed_fragment *fragments, uint32_t count, const halve_cut *cut,
                 const uint8_t *classes, packed_fragment *negative, packed_fragment *positive);
 #endif

@@ -82,7 +82,8 @@ froe_status build_in_space(build_job *job, double growth, froe_tree **out) {
     froe_scene *s = job->scene;
     const size_t objects = s->object_count;
     const index_space_cell root = {.count = s->object_count, .growth = 1};
-    froe_status status = packer_new(&job->alloc, s->dim, s->object_count, job->leaf, &w.packer);
+    const uint64_t leaves = objects / (job->leaf / 2 + 1) + 1;
+    froe_status status = packer_new(&job->alloc, 2 * leaves, leaves + objects, 0, &w.packer);
     if (status) return status;
     if (!array_reserve(&job->alloc, &w.items, objects + objects / 2) || !array_push(&job->alloc, &w.cells, root))
         status = FROE_E_MEMORY;

@@ -24,12 +24,11 @@ static uint8_t *block_at(const tree_packer *p, uint32_t block) {
     return p->memory + gap(p->memory) + (size_t)block * PACKED_BLOCK;
 }
 
-froe_status packer_new(const froe_allocator *alloc, int dim, uint32_t objects, uint32_t leaf, tree_packer *out) {
+froe_status packer_new(const froe_allocator *alloc, uint64_t nodes, uint64_t blocks, uint64_t owners,
+                       tree_packer *out) {
     tree_packer p = {.alloc = *alloc};
-    /* Room for the rest of a tree of space is taken, not touched, and given back: large arrays are slow to move. */
-    uint64_t leaves = objects / (leaf / 2 + 1) + 1, blocks = leaves + (dim == 3 ? objects : objects / 4);
     bool taken = !resize(&p, blocks < UINT32_MAX / 2 ? (uint32_t)blocks : UINT32_MAX / 2) &&
-                 array_reserve(alloc, &p.owners, objects + 1) && array_reserve(alloc, &p.nodes, 2 * leaves + 1);
+                 array_reserve(alloc, &p.owners, owners + 1) && array_reserve(alloc, &p.nodes, nodes + 1);
     if (taken) p.nodes.data[p.nodes.count++] = (tree_node){0};
     if (taken)
         *out = p;
@@ -55,21 +54,28 @@ froe_status packer_split(tree_packer *p, uint32_t node, int axis, double value, 
     return FROE_OK;
 }
 
-/* Makes a node a leaf of so many pieces and blocks, which are yet to be written. */
-static froe_status take_leaf(tree_packer *p, uint32_t node, uint32_t count, uint32_t size, uint8_t flags,
-                             void **block) {
+/* Takes blocks and pieces. */
+static froe_status take_blocks(tree_packer *p, uint32_t size, uint32_t pieces) {
     uint64_t need = (uint64_t)p->block_count + size, room = p->block_room + p->block_room / 2 + 16;
-    if (count > TREE_MOST - p->piece_count) return FROE_E_LIMIT;
+    if (pieces > TREE_MOST - p->piece_count) return FROE_E_LIMIT;
     if (need > p->block_room) {
         if (need >= UINT32_MAX - 1) return FROE_E_LIMIT;
         if (room < need || room >= UINT32_MAX - 1) room = need;
         if (resize(p, (uint32_t)room)) return FROE_E_MEMORY;
     }
-    *block = block_at(p, p->block_count);
-    p->nodes.data[node] =
-        (tree_node){.u.list = {p->piece_count, count}, .child = p->block_count, .type = TREE_LEAF, .flags = flags};
-    p->piece_count += count;
+    p->piece_count += pieces;
     p->block_count += size;
+    return FROE_OK;
+}
+
+/* Makes a node a leaf of so many pieces and blocks, which are yet to be written. */
+static froe_status take_leaf(tree_packer *p, uint32_t node, uint32_t count, uint32_t size, uint8_t flags,
+                             void **block) {
+    const uint32_t first = p->piece_count, at = p->block_count;
+    froe_status status = take_blocks(p, size, count);
+    if (status) return status;
+    *block = block_at(p, at);
+    p->nodes.data[node] = (tree_node){.u.list = {first, count}, .child = at, .type = TREE_LEAF, .flags = flags};
     return FROE_OK;
 }
 
@@ -98,6 +104,38 @@ froe_status packer_space_leaf(tree_packer *p, uint32_t node, const froe_scene *s
     memset(block, 0, (size_t)size * PACKED_BLOCK);
     space_write(block, scene, items, count, triangles);
     return FROE_OK;
+}
+
+froe_status packer_place_for(tree_packer *p, uint32_t node, const tree_packer *subtree, packer_place *out) {
+    const size_t nodes = subtree->nodes.count - 1, owners = subtree->owners.count;
+    *out = (packer_place){node, (uint32_t)p->nodes.count, p->block_count, (uint32_t)p->owners.count, p->piece_count};
+    if (p->nodes.count + nodes > TREE_MOST) return FROE_E_LIMIT;
+    if (!array_reserve(&p->alloc, &p->nodes, nodes) || !array_reserve(&p->alloc, &p->owners, owners))
+        return FROE_E_MEMORY;
+    froe_status status = take_blocks(p, subtree->block_count, subtree->piece_count);
+    if (status) return status;
+    p->nodes.count += nodes;
+    p->owners.count += owners;
+    return FROE_OK;
+}
+
+void packer_put(const tree_packer *p, const tree_packer *subtree, const packer_place *place) {
+    const size_t nodes = subtree->nodes.count, owners = subtree->owners.count;
+    if (subtree->block_count)
+        memcpy(block_at(p, place->blocks), block_at(subtree, 0), (size_t)subtree->block_count * PACKED_BLOCK);
+    if (owners) memcpy(p->owners.data + place->owners, subtree->owners.data, owners * sizeof *p->owners.data);
+    for (size_t i = 0; i < nodes; i++) {
+        tree_node node = subtree->nodes.data[i];
+        if (tree_is_leaf(&node)) {
+            packed_header *block = (packed_header *)(void *)block_at(p, place->blocks + node.child);
+            node.u.list.first += place->pieces;
+            node.child += place->blocks;
+            block->owner += place->owners;
+        } else {
+            node.child += place->nodes - 1;
+        }
+        p->nodes.data[i ? place->nodes + i - 1 : place->first] = node;
+    }
 }
 
 /* An array of exactly its size, one byte for an empty one; it stays as it was where that fails. */

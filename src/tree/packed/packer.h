@@ -23,8 +23,13 @@ typedef struct tree_packer {
     uint32_t piece_count;
 } tree_packer;
 
-/** With room for a scene of so many objects at leaves of so many fragments. */
-froe_status packer_new(const froe_allocator *alloc, int dim, uint32_t objects, uint32_t leaf, tree_packer *out);
+/** Where a subtree goes: its first node, the others, and so on. */
+typedef struct packer_place {
+    uint32_t first, nodes, blocks, owners, pieces;
+} packer_place;
+
+/** With room for so much. It is taken, not touched, and given back in the end: large arrays are slow to move. */
+froe_status packer_new(const froe_allocator *alloc, uint64_t nodes, uint64_t blocks, uint64_t owners, tree_packer *out);
 void packer_free(tree_packer *packer);
 /** FROE_E_MEMORY, FROE_E_LIMIT. */
 froe_status packer_split(tree_packer *packer, uint32_t node, int axis, double value, uint32_t *child);
@@ -34,6 +39,11 @@ froe_status packer_leaf(tree_packer *packer, uint32_t node, const packed_box *bo
 /** The same in space; brings the items into the order of the block. FROE_E_MEMORY, FROE_E_LIMIT. */
 froe_status packer_space_leaf(tree_packer *packer, uint32_t node, const froe_scene *scene, space_item *items,
                               uint32_t count, uint8_t flags);
+/** A subtree that was packed apart is to begin at `node`, which is open: where all of it goes, which is taken. So
+ * several can be put at once. FROE_E_MEMORY, FROE_E_LIMIT. */
+froe_status packer_place_for(tree_packer *packer, uint32_t node, const tree_packer *subtree, packer_place *out);
+/** Copies a subtree of the plane to its place. */
+void packer_put(const tree_packer *packer, const tree_packer *subtree, const packer_place *place);
 /** The finished tree, which takes the packer's arrays and holds the scene. FROE_E_MEMORY. */
 froe_status packer_seal(tree_packer *packer, froe_scene *scene, const tree_meta *meta, froe_tree **out);
 #endif

@@ -1,0 +1,290 @@
+/* test_index.c: packed trees of the plane: the same for any number of threads and any allocation that fails, with the
+ * same answers for any capacity of leaves; and the capacity that is taken where none is named. */
+#include "tree/trees.h"
+#include <float.h>
+#include <froe/io.h>
+#include <froe/query.h>
+#include <math.h>
+#include <stdio.h>
+
+/* Subtrees are jobs from 8192 objects on; these make them of a few hundred. */
+#define JOBS "grid=4 load=2 parts=4"
+
+typedef struct kind_of_scene {
+    const char *name;
+    uint32_t count, grid; /* lattice; 0: anywhere */
+    double size, scale, shift;
+    bool shared; /* ends are shared, so that they do not lie one after the other */
+} kind_of_scene;
+
+static const kind_of_scene kinds[] = {
+    {"short", 700, 0, 0.05, 1, 0, false},
+    {"chains", 700, 0, 0.05, 1, 0, true},
+    {"long", 300, 0, 1.5, 1, 0, false},
+    {"lattice", 500, 30, 0.2, 1, 0, false},
+    {"coarse lattice", 300, 4, 1, 1, 0, true},
+    {"huge", 400, 0, 0.1, 0x1p1020, 0, false},
+    {"tiny", 400, 0, 0.1, 0x1p-800, 0, false},
+    {"denormal lattice", 400, 30, 0.2, 0x1p-1074, 0, false},
+    {"far away", 400, 0, 0.1, 1, 0x1p40, false},
+    {"so far away that cells are a few units in the last place", 400, 0, 0.2, 0x1p-8, 0x1p40, false},
+};
+enum { KINDS = sizeof kinds / sizeof *kinds };
+
+static double place(const kind_of_scene *k, double x) {
+    return (k->grid ? floor(x * k->grid) : x) * k->scale + k->shift;
+}
+
+static froe_scene *scene_of(const kind_of_scene *k) {
+    froe_scene *scene;
+    double *c = calloc(4 * (size_t)k->count, sizeof *c);
+    froe_objects o = froe_objects_defaults();
+    assert_non_null(c);
+    for (uint32_t i = 0; i < k->count; i++)
+        for (uint32_t j = 0; j < 2; j++) {
+            const double x = trees_unit(1, 4 * i + j), size = k->size * (trees_unit(2, 4 * i + j) - 0.5);
+            c[4 * i + j] = place(k, x), c[4 * i + 2 + j] = place(k, x + size);
+            if (k->shared && i % 5) c[4 * i + j] = c[4 * i - 2 + j], c[4 * i + 2 + j] = c[4 * i + j] + size * k->scale;
+        }
+    o.kind = FROE_SEGMENT, o.count = k->count, o.coords = c;
+    assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+    assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
+    free(c);
+    return scene;
+}
+
+static froe_build_options options(uint32_t leaf, const char *settings, unsigned threads) {
+    froe_build_options o = froe_build_defaults();
+    o.method = "index", o.leaf = leaf, o.settings = settings, o.threads = threads;
+    return o;
+}
+
+static froe_tree *build(froe_scene *scene, uint32_t leaf, const char *settings, unsigned threads) {
+    const froe_build_options o = options(leaf, settings, threads);
+    froe_tree *tree = NULL;
+    froe_diagnostic why = {0};
+    if (build_tuned(scene, &o, &tree, &why)) fail_msg("%s", why.message);
+    return tree;
+}
+
+static void assert_audited(const froe_tree *tree, const char *name) {
+    froe_diagnostic why;
+    if (froe_tree_audit(tree, NULL, &why)) fail_msg("%s: %s", name, why.message);
+}
+
+/* ------------------------------------------------------------------ threads -- */
+
+static void check_threads(froe_scene *scene, const char *name, uint32_t leaf, const char *settings) {
+    froe_tree *one = build(scene, leaf, settings, 1);
+    const froe_predicate_stats *stats = &one->report.predicates;
+    assert_audited(one, name);
+    for (unsigned threads = 2; threads <= 8; threads += threads < 4 ? 1 : 4) {
+        froe_tree *more = build(scene, leaf, settings, threads);
+        trees_assert_equal(one, more);
+        assert_memory_equal(stats, &more->report.predicates, sizeof *stats);
+        froe_tree_free(more);
+    }
+    froe_tree_free(one);
+}
+
+static void a_tree_is_the_same_for_any_number_of_threads(void **state) {
+    static const uint32_t leaves[] = {FROE_LEAF_OWN, 1, 5, 30};
+    (void)state;
+    for (size_t i = 0; i < KINDS; i++) {
+        froe_scene *scene = scene_of(kinds + i);
+        for (size_t l = 0; l < 4; l++) {
+            check_threads(scene, kinds[i].name, leaves[l], JOBS);
+            check_threads(scene, kinds[i].name, leaves[l], JOBS " growth=1.1");
+        }
+        froe_scene_free(scene);
+    }
+    for (size_t i = 0; froe_generator_at(i); i++) {
+        froe_scene *scene;
+        assert_int_equal(froe_generate(froe_generator_at(i)->name, 300, 7, NULL, &scene, NULL), FROE_OK);
+        froe_tree *tree = NULL;
+        const froe_build_options o = options(3, JOBS, 1);
+        if (froe_scene_dim(scene) == 2 && !build_tuned(scene, &o, &tree, NULL)) /* it may not serve the kind */
+            check_threads(scene, froe_generator_at(i)->name, 3, JOBS);
+        froe_tree_free(tree);
+        froe_scene_free(scene);
+    }
+    const kind_of_scene large = {"large", 30000, 0, 0.01, 1, 0, false};
+    froe_scene *scene = scene_of(&large);
+    check_threads(scene, large.name, FROE_LEAF_OWN, NULL);
+    froe_scene_free(scene);
+}
+
+/* ----------------------------------------------------------------- capacity -- */
+
+static int by_number(const void *a, const void *b) {
+    const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+    return (x > y) - (x < y);
+}
+
+static void sorted(froe_list *list) {
+    qsort((void *)(uintptr_t)list->ids, list->count, sizeof *list->ids, by_number);
+}
+
+typedef struct pair_sum {
+    uint64_t count, sum;
+} pair_sum;
+
+static bool add_pair(void *user, const froe_pair *pair) {
+    pair_sum *s = user;
+    s->count++;
+    s->sum += base_hash(1, pair->a, pair->b);
+    return true;
+}
+
+static void compare_answers(const kind_of_scene *k, froe_query *a, froe_query *b, uint64_t draw) {
+    double box[4], point[2];
+    for (int j = 0; j < 2; j++) {
+        const double x = 1.2 * trees_unit(7, 4 * draw + (uint64_t)j) - 0.1,
+                     size = 0.2 * trees_unit(8, 4 * draw + (uint64_t)j);
+        box[j] = place(k, x), box[2 + j] = place(k, x + size),
+        point[j] = place(k, trees_unit(9, 2 * draw + (uint64_t)j));
+    }
+    froe_range range = froe_range_defaults();
+    range.points = box;
+    froe_list found[2];
+    assert_int_equal(froe_query_range(a, &range, found, NULL), FROE_OK);
+    assert_int_equal(froe_query_range(b, &range, found + 1, NULL), FROE_OK);
+    sorted(found), sorted(found + 1);
+    assert_int_equal(found[0].count, found[1].count);
+    if (found[0].count) assert_memory_equal(found[0].ids, found[1].ids, found[0].count * sizeof *found[0].ids);
+    uint32_t above[2];
+    for (int direction = -1; direction < 2; direction += 2) {
+        assert_int_equal(froe_query_vertical(a, point, direction, above, NULL), FROE_OK);
+        assert_int_equal(froe_query_vertical(b, point, direction, above + 1, NULL), FROE_OK);
+        assert_int_equal(above[0], above[1]);
+    }
+    froe_neighbours near[2];
+    assert_int_equal(froe_query_near(a, point, 3, INFINITY, near, NULL), FROE_OK);
+    assert_int_equal(froe_query_near(b, point, 3, INFINITY, near + 1, NULL), FROE_OK);
+    for (size_t i = 0; i < 3; i++) {
+        assert_int_equal(near[0].items[i].object, near[1].items[i].object);
+        assert_true(near[0].items[i].distance == near[1].items[i].distance);
+    }
+}
+
+/* The capacity that is taken where none is named, beside some that are. */
+static void answers_do_not_depend_on_the_capacity(void **state) {
+    static const uint32_t leaves[] = {1, 7, 24, 64, 100000};
+    (void)state;
+    for (size_t i = 0; i < KINDS; i++) {
+        froe_scene *scene = scene_of(kinds + i);
+        froe_tree *own = build(scene, FROE_LEAF_OWN, JOBS, 1);
+        froe_query *a, *b;
+        assert_int_equal(froe_query_new(own, &a, NULL), FROE_OK);
+        for (size_t l = 0; l < 5; l++) {
+            froe_tree *tree = build(scene, leaves[l], JOBS, 1);
+            pair_sum pairs[2] = {{0, 0}, {0, 0}};
+            assert_int_equal(froe_tree_report(tree).leaf, leaves[l]);
+            assert_int_equal(froe_query_new(tree, &b, NULL), FROE_OK);
+            for (uint64_t draw = 0; draw < 150; draw++) compare_answers(kinds + i, a, b, draw);
+            assert_int_equal(froe_query_pairs(a, true, add_pair, pairs, NULL), FROE_OK);
+            assert_int_equal(froe_query_pairs(b, true, add_pair, pairs + 1, NULL), FROE_OK);
+            assert_memory_equal(pairs, pairs + 1, sizeof *pairs);
+            froe_query_free(b);
+            froe_tree_free(tree);
+        }
+        froe_query_free(a);
+        froe_tree_free(own);
+        froe_scene_free(scene);
+    }
+}
+
+/* Most objects are in leaves of one depth, and those are nearly full: at any number of objects, also between those
+ * where a fixed capacity suits the levels of middle cuts. */
+static void leaves_of_an_even_scene_are_full_and_of_one_depth(void **state) {
+    (void)state;
+    for (uint32_t n = 5000; n < 100000; n = n / 4 * 5) {
+        const kind_of_scene k = {"even", n, 0, 0.5 / sqrt(n), 1, 0, false};
+        froe_scene *scene = scene_of(&k);
+        froe_tree *tree = build(scene, FROE_LEAF_OWN, NULL, 2);
+        const froe_report report = froe_tree_report(tree);
+        uint64_t at[64] = {0}, most = 0;
+        uint8_t *depth = calloc(tree->node_count, 1);
+        assert_non_null(depth);
+        for (uint32_t i = 0; i < tree->node_count; i++) {
+            const tree_node *node = tree->nodes + i;
+            if (tree_is_leaf(node))
+                at[depth[i]] += node->u.list.count;
+            else
+                depth[node->child] = depth[node->child + 1] = (uint8_t)(depth[i] + 1);
+        }
+        for (int d = 0; d < 64; d++) most = at[d] > most ? at[d] : most;
+        free(depth);
+        assert_true((double)most > 0.75 * (double)report.fragments);
+        assert_true((double)report.fragments > 0.6 * report.leaf * (double)report.leaves);
+        assert_true(report.leaf <= 64 && !report.crowded);
+        assert_int_equal(report.leaf, tree->meta.leaf);
+        froe_tree_free(tree);
+        froe_scene_free(scene);
+    }
+}
+
+/* ------------------------------------------------------------------- limits -- */
+
+static froe_status build_in(void *user, const froe_allocator *alloc) {
+    const kind_of_scene *k = user;
+    const froe_build_options o = options(3, JOBS, k->shared ? 3 : 1);
+    froe_scene *scene = NULL;
+    froe_tree *tree = NULL;
+    froe_status status = froe_scene_new(2, alloc, &scene);
+    if (!status) status = trees_scatter(scene, FROE_SEGMENT, k->count, k->grid, k->size, 1);
+    if (!status) status = build_tuned(scene, &o, &tree, NULL);
+    froe_tree_free(tree);
+    froe_scene_free(scene);
+    return status;
+}
+
+static void jobs_survive_every_failing_allocation(void **state) {
+    static const kind_of_scene scenes[] = {{"one thread", 40, 0, 0.3, 1, 0, false},
+                                           {"three threads", 40, 0, 0.3, 1, 0, true}};
+    (void)state;
+    for (size_t i = 0; i < 2; i++) test_memory_each(build_in, (void *)(uintptr_t)(scenes + i));
+}
+
+static bool count_down(void *user, double done) {
+    assert_true(done >= 0 && done <= 1);
+    return --*(int *)user > 0;
+}
+
+static void jobs_keep_a_budget_to_the_piece_and_can_be_cancelled(void **state) {
+    (void)state;
+    for (unsigned threads = 1; threads <= 3; threads += 2) {
+        froe_scene *scene = scene_of(kinds);
+        froe_tree *tree = build(scene, 5, JOBS, threads), *again = NULL;
+        froe_build_options o = options(5, JOBS, threads);
+        o.max_fragments = froe_tree_report(tree).fragments;
+        assert_int_equal(build_tuned(scene, &o, &again, NULL), FROE_OK);
+        froe_tree_free(again), again = NULL;
+        o.max_fragments--;
+        assert_int_equal(build_tuned(scene, &o, &again, NULL), FROE_E_BUDGET);
+        o.max_fragments = 0;
+        size_t cancelled = 0;
+        for (int calls = 1; calls < 12; calls++) {
+            int left = calls;
+            o.progress = count_down, o.user = &left;
+            const froe_status status = build_tuned(scene, &o, &again, NULL);
+            assert_true(status == FROE_E_CANCELLED || !status);
+            cancelled += status == FROE_E_CANCELLED;
+            froe_tree_free(again), again = NULL;
+        }
+        assert_true(cancelled >= 5);
+        froe_tree_free(tree);
+        froe_scene_free(scene);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_tree_is_the_same_for_any_number_of_threads),
+        cmocka_unit_test(answers_do_not_depend_on_the_capacity),
+        cmocka_unit_test(leaves_of_an_even_scene_are_full_and_of_one_depth),
+        cmocka_unit_test(jobs_survive_every_failing_allocation),
+        cmocka_unit_test(jobs_keep_a_budget_to_the_piece_and_can_be_cancelled),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
