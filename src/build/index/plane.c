@@ -61,19 +61,10 @@ static packed_box root_box(const froe_scene *s) {
     return box;
 }
 
-/* Is every object i the segment of the vertices 2i and 2i + 1? */
-static bool lie_side_by_side(const froe_scene *s) {
-    const uint32_t n = s->object_count;
-    bool same = s->vertex_count == 2 * (uint64_t)n && s->corner_count == 2 * (uint64_t)n;
-    for (uint32_t i = 0; same && i < n; i++)
-        same = s->starts[i] == 2 * i && s->corners[2 * i] == 2 * i && s->corners[2 * i + 1] == 2 * i + 1;
-    return same;
-}
-
 /* The ends of all objects, side by side, and the sums of their extents. */
 static froe_status find_ends(plane_build *p) {
     const froe_scene *s = p->plan->job->scene;
-    const bool there = lie_side_by_side(s);
+    const bool there = scene_in_order(s) && s->each == 2;
     const axis_ends *ends = (const axis_ends *)(const void *)s->coords;
     if (!there) ends = p->ends = support_realloc(&s->alloc, NULL, 0, ((size_t)s->object_count + 1) * sizeof *p->ends);
     if (!there && !p->ends) return FROE_E_MEMORY;
