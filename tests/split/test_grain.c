@@ -135,7 +135,7 @@ static void compare_zeros(watch *w, split_work *work, const split_cell *cell) {
         split_view_count(&w->view, &plane);
         for (int k = 0; k < work->set.scene->dim; k++) {
             uint32_t at = w->view.place[id[k]];
-            if (at < w->view.corners) assert_int_equal(w->view.side.data[at], 0);
+            if (at < w->view.corners) assert_int_equal(w->view.side.data[at + 1], 0);
         }
         w->compared++;
     }
@@ -284,7 +284,7 @@ static void the_greater_of_four_numbers_is_the_same_everywhere(void **state) {
     (void)state;
     for (int i = 0; i < 100000; i++) {
         const uint64_t a = fuzz_bits(&random), b = i % 5 ? fuzz_bits(&random) : a ^ UINT64_C(1) << i % 64;
-        assert_true(sweep_greater(a, b) == sweep_greater_plain(a, b));
+        assert_true(sweep_value(sweep_greater(sweep_lanes_of(a), sweep_lanes_of(b))) == sweep_greater_plain(a, b));
     }
     for (uint32_t bucket = 1; bucket < SWEEP_MOST + 3; bucket++)
         for (int negative = 0; negative < 2; negative++) {
@@ -292,6 +292,29 @@ static void the_greater_of_four_numbers_is_the_same_everywhere(void **state) {
             assert_true(sweep_greater_plain(met, SWEEP_ALWAYS) == met && met != SWEEP_ALWAYS);
             assert_int_equal(met & 0xffff, bucket + (negative ? SWEEP_NEGATIVE : 0));
         }
+}
+
+/** An axle is the same both ways round. Pencils of the last cell are forgotten, and those without room unknown. */
+static void pencils_are_known_again(void **state) {
+    split_pencils *p = test_malloc(sizeof *p);
+    (void)state;
+    memset(p, 0, sizeof *p);
+    p->cell = UINT32_MAX; /* the number of the cell begins anew */
+    for (int round = 0; round < 2; round++) {
+        split_pencils_begin(p);
+        for (uint32_t i = 0; i < SPLIT_PENCILS; i++) {
+            split_pencil *at = split_pencil_at(p, split_axle_of(i / 2, 2 * i + 1, i % 2));
+            assert_true(2 * i < SPLIT_PENCILS ? at != NULL : at == NULL);
+            if (!at) continue;
+            assert_true(at->limit == (double)-INFINITY);
+            at->limit = i;
+        }
+        for (uint32_t i = 0; 2 * i < SPLIT_PENCILS; i++) {
+            assert_true(split_pencil_at(p, split_axle_of(2 * i + 1, i / 2, i % 2))->limit == (double)i);
+            assert_null(split_pencil_at(p, split_axle_of(2 * i + 1, i / 2, i % 2 == 0)));
+        }
+    }
+    test_free(p);
 }
 
 /* ------------------------------------------------------------------ prices -- */
@@ -483,6 +506,7 @@ int main(void) {
         cmocka_unit_test(a_pencil_has_the_best_of_its_planes),
         cmocka_unit_test(an_axis_mostly_has_the_best_of_its_planes),
         cmocka_unit_test(the_greater_of_four_numbers_is_the_same_everywhere),
+        cmocka_unit_test(pencils_are_known_again),
         cmocka_unit_test(prices_know_splits_balance_and_limits),
         cmocka_unit_test(meshes_keep_the_height_asked_for),
         cmocka_unit_test(subtrees_too_high_are_grown_again),

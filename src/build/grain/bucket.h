@@ -20,21 +20,26 @@ enum {
 
 /** Where a corner is met: bucket 1 .. n, and SWEEP_NEGATIVE if it is on the negative side until then, and on the
  * positive one from then on. Four numbers of 16 bits in a word, of which the greatest are wanted: that, the same with
- * SWEEP_NEGATIVE turned, that times -1, and the second times -1, less 1 which the third borrows. Corners that lie in
- * every plane are SWEEP_ALWAYS, the least of all. */
+ * SWEEP_NEGATIVE turned, and the complements of both. Corners that lie in every plane are SWEEP_ALWAYS, the least of
+ * all. */
 typedef uint64_t sweep_met;
 #define SWEEP_NEGATIVE 0x4000u
 #define SWEEP_ALWAYS UINT64_C(0x8000800080008000)
-#define SWEEP_LANES (UINT64_C(0x10001) - (UINT64_C(0x10001) << 32))
 
 static inline sweep_met sweep_met_of(uint32_t bucket, bool negative) {
-    const uint64_t below = SWEEP_NEGATIVE - ((uint64_t)SWEEP_NEGATIVE << 32), above = below << 16;
-    return bucket * SWEEP_LANES + (negative ? below : above);
+    const uint32_t both = bucket * 0x10001u + (negative ? SWEEP_NEGATIVE : SWEEP_NEGATIVE << 16);
+    return both | (uint64_t)~both << 32;
 }
 
+/** Of the corners of a fragment, from the greatest of each number: the buckets of the last negative, the last positive,
+ * the first positive and the first negative one, 16 bits each. The same turns these back. */
+static inline uint64_t sweep_ends_of(uint64_t greatest) {
+    return greatest ^ UINT64_C(0xffffffff40004000);
+}
+
+/** Changes of the counts. */
 typedef struct sweep_bucket {
-    uint64_t before, after; /**< changes of the counts */
-    uint32_t corner;        /**< the last put here; FROE_NONE: none */
+    uint64_t before, after;
 } sweep_bucket;
 
 /** The greater of four pairs of numbers in two's complement. */
@@ -48,19 +53,35 @@ static inline uint64_t sweep_greater_plain(uint64_t a, uint64_t b) {
 }
 #ifdef __SSE2__
 #include <emmintrin.h>
-static inline uint64_t sweep_greater(uint64_t a, uint64_t b) {
-    const __m128i x = _mm_cvtsi64_si128((long long)a), y = _mm_cvtsi64_si128((long long)b);
-    return (uint64_t)_mm_cvtsi128_si64(_mm_max_epi16(x, y));
+typedef __m128i sweep_lanes; /**< the four, in a register */
+static inline sweep_lanes sweep_lanes_of(uint64_t a) {
+    return _mm_cvtsi64_si128((long long)a);
+}
+static inline sweep_lanes sweep_greater(sweep_lanes a, sweep_lanes b) {
+    return _mm_max_epi16(a, b);
+}
+static inline uint64_t sweep_value(sweep_lanes a) {
+    return (uint64_t)_mm_cvtsi128_si64(a);
 }
 #else
-#define sweep_greater sweep_greater_plain
+typedef uint64_t sweep_lanes;
+static inline sweep_lanes sweep_lanes_of(uint64_t a) {
+    return a;
+}
+static inline sweep_lanes sweep_greater(sweep_lanes a, sweep_lanes b) {
+    return sweep_greater_plain(a, b);
+}
+static inline uint64_t sweep_value(sweep_lanes a) {
+    return a;
+}
 #endif
 
 /** Buckets 1 .. last, one on either side of them, and one that stands for never. */
 typedef struct sweep_buckets {
     uint32_t last, ready; /**< ready: so many buckets are empty but for those of the last sweep */
     ARRAY(sweep_bucket) buckets;
-    ARRAY(sweep_met) met;               /**< per corner */
+    ARRAY(uint32_t) first;              /**< per bucket: the corner last put there; FROE_NONE: none */
+    ARRAY(sweep_met) met;               /**< 1 + corner; at 0: what lies on no side of any plane */
     ARRAY(uint32_t) next;               /**< per corner: the one put into its bucket before it, or FROE_NONE */
     uint64_t used[SWEEP_MOST / 64 + 1]; /**< a bit for each bucket that is not empty */
 } sweep_buckets;
@@ -78,11 +99,12 @@ void sweep_buckets_free(const froe_allocator *alloc, sweep_buckets *b);
 bool sweep_buckets_clear(sweep_buckets *b, const froe_allocator *alloc, uint32_t last, size_t corners);
 /** A corner is in bucket 1 .. last. */
 static inline void sweep_put(sweep_buckets *b, uint32_t corner, uint32_t bucket, bool negative) {
-    sweep_bucket *at = b->buckets.data + bucket;
+    uint32_t *first = b->first.data, *next = b->next.data;
+    sweep_met *met = b->met.data;
     b->used[bucket >> 6] |= (uint64_t)1 << (bucket & 63);
-    b->next.data[corner] = at->corner;
-    at->corner = corner;
-    b->met.data[corner] = sweep_met_of(bucket, negative);
+    next[corner] = first[bucket];
+    first[bucket] = corner;
+    met[corner + 1] = sweep_met_of(bucket, negative);
 }
 /** Counts the part's fragments, all of whose corners have been put, and finds up to SWEEP_STOPS buckets with a vertex
  * of the scene and a price below `limit`, the cheapest first; returns how many. O(fragments + buckets / 64). */

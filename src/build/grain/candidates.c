@@ -27,6 +27,7 @@ void split_grain_begin(split_grain_search *s) {
         const split_view_part of = split_view_part_of(c->view, part == FEW);
         s->prices[part] = split_prices_of(c->price, &c->terms, of.count, of.weight);
     }
+    split_pencils_begin(&s->notes->pencils);
 }
 
 /** Takes the splits that are due off the price of a supporting plane, which has just been counted. */
@@ -106,15 +107,33 @@ void split_enter_axes(split_grain_search *s) {
 
 /* ------------------------------------------------------- through vertices -- */
 
-/** The best plane through the axle and another vertex, if it costs less than the limit. False: there is none. */
-static bool turn_about(split_grain_search *s, int part, const uint32_t *axle, double limit, split_start *out) {
+static split_axle axle_of(const split_view *view, const uint32_t *axle, int part) {
+    return split_axle_of(axle[0], axle[view->dim - 2], part == FEW);
+}
+
+/** The best of a pencil that costs less than the limit; where it was swept before, as it was found then. */
+static split_sweep_best best_of_pencil(split_grain_search *s, int part, const uint32_t *axle, double limit) {
     split_contest *c = &s->contest;
-    const uint32_t last = (uint32_t)c->view->dim - 1;
+    split_pencil *p = split_pencil_at(&s->notes->pencils, axle_of(c->view, axle, part));
     split_sweep_best best;
-    split_view_plane plane;
+    if (p && p->limit >= limit && p->marks == c->view->marks) {
+        best = p->best;
+        if (!(best.cost < limit)) best.vertex = FROE_NONE;
+        return best;
+    }
     const split_view_part of = split_view_part_of(c->view, part == FEW); /* marks may have added vertices */
     c->work->tests += of.count;
     c->failed |= !split_sweep_pencil(s->sweep, &c->work->set, c->view, &of, &s->prices[part], axle, limit, &best);
+    if (p) p->limit = limit, p->marks = c->view->marks, p->best = best;
+    return best;
+}
+
+/** The best plane through the axle and another vertex, if it costs less than the limit. False: there is none. */
+static bool turn_about(split_grain_search *s, int part, const uint32_t *axle, double limit, split_start *out) {
+    const split_contest *c = &s->contest;
+    const uint32_t last = (uint32_t)c->view->dim - 1;
+    split_view_plane plane;
+    const split_sweep_best best = best_of_pencil(s, part, axle, limit);
     if (c->failed || best.vertex == FROE_NONE || best.vertex == axle[0] || best.vertex == axle[last - 1]) return false;
     *out = (split_start){{.cut = {.kind = FROE_CUT_VERTICES}, .cost = best.cost, .tally = best.tally}, c->view->marks};
     memcpy(out->k.cut.id, axle, last * sizeof *axle);
@@ -172,14 +191,10 @@ static void try_early(split_grain_search *s, const split_start *k) {
     if (!k->k.tally.both && balanced(&k->k)) score_and_enter(s, k->k);
 }
 
-/** Was the axle drawn before? In small cells most are. Otherwise it is noted. */
-static bool drawn_before(split_grain_notebook *notes, const uint32_t *axle) {
-    const uint32_t low = axle[0] < axle[1] ? axle[0] : axle[1], high = axle[0] < axle[1] ? axle[1] : axle[0];
-    for (uint32_t i = 0; i < notes->axle_count; i++)
-        if (notes->axles[i][0] == low && notes->axles[i][1] == high) return true;
-    notes->axles[notes->axle_count][0] = low;
-    notes->axles[notes->axle_count++][1] = high;
-    return false;
+/** Was the axle drawn before? In small cells most are. */
+static bool drawn_before(split_grain_search *s, const uint32_t *axle, int part) {
+    const split_pencil *p = split_pencil_at(&s->notes->pencils, axle_of(s->contest.view, axle, part));
+    return p && p->limit > (double)-INFINITY;
 }
 
 /** Draws starts, judged on a part of the view. */
@@ -187,14 +202,13 @@ static uint32_t draw_starts(split_grain_search *s, int part, split_start *kept, 
     split_contest *c = &s->contest;
     const froe_scene *scene = c->work->set.scene;
     uint32_t count = 0;
-    s->notes->axle_count = 0;
     for (uint32_t i = 0; i < s->config->effort.starts && !c->done && !c->failed; i++) {
         uint32_t axle[2] = {FROE_NONE, FROE_NONE}, tries = 0, n = 0;
         while (tries++ < TRIES && (n = draw_axle(s, axle), tiny(c->view, scene, axle))) continue;
         split_start k;
         const double limit = count == most ? kept[most - 1].k.cost : (double)INFINITY;
         if (scene->dim == 2) axle[1] = axle[0];
-        if ((n == 1 && scene->dim == 3) || drawn_before(s->notes, axle) || !turn_about(s, part, axle, limit, &k))
+        if ((n == 1 && scene->dim == 3) || drawn_before(s, axle, part) || !turn_about(s, part, axle, limit, &k))
             continue;
         if (part == ALL) try_early(s, &k);
         keep_start(kept, &count, most, &k);

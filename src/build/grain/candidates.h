@@ -2,10 +2,10 @@
 #ifndef FROE_BUILD_GRAIN_CANDIDATES_H
 #define FROE_BUILD_GRAIN_CANDIDATES_H
 #include "build/grain/grain.h"
-#include "build/grain/sweep.h"
+#include "build/grain/pencils.h"
 #include "split/score/contest.h"
 
-enum { SPLIT_LATER = 128, SPLIT_STARTS = 256, SPLIT_KEPT = 64 };
+enum { SPLIT_LATER = 128, SPLIT_KEPT = 64 };
 
 /** A plane through vertices on its way: priced by sweeps. */
 typedef struct split_start {
@@ -17,8 +17,8 @@ typedef struct split_start {
 typedef struct split_grain_notebook {
     split_candidate later[SPLIT_LATER];              /**< supporting planes that were not entered yet */
     split_start drawn[SPLIT_KEPT], kept[SPLIT_KEPT]; /**< the best starts, among a few fragments and among all */
-    uint32_t axles[SPLIT_STARTS][2];                 /**< drawn so far */
-    uint32_t later_count, axle_count;
+    split_pencils pencils;
+    uint32_t later_count;
 } split_grain_notebook;
 
 /** The search for the cut of one cell. */

@@ -9,6 +9,7 @@ enum { BITS = 40, INDEX = 24, DIGIT = 8, PASSES = BITS / DIGIT, SMALL = 48, EACH
 void split_sweep_free(const froe_allocator *alloc, split_sweep *s) {
     array_free(alloc, &s->place);
     array_free(alloc, &s->apart);
+    array_free(alloc, &s->spot);
     array_free(alloc, &s->order);
     array_free(alloc, &s->spare);
     sweep_buckets_free(alloc, &s->turn);
@@ -28,14 +29,21 @@ static uint32_t bucket_count(size_t corners) {
     return count;
 }
 
-/** Corners nearer to the axle than that lie in every plane. */
+/** Corners nearer to the axle than that lie in every plane. What can be computed without branches comes first, so that
+ * compilers take several corners at once. */
 static void put_all(split_sweep *s, double near, uint32_t from, uint32_t to) {
-    const double *place = s->place.data, *apart = s->apart.data, scale = s->turn.last;
+    const double *restrict place = s->place.data, *restrict apart = s->apart.data, scale = s->turn.last;
+    int32_t *restrict spot = s->spot.data;
     for (uint32_t i = from; i < to; i++) {
-        if (!(apart[i] > near))
-            s->turn.met.data[i] = SWEEP_ALWAYS;
+        const double negative = 0.5 - copysign(0.5, place[i]);
+        const double at = (fabs(place[i]) - negative) * scale + (1 + negative * SWEEP_NEGATIVE);
+        spot[i] = (int32_t)(apart[i] > near ? at : 0.0);
+    }
+    for (uint32_t i = from; i < to; i++) {
+        if (spot[i])
+            sweep_put(&s->turn, i, (uint32_t)spot[i] & (SWEEP_NEGATIVE - 1), (uint32_t)spot[i] & SWEEP_NEGATIVE);
         else
-            sweep_put(&s->turn, i, (uint32_t)(share_of(place[i]) * scale) + 1, place[i] < 0);
+            s->turn.met.data[i + 1] = SWEEP_ALWAYS;
     }
 }
 
@@ -79,7 +87,7 @@ static uint64_t *sort_order(split_sweep *s) {
 static uint32_t sort_bucket(split_sweep *s, uint32_t bucket, uint64_t **sorted) {
     uint32_t different = 0;
     s->order.count = 0;
-    for (uint32_t k = s->turn.buckets.data[bucket].corner; k != FROE_NONE; k = s->turn.next.data[k]) {
+    for (uint32_t k = s->turn.first.data[bucket]; k != FROE_NONE; k = s->turn.next.data[k]) {
         const uint64_t place = (uint64_t)(share_of(s->place.data[k]) * 0x1p40);
         s->order.data[s->order.count++] = place << INDEX | k;
     }
@@ -92,10 +100,10 @@ static uint32_t sort_bucket(split_sweep *s, uint32_t bucket, uint64_t **sorted) 
 static void put_others(split_sweep *s, uint32_t bucket, uint32_t corners) {
     const uint32_t never = s->refined.last + 2;
     for (uint32_t i = 0; i < corners; i++) {
-        const sweep_met m = s->turn.met.data[i];
+        const sweep_met m = s->turn.met.data[i + 1];
         const uint32_t at = m & (SWEEP_NEGATIVE - 1);
         const bool negative = !(m & SWEEP_NEGATIVE) == (at < bucket);
-        s->refined.met.data[i] = m == SWEEP_ALWAYS ? m : sweep_met_of(never, negative);
+        s->refined.met.data[i + 1] = m == SWEEP_ALWAYS ? m : sweep_met_of(never, negative);
     }
 }
 
@@ -140,9 +148,10 @@ static bool begin_sweep(split_sweep *s, const split_set *set, const split_view *
     const size_t corners = v->x.count;
     *best = (split_sweep_best){.vertex = FROE_NONE};
     *possible = corners < (size_t)1 << INDEX && part->count <= SWEEP_COUNT;
-    s->place.count = s->apart.count = s->order.count = s->spare.count = 0;
+    s->place.count = s->apart.count = s->spot.count = s->order.count = s->spare.count = 0;
     return array_reserve(&set->alloc, &s->place, corners) && array_reserve(&set->alloc, &s->apart, corners) &&
-           array_reserve(&set->alloc, &s->order, corners) && array_reserve(&set->alloc, &s->spare, corners) &&
+           array_reserve(&set->alloc, &s->spot, corners) && array_reserve(&set->alloc, &s->order, corners) &&
+           array_reserve(&set->alloc, &s->spare, corners) &&
            sweep_buckets_clear(&s->turn, &set->alloc, bucket_count((size_t)part->corners + part->outside), corners);
 }
 

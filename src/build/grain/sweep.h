@@ -19,6 +19,7 @@
 typedef struct split_sweep {
     ARRAY(double) place; /**< per corner: where it is met, see sweep.c */
     ARRAY(double) apart; /**< per corner: about how far from the axle */
+    ARRAY(int32_t) spot; /**< per corner: its bucket, with SWEEP_NEGATIVE; 0: it lies in every plane */
     sweep_buckets turn, refined;
     ARRAY(uint64_t) order, spare; /**< of the corners of a bucket: place << 24 | corner, sorted */
 } split_sweep;

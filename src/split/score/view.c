@@ -19,6 +19,8 @@ void split_view_free(const froe_allocator *alloc, split_view *v) {
     array_free(alloc, &v->side);
     array_free(alloc, &v->start);
     array_free(alloc, &v->corner);
+    array_free(alloc, &v->fours);
+    array_free(alloc, &v->many);
     array_free(alloc, &v->item);
     array_free(alloc, &v->marked);
     array_free(alloc, &v->sides);
@@ -78,6 +80,14 @@ static uint32_t add_view_vertex(split_view *v, const froe_scene *scene, uint32_t
     return at;
 }
 
+/** Of the fragment that came last. */
+static void note_four(split_view *v) {
+    const uint32_t i = (uint32_t)v->start.count - 2, *corner = v->corner.data + v->start.data[i];
+    const uint32_t n = v->start.data[i + 1] - v->start.data[i];
+    for (uint32_t j = 0; j < 4; j++) v->fours.data[v->fours.count++] = n > 4 ? 0 : 1 + corner[j < n ? j : n - 1];
+    if (n > 4) v->many.data[v->many.count++] = i;
+}
+
 static bool add_view_fragment(split_view *v, const split_set *set, const split_fragment *item) {
     const froe_scene *scene = set->scene;
     froe_kind form = scene_form(scene, item->object);
@@ -108,6 +118,7 @@ static bool add_view_fragment(split_view *v, const split_set *set, const split_f
             vertex != FROE_NONE ? add_view_vertex(v, scene, vertex) : add_view_corner(v, half, 0, FROE_NONE);
     }
     v->start.data[v->start.count++] = (uint32_t)v->corner.count;
+    note_four(v);
     return true;
 }
 
@@ -171,7 +182,9 @@ static uint32_t spreading_step(uint32_t n) {
 static bool fill_fragments(split_view *v, const split_set *set, const split_cell *cell, bool all, uint64_t seed) {
     const split_fragment *items = set->items.data + cell->first;
     const uint32_t step = all && v->swept ? spreading_step(v->count) : 1;
-    if (!array_reserve(&set->alloc, &v->item, v->count)) return false;
+    if (!array_reserve(&set->alloc, &v->item, v->count) || !array_reserve(&set->alloc, &v->many, v->count) ||
+        !array_reserve(&set->alloc, &v->fours, 4 * (size_t)v->count))
+        return false;
     for (uint32_t i = 0, next = 0; i < v->count; i++, next = (uint32_t)(((uint64_t)next + step) % v->count)) {
         const uint32_t pick = all ? next : base_below(base_hash(seed, cell->path, 0x10000000 + i), cell->count);
         v->item.data[v->item.count++] = pick;
@@ -197,7 +210,7 @@ bool split_view_fill(split_view *v, const split_set *set, const split_cell *cell
     v->pairs = v->round = false;
     for (size_t i = 0; i < v->vertices.count; i++) v->place[v->vertex.data[v->vertices.data[i]]] = FROE_NONE;
     v->x.count = v->vertex.count = v->vertices.count = v->start.count = v->corner.count = v->side.count = 0;
-    v->item.count = v->marked.count = v->sides.count = v->marks = v->checked_count = 0;
+    v->fours.count = v->many.count = v->item.count = v->marked.count = v->sides.count = v->marks = v->checked_count = 0;
     if (!reserve_view(v, &set->alloc, 2 * v->count) || !array_reserve(&set->alloc, &v->marked, v->count) ||
         !array_reserve(&set->alloc, &v->sides, v->count))
         return false;
@@ -207,7 +220,7 @@ bool split_view_fill(split_view *v, const split_set *set, const split_cell *cell
         if (!make_places(v, set)) return false;
         v->start.data[v->start.count++] = 0;
         if (!fill_fragments(v, set, cell, all, seed)) return false;
-        if (!array_reserve(&set->alloc, &v->side, v->corners)) return false;
+        if (!array_reserve(&set->alloc, &v->side, v->corners + (size_t)1)) return false;
         if (swept && !add_outside(v, set, cell, seed)) return false;
     }
     /* to local coordinates, by a power of two at most twice the width of the corners */
@@ -368,7 +381,8 @@ static void find_view_sides(split_view *v, const split_view_plane *plane) {
     const double *x = v->x.data, *y = v->y.data, *z = v->z.data, *radius = v->radius.data;
     const double a = plane->n[0], b = plane->n[1], c = plane->n[2], d = plane->d, slack = plane->slack;
     const size_t n = v->corners;
-    uint8_t *side = v->side.data;
+    uint8_t *side = v->side.data + 1;
+    v->side.data[0] = 0;
     for (size_t i = 0; i < n && v->round; i++) {
         double value = a * x[i] + b * y[i] + c * z[i] - d, reach = slack - radius[i];
         side[i] = (uint8_t)((value < -reach) | (value > reach) << 1);
@@ -379,6 +393,19 @@ static void find_view_sides(split_view *v, const split_view_plane *plane) {
     }
     for (int k = 0; k < 3; k++)
         if (plane->known[k] < v->corners) side[plane->known[k]] = 0;
+}
+
+/** From those of their corners. */
+static void find_fragment_sides(split_view *v) {
+    const uint32_t *four = v->fours.data;
+    const uint8_t *side = v->side.data;
+    uint8_t *sides = v->sides.data;
+    for (uint32_t i = 0; i < v->count; i++, four += 4)
+        sides[i] = side[four[0]] | side[four[1]] | side[four[2]] | side[four[3]];
+    for (size_t k = 0; k < v->many.count; k++) {
+        const uint32_t i = v->many.data[k];
+        for (uint32_t j = v->start.data[i]; j < v->start.data[i + 1]; j++) sides[i] |= side[1 + v->corner.data[j]];
+    }
 }
 
 bool split_view_flat(const split_view *v, const split_view_plane *plane, uint32_t i) {
@@ -395,10 +422,6 @@ bool split_view_flat(const split_view *v, const split_view_plane *plane, uint32_
 }
 
 split_tally split_view_count(split_view *v, const split_view_plane *plane) {
-    const uint32_t *start = v->start.data, *corner = v->corner.data;
-    const uint8_t *side = v->side.data, *marked = v->marked.data;
-    uint8_t *sides = v->sides.data;
-    uint32_t of[4] = {0};
     if (v->pairs) {
         /* counts segments in the plane without a detour */
         const double *x = v->x.data, *y = v->y.data;
@@ -420,13 +443,16 @@ split_tally split_view_count(split_view *v, const split_view_plane *plane) {
         return t;
     }
     find_view_sides(v, plane);
+    find_fragment_sides(v);
+    const uint8_t *restrict sides = v->sides.data, *restrict marked = v->marked.data;
+    uint32_t negative = 0, positive = 0, both = 0;
     for (uint32_t i = 0; i < v->count; i++) {
-        unsigned seen = 0;
-        for (uint32_t j = start[i]; j < start[i + 1]; j++) seen |= side[corner[j]];
-        sides[i] = (uint8_t)seen;
-        of[seen ? seen : marked[i]]++;
+        const uint8_t seen = sides[i] ? sides[i] : marked[i];
+        negative += seen == 1;
+        positive += seen == 2;
+        both += seen == 3;
     }
-    return (split_tally){.negative = of[1], .positive = of[2], .on = of[0], .both = of[3]};
+    return (split_tally){negative, positive, v->count - negative - positive - both, both};
 }
 
 /* ------------------------------------------------------------ axis extents -- */

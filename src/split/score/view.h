@@ -23,15 +23,19 @@ enum { SPLIT_VIEW_FEW = 256, SPLIT_CHECKS = 64 };
 
 typedef struct split_view {
     int dim;
-    ARRAY(double) x, y, z;          /**< corners, then vertices outside; z = 0 in the plane */
-    ARRAY(double) radius;           /**< per corner: balls are shown by their centres */
-    ARRAY(uint32_t) vertex;         /**< the input vertex each is, or FROE_NONE */
-    ARRAY(uint32_t) vertices;       /**< those that are one, the corners first */
-    uint32_t corners, inside;       /**< how many of the former are corners; of the latter */
-    ARRAY(uint8_t) side;            /**< per corner, of the last count: bit 0 negative, bit 1 positive */
-    ARRAY(uint8_t) sides;           /**< per fragment, of the last count: those of its corners together */
-    ARRAY(uint32_t) start;          /**< count + 1 offsets into corner */
-    ARRAY(uint32_t) corner;         /**< corners of the fragments, one after the other */
+    ARRAY(double) x, y, z;    /**< corners, then vertices outside; z = 0 in the plane */
+    ARRAY(double) radius;     /**< per corner: balls are shown by their centres */
+    ARRAY(uint32_t) vertex;   /**< the input vertex each is, or FROE_NONE */
+    ARRAY(uint32_t) vertices; /**< those that are one, the corners first */
+    uint32_t corners, inside; /**< how many of the former are corners; of the latter */
+    ARRAY(uint8_t) side;      /**< 1 + corner, of the last count: bit 0 negative, bit 1 positive; at 0: neither */
+    ARRAY(uint8_t) sides;     /**< per fragment, of the last count: those of its corners together */
+    ARRAY(uint32_t) start;    /**< count + 1 offsets into corner */
+    ARRAY(uint32_t) corner;   /**< corners of the fragments, one after the other */
+    ARRAY(uint32_t)
+    fours;                          /**< the same for loops without branches: per fragment four, 1 + corner, the last
+                                         repeated; 0 of those that have more */
+    ARRAY(uint32_t) many;           /**< fragments that have more than four corners */
     ARRAY(uint32_t) item;           /**< per fragment: its place in the cell; of pairs that is their own number */
     ARRAY(uint8_t) marked;          /**< per fragment: 3, if it only seems to lie in planes (mark.h), or 0 */
     uint32_t marks;                 /**< how many are marked */
