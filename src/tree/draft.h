@@ -60,6 +60,10 @@ typedef struct tree_graft {
     uint32_t node; /**< a leaf of the main draft with an empty list, replaced */
     tree_draft *draft;
 } tree_graft;
+/** The final tree of a draft that is in its order already: nodes were split depth-first, child 0 first, and each had
+ * its list begun, even an empty one, before the next. The tree takes the arrays, and the draft is empty. Holds the
+ * scene. FROE_E_MEMORY. */
+froe_status draft_seal_ordered(tree_draft *draft, froe_scene *scene, const tree_meta *meta, froe_tree **out);
 /** The final tree: depth-first, compact, arrays of exactly the needed size. Holds the scene.
  * The drafts stay the caller's. FROE_E_MEMORY, FROE_E_LIMIT. */
 froe_status draft_seal(const tree_draft *main, const tree_graft *grafts, size_t graft_count, froe_scene *scene,

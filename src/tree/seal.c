@@ -149,6 +149,41 @@ froe_status draft_shell(const froe_allocator *alloc, froe_scene *scene, const tr
     return FROE_OK;
 }
 
+/* Gives the array of a draft to the tree, in exactly the needed size. */
+#define SEAL_HAND_OVER(array, number)                                                                                  \
+    do {                                                                                                               \
+        const size_t size = sizeof *draft->array.data, count = draft->array.count;                                     \
+        void *exact =                                                                                                  \
+            support_realloc(&t->alloc, draft->array.data, draft->array.capacity * size, count ? count * size : 1);     \
+        if (exact) {                                                                                                   \
+            t->array = exact;                                                                                          \
+            t->number = (uint32_t)count;                                                                               \
+            draft->array.data = NULL;                                                                                  \
+            draft->array.count = draft->array.capacity = 0;                                                            \
+        } else {                                                                                                       \
+            status = FROE_E_MEMORY;                                                                                    \
+        }                                                                                                              \
+    } while (0)
+
+froe_status draft_seal_ordered(tree_draft *draft, froe_scene *scene, const tree_meta *meta, froe_tree **out) {
+    froe_tree *t = NULL;
+    froe_status status = draft_shell(&draft->alloc, scene, meta, &t);
+    if (status) return status;
+    SEAL_HAND_OVER(nodes, node_count);
+    SEAL_HAND_OVER(cuts, cut_count);
+    SEAL_HAND_OVER(pieces, piece_count);
+    SEAL_HAND_OVER(bounds, bound_count);
+    SEAL_HAND_OVER(normals, normal_count);
+    t->predicates = draft->predicates;
+    if (!status) status = tree_finish(t);
+    if (!status) status = tree_fill_promises(t);
+    if (status)
+        froe_tree_free(t);
+    else
+        *out = t;
+    return status;
+}
+
 froe_status draft_seal(const tree_draft *main, const tree_graft *grafts, size_t graft_count, froe_scene *scene,
                        const tree_meta *meta, froe_tree **out) {
     seal s = {.main = main, .grafts = grafts, .graft_count = graft_count};

@@ -1,4 +1,5 @@
-/* plane.c: the loop of split/grow.h for cells of the plane alone (trapezoid.h).
+/* plane.c: the loop of split/grow.h for cells of the plane alone (trapezoid.h). One thread cuts cells in the order in
+ * which the tree numbers them, so that its draft is the tree.
  *
  *     pending cells   [ ... | cell | cell | current ]
  *     parts           [ ... | its parts on top      ]
@@ -24,7 +25,8 @@ typedef struct plane_growth {
     tree_draft main;
     trapezoid_work *workers; /**< one per thread; the first also does the main part */
     unsigned worker_count;
-    uint32_t task_size; /**< of the main part; in tasks 0 */
+    uint32_t task_size; /**< 0: one thread does all, and the main draft is in the order of the tree */
+    double begun;       /**< progress before */
     ARRAY(plane_task) tasks;
     ARRAY(trapezoid_part) store;
     atomic_uint_least64_t pieces; /**< in drafts that are done */
@@ -46,10 +48,10 @@ static froe_status store_task(plane_growth *g, trapezoid_work *w, const trapezoi
     return array_push(alloc, &g->tasks, task) ? FROE_OK : FROE_E_MEMORY;
 }
 
-/** Works off all pending cells; in the main part, small ones become tasks. */
-static froe_status work_off(plane_growth *g, trapezoid_work *w, bool main_part) {
+/** Works off all pending cells; those of at most `small` parts become tasks. */
+static froe_status work_off(plane_growth *g, trapezoid_work *w, uint32_t small) {
     base_task *task = g->job->task;
-    const uint32_t deepest = g->rules->deepest, small = main_part ? g->task_size : 0;
+    const uint32_t deepest = g->rules->deepest, n = g->job->scene->object_count;
     const uint64_t most = g->job->max_fragments;
     froe_status status = FROE_OK;
     for (uint32_t turn = 0; w->cells.count && !status; turn++) {
@@ -65,9 +67,11 @@ static froe_status work_off(plane_growth *g, trapezoid_work *w, bool main_part) 
         /* each pending part will be one piece at least: a refusal here is a refusal in any order of work */
         const uint64_t pieces = w->set.draft->pieces.count + w->parts.count;
         if (!status && most && atomic_load(&g->pieces) + pieces > most) status = FROE_E_BUDGET;
-        const bool ask = main_part || turn % 64 == 63;
+        const bool ask = small || turn % 64 == 63;
         if (status || !ask) continue;
-        const bool go_on = w == g->workers ? base_progress(task, task->done) : !base_cancelled(task);
+        const double left = g->task_size ? 1 : (double)w->parts.count / n,
+                     done = g->begun + g->job->span * task->scale * (1 - left);
+        const bool go_on = w == g->workers ? base_progress(task, done) : !base_cancelled(task);
         if (!go_on) status = FROE_E_CANCELLED;
     }
     return status;
@@ -78,14 +82,16 @@ static froe_status grow_main_part(plane_growth *g) {
     const froe_scene *scene = g->job->scene;
     const uint32_t n = scene->object_count, *order = g->job->order;
     const trapezoid_wall none = {.node = FROE_NONE};
+    const uint32_t task_size = n / TASK_SHARE > TASK_LEAST ? n / TASK_SHARE : TASK_LEAST;
     w->set.draft = &g->main;
-    g->task_size = n / TASK_SHARE > TASK_LEAST ? n / TASK_SHARE : TASK_LEAST;
+    g->task_size = g->job->task->threads > 1 && n > task_size ? task_size : 0;
+    g->begun = g->job->task->done;
     if (!array_reserve(&g->job->alloc, &w->parts, n)) return FROE_E_MEMORY;
     for (uint32_t i = 0; i < n; i++) w->parts.data[i] = trapezoid_whole(scene, order ? order[i] : i);
     w->parts.count = n;
     if (!array_push(&g->job->alloc, &w->cells, (trapezoid_cell){.count = n, .wall = {none, none}}))
         return FROE_E_MEMORY;
-    const froe_status status = work_off(g, w, n > g->task_size);
+    const froe_status status = work_off(g, w, g->task_size);
     return status ? status : count_draft_pieces(g, &g->main);
 }
 
@@ -105,12 +111,14 @@ static froe_status grow_small_cell(void *user, unsigned worker, size_t index) {
     cell.first = 0;
     if (!array_append(alloc, &w->parts, g->store.data + task->first, cell.count) || !array_push(alloc, &w->cells, cell))
         return FROE_E_MEMORY;
-    status = work_off(g, w, false);
+    status = work_off(g, w, 0);
     return status ? status : count_draft_pieces(g, &task->draft);
 }
 
 static froe_status seal_growth(plane_growth *g, froe_tree **out) {
     const size_t count = g->tasks.count;
+    for (unsigned i = 0; i < g->worker_count; i++) num_stats_add(&g->main.predicates, &g->workers[i].set.context.stats);
+    if (!g->task_size) return draft_seal_ordered(&g->main, g->job->scene, g->job->meta, out);
     tree_graft *grafts = support_calloc(&g->job->alloc, count, sizeof *grafts);
     if (!grafts) return FROE_E_MEMORY;
     for (size_t i = 0; i < count; i++) grafts[i] = (tree_graft){g->tasks.data[i].cell.node, &g->tasks.data[i].draft};

@@ -73,7 +73,7 @@ static froe_status end_trapezoid(trapezoid_work *w, const trapezoid_cell *cell) 
     split_set *set = &w->set;
     const uint32_t local = cell->node - set->draft->outer;
     draft_leaf(set->draft, local, 0);
-    froe_status status = cell->count ? draft_list(set->draft, local) : FROE_OK;
+    froe_status status = draft_list(set->draft, local);
     for (uint32_t i = 0; i < cell->count && !status; i++)
         status = emit_part(set, cell->node, w->parts.data + cell->first + i);
     w->parts.count = cell->first;
@@ -196,7 +196,10 @@ static bool is_on_side_wall(trapezoid_work *w, const trapezoid_cell *cell, const
     if (wall->node == FROE_NONE) return false;
     const double reach = ((double)wall->error + (double)f->error) * FILTER_UP;
     if (w->filtered && (f->x[side] < wall->x - reach || f->x[side] > wall->x + reach)) return false;
-    const geom_plane plane = split_plane_at(&w->set, wall->node);
+    const froe_cut cut = split_cut_at(&w->set, wall->node);
+    if (cut.kind == FROE_CUT_VERTEX && !(f->end[side] & TREE_EDGE_CUT))
+        return !order_ends(f->p[side], scene_vertex(w->set.scene, cut.id[0]));
+    const geom_plane plane = scene_cut_plane(w->set.scene, &cut);
     return !side_of_end(w, &plane, f, side);
 }
 
@@ -275,36 +278,40 @@ static void divide_part(trapezoid_work *w, trapezoid_cut *cut, uint32_t node, tr
     left->error = right->error = left->error > most ? left->error : most;
 }
 
-/** Replaces the cell's parts by those of its children: positive below, negative on top. A part leaves at most one on
- * the positive side, so these close up in place while the negative ones wait aside. */
-static froe_status deal_parts(trapezoid_work *w, const trapezoid_cell *cell, trapezoid_cut *cut, const uint32_t of[4]) {
-    const uint32_t negatives = of[SPLIT_NEG] + of[SPLIT_BOTH], positives = of[SPLIT_POS] + of[SPLIT_BOTH];
-    if (w->parts.count + of[SPLIT_BOTH] > INT32_MAX) return FROE_E_LIMIT; /* each becomes a piece at least */
+/** Replaces the cell's parts by those of its children, which have so many: those of child 1 below, of child 0 on top. A
+ * part leaves at most one to child 1, so these close up in place while the others wait aside. `first`: the class of
+ * child 0. */
+static froe_status deal_parts(trapezoid_work *w, const trapezoid_cell *cell, trapezoid_cut *cut, uint8_t first,
+                              const uint32_t counts[2]) {
+    const size_t count = (size_t)counts[0] + counts[1];
+    if (cell->first + count > INT32_MAX) return FROE_E_LIMIT; /* each becomes a piece at least */
     w->spare.count = 0;
-    if (!array_reserve(&w->set.alloc, &w->parts, of[SPLIT_BOTH]) || !array_reserve(&w->set.alloc, &w->spare, negatives))
+    if ((count > cell->count && !array_reserve(&w->set.alloc, &w->parts, count - cell->count)) ||
+        !array_reserve(&w->set.alloc, &w->spare, counts[0]))
         return FROE_E_MEMORY;
-    trapezoid_part *item = w->parts.data + cell->first, *pos = item, *neg = w->spare.data;
+    trapezoid_part *item = w->parts.data + cell->first, *second = item, *top = w->spare.data;
     for (uint32_t i = 0; i < cell->count; i++) {
         const uint8_t class = w->set.classes.data[i];
-        if (class == SPLIT_NEG) {
-            *neg++ = item[i];
-        } else if (class == SPLIT_POS) {
-            *pos++ = item[i];
-        } else if (class != SPLIT_ON) {
-            trapezoid_part left = item[i], right = left;
-            divide_part(w, cut, cell->node, &left, &right);
-            *pos++ = class & FALLING ? left : right;
-            *neg++ = class & FALLING ? right : left;
+        if (class == SPLIT_ON) continue;
+        if (class <= SPLIT_POS) {
+            *(class == first ? top++ : second++) = item[i];
+            continue;
         }
+        trapezoid_part left = item[i], right = left;
+        divide_part(w, cut, cell->node, &left, &right);
+        const bool left_first = (first == SPLIT_NEG) != !!(class & FALLING);
+        *top++ = left_first ? left : right;
+        *second++ = left_first ? right : left;
     }
-    if (negatives) memcpy(pos, w->spare.data, negatives * sizeof *pos);
-    w->parts.count = cell->first + positives + negatives;
+    if (counts[0]) memcpy(second, w->spare.data, counts[0] * sizeof *second);
+    w->parts.count = cell->first + count;
     return FROE_OK;
 }
 
-static froe_status list_parts(trapezoid_work *w, const trapezoid_cell *cell) {
+/** Begins the list of the node with so many parts that lie in its cut. */
+static froe_status list_parts(trapezoid_work *w, const trapezoid_cell *cell, uint32_t count) {
     froe_status status = draft_list(w->set.draft, cell->node - w->set.draft->outer);
-    for (uint32_t i = 0; i < cell->count && !status; i++)
+    for (uint32_t i = 0; count && i < cell->count && !status; i++)
         if (w->set.classes.data[i] == SPLIT_ON)
             status = emit_part(&w->set, cell->node, w->parts.data + cell->first + i);
     return status;
@@ -327,18 +334,20 @@ froe_status trapezoid_step(trapezoid_work *w, const trapezoid_cell *cell) {
     } else {
         classify_beside_wall(w, cell, &cut, of);
     }
+    const uint8_t first = turned ? SPLIT_POS : SPLIT_NEG;
+    const uint32_t counts[2] = {of[first] + of[SPLIT_BOTH], of[!first] + of[SPLIT_BOTH]};
     froe_status status = draft_split(set->draft, cell->node - set->draft->outer, &cut.name, 0, &child);
-    if (!status && of[SPLIT_ON]) status = list_parts(w, cell);
-    if (!status) status = deal_parts(w, cell, &cut, of);
+    if (!status) status = list_parts(w, cell, of[SPLIT_ON]);
+    if (!status) status = deal_parts(w, cell, &cut, first, counts);
     if (status) return status;
-    trapezoid_cell *pos = w->cells.data + w->cells.count, *neg = pos + 1;
-    *pos = *neg = *cell;
-    pos->depth = neg->depth = cell->depth + 1;
-    pos->node = set->draft->outer + child + !turned;
-    neg->node = set->draft->outer + child + turned;
-    pos->count = of[SPLIT_POS] + of[SPLIT_BOTH], neg->count = of[SPLIT_NEG] + of[SPLIT_BOTH];
-    neg->first = pos->first + pos->count;
-    if (!line) neg->wall[RIGHT] = pos->wall[LEFT] = (trapezoid_wall){cut.x, error_above(cut.error), cell->node};
-    w->cells.count += 2;
+    for (uint32_t side = 2; side-- > 0;) { /* child 0 last, so that it comes first: the draft is in order */
+        trapezoid_cell *to = w->cells.data + w->cells.count++;
+        *to = *cell;
+        to->node = set->draft->outer + child + side;
+        to->depth = cell->depth + 1;
+        to->first = cell->first + (side ? 0 : counts[1]);
+        to->count = counts[side];
+        if (!line) to->wall[!side] = (trapezoid_wall){cut.x, error_above(cut.error), cell->node};
+    }
     return FROE_OK;
 }
