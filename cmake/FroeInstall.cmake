@@ -30,7 +30,7 @@ endfunction()
 
 froe_install(froe froe)
 install(FILES include/froe/query.h include/froe/view.h include/froe/kinetic.h include/froe/measure.h include/froe/formats.h
-              include/froe/render.h
+              include/froe/render.h include/froe/arrays.h
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/froe)
 froe_pkgconfig(froe "${PROJECT_DESCRIPTION}" "" "" "-lm -pthread")
 if(FROE_HAS_IO)

@@ -1,6 +1,7 @@
 /* test_floats.c: however the calling thread computes, every call gives the same bits, the thread computes so
  * afterwards, and so do the callbacks. (draw/test_floats.c has the pictures.) */
 #include "support/settings.h"
+#include <froe/arrays.h>
 #include <froe/io.h>
 #include <froe/kinetic.h>
 #include <froe/measure.h>
@@ -62,6 +63,24 @@ static void send_tree(floats_run *r, const froe_tree *tree) {
     free(to.bytes);
 }
 
+static void copy_tree(floats_run *r, const froe_tree *tree, const double *lo, const double *hi) {
+    const froe_allocator alloc = {floats_memory, r};
+    froe_scene_arrays s;
+    froe_piece_arrays p;
+    froe_cell_arrays c;
+    MUST(r, froe_arrays_of_scene(froe_tree_scene(tree), &alloc, &s, NULL));
+    floats_note(r, s.coords, s.vertex_count * (size_t)s.dim * sizeof *s.coords);
+    MUST(r, froe_arrays_of_pieces(tree, &alloc, &p, NULL));
+    floats_note(r, p.coords, p.corner_count * (size_t)p.dim * sizeof *p.coords);
+    if (s.dim <= 3) {
+        MUST(r, froe_arrays_of_cells(tree, lo, hi, false, &alloc, &c, NULL));
+        floats_note(r, c.coords, c.corner_count * (size_t)c.dim * sizeof *c.coords);
+        TELL(r, froe_cell_arrays_free(&c));
+    }
+    TELL(r, froe_piece_arrays_free(&p));
+    TELL(r, froe_scene_arrays_free(&s));
+}
+
 /** Bits of the file, and of what is asked of a tree itself. */
 static void ask_tree(floats_run *r, const froe_tree *tree) {
     const froe_scene *scene = froe_tree_scene(tree);
@@ -91,6 +110,7 @@ static void ask_tree(floats_run *r, const froe_tree *tree) {
         floats_note(r, corners, count * 8 * (size_t)froe_scene_dim(scene));
     }
     if (froe_scene_dim(scene) <= 3) ASK(r, froe_tree_cells(tree, lo, hi, note_cell, r, NULL));
+    copy_tree(r, tree, lo, hi);
 }
 
 static void builds(floats_run *r, void *user) {
