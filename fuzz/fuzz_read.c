@@ -1,4 +1,4 @@
-/* fuzz_read.c: any bytes as a CSV, OFF, PLY or OBJ file: the formats that froe parses by itself. (What
+/* fuzz_read.c: any bytes as a CSV, OFF, PLY, OBJ or GeoJSON file: the formats that froe parses by itself. (What
  * GDAL and assimp parse, their own fuzzers see to.) A header is put before the bytes, so that
  * they reach the right reader. */
 #include "support.h"
@@ -20,14 +20,15 @@ static const struct {
     /* by bytes from 252 on, so that what others stand for stays the same */
     {"", ".csv"},
     {"name;lon;lat\n", ".csv"},
+    {"{\"type\":\"FeatureCollection\",", ".geojson"},
 };
-enum { LATER = 2, FORMS = sizeof forms / sizeof *forms - LATER };
+enum { LATER = 3, FORMS = sizeof forms / sizeof *forms - LATER };
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     char path[256];
     fuzz_bytes bytes = {data, size};
     const uint8_t first = fuzz_byte(&bytes);
-    const size_t form = first < 252 ? first % FORMS : (size_t)FORMS + first % LATER;
+    const size_t form = first < 252 ? first % FORMS : (size_t)FORMS + (first - 252) % LATER;
     fuzz_file(forms[form].header, forms[form].suffix, bytes.data, bytes.size, path, sizeof path);
     froe_read_options options = froe_read_defaults();
     options.boxes = size % 2 != 0;

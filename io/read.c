@@ -7,13 +7,23 @@ static formats_reader *choose_library(const formats_source *source) {
     return io_assimp_recognise(source) ? io_read_assimp : io_read_ogr;
 }
 
+/* GeoJSON that is not plain is left to GDAL. */
+static bool is_collection(const char *path) {
+    formats_source source;
+    return !formats_source_open(path, NULL, &source, NULL) && formats_is_collection(&source);
+}
+
 froe_status froe_read(const char *path, const froe_read_options *options, froe_scene **out, froe_read_report *report,
                       froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
-    const froe_status status = formats_check_reading("froe_read", path, options, out, diag);
+    static const formats_readers libraries = {choose_library, io_read_ogr, true};
+    froe_status status = formats_check_reading("froe_read", path, options, out, diag);
     if (status) return status;
     froe_read_options o = options ? *options : froe_read_defaults();
     if (!o.image) o.image = io_read_image;
-    if (froe_reads_own(path)) return froe_read_own(path, &o, out, report, diag);
-    return formats_read(choose_library, io_read_ogr, path, &o, out, report, diag);
+    if (froe_reads_own(path)) {
+        status = froe_read_own(path, &o, out, report, diag);
+        if (status != FROE_E_UNSUPPORTED || !is_collection(path)) return status;
+    }
+    return formats_read(&libraries, path, &o, out, report, diag);
 }

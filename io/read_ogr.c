@@ -98,20 +98,15 @@ static froe_status add_feature(map *m, OGRFeatureH feature) {
         return curved ? formats_sink_fail(sink, FROE_E_FORMAT, "Its curves cannot be linearised.")
                       : (++sink->report.no_geometry, FROE_OK);
     sink->report.flattened += OGR_GT_HasZ(OGR_G_GetGeometryType(geometry)) != 0;
-    io_sides sides;
+    formats_sides sides;
     status = io_shapes_sides(sink, &m->shapes, geometry, &sides);
     /* OGR keeps the text of a number in one place per feature: names are copied before the next is asked. */
-    char name[256], material[256];
+    char name[256], text[256], material[256];
     snprintf(name, sizeof name, "%s", text_of(feature, m->name_field));
-    if (!status && (*name || sides.polygons)) {
-        if (!*name) snprintf(name, sizeof name, "%s", text_of(feature, m->id_field));
-        if (!*name) snprintf(name, sizeof name, "%lld", (long long)id);
-        snprintf(material, sizeof material, "%s", text_of(feature, m->layer_field));
-        froe_group group = {.name = name, .material = *material ? material : m->layer_name};
-        group.left = sides.left ? name : NULL;
-        group.right = sides.right ? name : NULL;
-        status = formats_sink_group(sink, &group);
-    }
+    snprintf(text, sizeof text, "%s", text_of(feature, m->id_field));
+    snprintf(material, sizeof material, "%s", text_of(feature, m->layer_field));
+    const formats_feature_names names = {name, text, id, *material ? material : m->layer_name};
+    if (!status) status = formats_feature_group(sink, &names, &sides);
     if (!status) status = io_shapes_add(sink, &m->shapes, geometry, &sides);
     if (curved) OGR_G_DestroyGeometry(geometry);
     return status;
@@ -225,7 +220,7 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
     map m = {.source = source,
              .sink = sink,
              .heard.path = source->file,
-             .shapes.wrap = source->options->wrap,
+             .shapes.outlines.wrap = source->options->wrap,
              .crs.wrap = source->options->wrap};
     m.extension = extension;
     m.container = source->beyond ? strncmp(name, "/vsi", 4) != 0 : strcmp(name, source->file) != 0;

@@ -84,8 +84,9 @@ int cli_read_scene(const cli_common *common, const cli_scene_args *args, froe_sc
         froe_diagnostic diag;
         froe_status status = own ? froe_read_own(spool.path, &options, scene, report, &diag) : FROE_OK;
         const bool textured = own && !status && report->textures; /* images are read by GDAL */
-        if (textured && !cli_open_io(&io)) froe_scene_free(*scene);
-        if (!own || (textured && io.read)) {
+        const bool refused = own && status == FROE_E_UNSUPPORTED; /* so is GeoJSON that is not plain */
+        if ((textured || refused) && !cli_open_io(&io) && textured) froe_scene_free(*scene);
+        if (io.read) {
             cli_crash_begin(&spool);
             status = io.read(spool.path, &options, scene, report, &diag);
             cli_crash_end();

@@ -7,7 +7,8 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { BATCH_OBJECTS = 65536, BATCH_DOUBLES = 1 << 20 };
+/* The scene takes large batches more quickly than small ones, above all where they are not small beside it. */
+enum { BATCH_OBJECTS = 1 << 20, BATCH_DOUBLES = 1 << 22 };
 
 froe_status formats_sink_open(formats_sink *sink, int dim) {
     sink->dim = dim;
@@ -62,9 +63,9 @@ static froe_status flush(formats_sink *sink) {
     batch.coords = sink->coords.data;
     batch.starts = has_starts(sink->kind) ? sink->starts.data : NULL;
     batch.radii = sink->kind == FROE_BALL ? sink->radii.data : NULL;
-    batch.tags = sink->tags.data;
-    batch.faces = sink->object_faces.data;
-    batch.groups = sink->groups.data;
+    batch.tags = sink->tags.count ? sink->tags.data : NULL;
+    batch.faces = sink->object_faces.count ? sink->object_faces.data : NULL;
+    batch.groups = sink->groups.count ? sink->groups.data : NULL;
     froe_diagnostic why = {.message = ""};
     froe_status status = froe_scene_add(sink->scene, &batch, &why);
     if (status) {
@@ -81,28 +82,74 @@ static froe_status flush(formats_sink *sink) {
     return FROE_OK;
 }
 
-static froe_status put_in_sink(formats_sink *sink, froe_kind kind, const double *coords, size_t corners) {
-    bool full = sink->count == BATCH_OBJECTS || sink->coords.count > BATCH_DOUBLES;
+/* Before up to `count` objects of this kind: hands a batch over where it is full or of another kind. *fits: the new one
+ * takes so many of them, at least one. */
+static froe_status begin_put(formats_sink *sink, froe_kind kind, size_t count, size_t *fits) {
+    const bool full = sink->count >= BATCH_OBJECTS || sink->coords.count > BATCH_DOUBLES;
     if (full || (sink->count && kind != sink->kind)) {
-        froe_status status = flush(sink);
+        const froe_status status = flush(sink);
         if (status) return status;
     }
     if (sink->total >= FROE_NONE - 1)
         return formats_sink_fail(sink, FROE_E_LIMIT, "There are more than 2^32 - 2 objects.");
-    const froe_allocator *alloc = &sink->alloc;
+    const size_t left = FROE_NONE - 1 - sink->total, room = BATCH_OBJECTS - sink->count;
+    if (count > left) count = left;
+    *fits = count < room ? count : room;
     sink->kind = kind;
-    const uint32_t id = (uint32_t)sink->total;
+    return FROE_OK;
+}
+
+/* Faces, groups and tags of the next `count` objects. An array stays empty as long as all objects of the batch are
+ * what the scene takes them for without it. */
+static bool put_descriptions(formats_sink *sink, size_t count) {
+    const froe_allocator *alloc = &sink->alloc;
+    const size_t old = sink->count, all = old + count, begin = sink->total - old; /* begin: the id of the first */
+    const bool faces = sink->object_faces.count || sink->face != FROE_NONE;
+    const bool groups = sink->groups.count || sink->group != FROE_NONE, tags = sink->tags.count || sink->tagged;
+    if ((faces && !array_reserve(alloc, &sink->object_faces, all - sink->object_faces.count)) ||
+        (groups && !array_reserve(alloc, &sink->groups, all - sink->groups.count)) ||
+        (tags && !array_reserve(alloc, &sink->tags, all - sink->tags.count)))
+        return false;
+    for (size_t i = sink->object_faces.count; faces && i < all; i++)
+        sink->object_faces.data[i] = i < old || sink->face == FROE_NONE ? (uint32_t)(begin + i) : sink->face;
+    for (size_t i = sink->groups.count; groups && i < all; i++)
+        sink->groups.data[i] = i < old ? FROE_NONE : sink->group;
+    for (size_t i = sink->tags.count; tags && i < all; i++)
+        sink->tags.data[i] = i < old || !sink->tagged ? begin + i : sink->tag;
+    sink->object_faces.count = faces ? all : 0;
+    sink->groups.count = groups ? all : 0;
+    sink->tags.count = tags ? all : 0;
+    sink->count = all;
+    sink->total += count;
+    return true;
+}
+
+static froe_status put_in_sink(formats_sink *sink, froe_kind kind, const double *coords, size_t corners) {
+    size_t fits;
+    const froe_status status = begin_put(sink, kind, 1, &fits);
+    if (status) return status;
+    const froe_allocator *alloc = &sink->alloc;
     const size_t dim = (size_t)sink->dim, start = sink->coords.count / dim;
     const bool first = has_starts(kind) && !sink->count;
     if ((first && !array_push(alloc, &sink->starts, start)) ||
         (has_starts(kind) && !array_push(alloc, &sink->starts, start + corners)) ||
-        !array_append(alloc, &sink->coords, coords, corners * dim) ||
-        !array_push(alloc, &sink->object_faces, sink->face == FROE_NONE ? id : sink->face) ||
-        !array_push(alloc, &sink->groups, sink->group) ||
-        !array_push(alloc, &sink->tags, sink->tagged ? sink->tag : id))
+        !array_append(alloc, &sink->coords, coords, corners * dim) || !put_descriptions(sink, 1))
         return support_fail_memory(sink->diag);
-    ++sink->count;
-    ++sink->total;
+    return FROE_OK;
+}
+
+/* Segments between neighbours of points that are finite. */
+static froe_status put_segments(formats_sink *sink, const double *points, size_t count) {
+    const size_t dim = (size_t)sink->dim;
+    for (size_t fits = 0; count > 1; points += fits * dim, count -= fits) {
+        const froe_status status = begin_put(sink, FROE_SEGMENT, count - 1, &fits);
+        if (status) return status;
+        if (!array_reserve(&sink->alloc, &sink->coords, 2 * fits * dim)) return support_fail_memory(sink->diag);
+        double *to = sink->coords.data + sink->coords.count;
+        for (size_t i = 0; i < fits; i++, to += 2 * dim) memcpy(to, points + i * dim, 2 * dim * sizeof *to);
+        sink->coords.count += 2 * fits * dim;
+        if (!put_descriptions(sink, fits)) return support_fail_memory(sink->diag);
+    }
     return FROE_OK;
 }
 
@@ -242,6 +289,17 @@ static froe_status add_pair(formats_sink *sink, froe_kind kind, const double *a,
 
 froe_status formats_sink_segment(formats_sink *sink, const double *a, const double *b) {
     return add_pair(sink, FROE_SEGMENT, a, b);
+}
+
+froe_status formats_sink_line(formats_sink *sink, const double *points, size_t count) {
+    const size_t dim = (size_t)sink->dim;
+    double odd = 0; /* not 0 where a number is not finite: then the segment is found that has it */
+    for (size_t i = 0; i < count * dim; i++) odd += points[i] - points[i];
+    if (odd == 0 && !sink->boxes) return put_segments(sink, points, count);
+    froe_status status = FROE_OK;
+    for (size_t i = 0; i + 1 < count && !status; i++)
+        status = formats_sink_segment(sink, points + i * dim, points + (i + 1) * dim);
+    return status;
 }
 
 froe_status formats_sink_hull(formats_sink *sink, const double *corners, size_t count) {

@@ -45,6 +45,7 @@ typedef struct formats_sink {
     size_t total;   /**< objects so far, batch included: the next id */
     ARRAY(double) coords, radii;
     ARRAY(size_t) starts;
+    /* empty until an object of the batch is not like the default: its own face, no group, its id as tag */
     ARRAY(uint32_t) object_faces, groups;
     ARRAY(uint64_t) tags;
     formats_bounds bounds, half[2]; /**< of the feature, and of its parts */
@@ -73,6 +74,8 @@ void formats_sink_new_face(formats_sink *sink);
 /** Points of dim doubles. FROE_E_INPUT when a coordinate is not finite. */
 froe_status formats_sink_point(formats_sink *sink, const double *p);
 froe_status formats_sink_segment(formats_sink *sink, const double *a, const double *b);
+/** The segments between neighbours of `count` points. */
+froe_status formats_sink_line(formats_sink *sink, const double *points, size_t count);
 /** Of one corner or more. */
 froe_status formats_sink_hull(formats_sink *sink, const double *corners, size_t count);
 froe_status formats_sink_box(formats_sink *sink, const double *lo, const double *hi);

@@ -68,6 +68,18 @@ bool formats_is_moving(const formats_source *source) {
             (strstr(source->head, "\"temporalGeometry\"") || strstr(source->head, "\"MovingLineString\"")));
 }
 
+bool formats_is_collection(const formats_source *source) {
+    static const char *const words[] = {"{", "\"type\"", ":", "\"FeatureCollection\""};
+    const char *at = source->head;
+    if (strcmp(source->extension.text, "geojson") != 0 && strcmp(source->extension.text, "json") != 0) return false;
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        at += strspn(at, " \t\r\n");
+        if (strncmp(at, words[i], strlen(words[i])) != 0) return false;
+        at += strlen(words[i]);
+    }
+    return true;
+}
+
 froe_status formats_load(const formats_source *source, formats_sink *sink, bool binary, formats_text *text) {
     const bool room = source->size < SIZE_MAX && array_reserve(&sink->alloc, text, (size_t)source->size + 1);
     char *to = text->data;
@@ -101,8 +113,8 @@ static bool is_beyond(const char *path) {
 
 /* Fills the sink and takes the scene from it. Only maps have layers and attributes: a filter of another file is
  * refused, rather than ignored. */
-static froe_status fill_scene(formats_choose_fn *choose, formats_reader *maps, const formats_source *source,
-                              formats_sink *sink, froe_scene **out) {
+static froe_status fill_scene(const formats_readers *readers, const formats_source *source, formats_sink *sink,
+                              froe_scene **out) {
     const char *name = support_short(source->path);
     const froe_read_options *o = source->options;
     if (!source->beyond && froe_is_tree(source->file))
@@ -110,10 +122,12 @@ static froe_status fill_scene(formats_choose_fn *choose, formats_reader *maps, c
     if (formats_is_moving(source))
         return support_fail(sink->diag, FROE_E_UNSUPPORTED,
                             "%s: The file holds moving features, which are no scene at rest.", name);
-    formats_reader *reader = source->beyond ? maps : choose(source);
+    formats_reader *reader = source->beyond ? readers->maps : readers->choose(source);
     if (!reader)
-        return support_fail(sink->diag, FROE_E_UNSUPPORTED, "%s: The file is neither CSV nor OFF, OBJ or PLY.", name);
-    if (reader != maps && (o->layer || o->where || o->wrap))
+        return support_fail(sink->diag, FROE_E_UNSUPPORTED,
+                            "%s: The file is neither CSV, OFF, OBJ or PLY nor a collection of features in GeoJSON.",
+                            name);
+    if (reader != readers->maps && (o->layer || o->where || o->wrap))
         return support_fail(sink->diag, FROE_E_OPTIONS, "%s: The file is not a map, and has no %s.", name,
                             o->layer   ? "layers"
                             : o->where ? "attributes to filter by"
@@ -137,9 +151,8 @@ froe_status formats_check_reading(const char *name, const char *path, const froe
     return FROE_OK;
 }
 
-froe_status formats_read(formats_choose_fn *choose, formats_reader *maps, const char *path,
-                         const froe_read_options *options, froe_scene **out, froe_read_report *report,
-                         froe_diagnostic *diag) {
+froe_status formats_read(const formats_readers *readers, const char *path, const froe_read_options *options,
+                         froe_scene **out, froe_read_report *report, froe_diagnostic *diag) {
     double start = formats_seconds();
     const froe_read_options defaults = froe_read_defaults(), *o = options ? options : &defaults;
     formats_sink sink = {.alloc = support_allocator(o->alloc),
@@ -154,10 +167,11 @@ froe_status formats_read(formats_choose_fn *choose, formats_reader *maps, const 
                          .image_user = o->image_user};
     support_locale locale;
     if (!support_locale_enter(&locale)) return support_fail_memory(diag);
-    formats_source source = {.file = path, .path = sink.path, .options = o, .beyond = maps && is_beyond(path)};
+    formats_source source = {
+        .file = path, .path = sink.path, .options = o, .beyond = readers->beyond && is_beyond(path)};
     source.extension = support_path_extension(path);
     froe_status status = source.beyond ? FROE_OK : formats_source_open(path, o, &source, diag);
-    if (!status) status = fill_scene(choose, maps, &source, &sink, out);
+    if (!status) status = fill_scene(readers, &source, &sink, out);
     formats_sink_free(&sink);
     support_locale_leave(&locale);
     sink.report.seconds = formats_seconds() - start;

@@ -22,21 +22,26 @@ froe_status formats_source_open(const char *path, const froe_read_options *optio
 /** Is it of moving features, by its extension or its content? */
 bool formats_is_moving(const formats_source *source);
 
+/** Is it a collection of features in GeoJSON, by its extension and its first bytes? */
+bool formats_is_collection(const formats_source *source);
+
 /** A reader adds the objects of the file to the sink, which it opens with the right dimension, and sets
  * report.format and report.precision. */
 typedef froe_status formats_reader(const formats_source *source, formats_sink *sink);
 
-/** NULL: there is no reader for this file. */
-typedef formats_reader *formats_choose_fn(const formats_source *source);
+/** The readers to choose from. */
+typedef struct formats_readers {
+    formats_reader *(*choose)(const formats_source *source); /**< NULL: there is none for this file */
+    formats_reader *maps; /**< whose files have attributes and longitudes, and perhaps layers; may be NULL */
+    bool beyond;          /**< maps may be no files: folders, and names in virtual file systems */
+} formats_readers;
 
 /** Does the public function `name` accept these arguments? FROE_E_ARG, FROE_E_OPTIONS. */
 froe_status formats_check_reading(const char *name, const char *path, const froe_read_options *options,
                                   froe_scene **out, froe_diagnostic *diag);
-/** As froe_read(), with the readers that `choose` has, and arguments that were accepted. `maps` is the one whose files
- * have layers and attributes, or NULL. */
-froe_status formats_read(formats_choose_fn *choose, formats_reader *maps, const char *path,
-                         const froe_read_options *options, froe_scene **out, froe_read_report *report,
-                         froe_diagnostic *diag);
+/** As froe_read(), with these readers, and arguments that were accepted. */
+froe_status formats_read(const formats_readers *readers, const char *path, const froe_read_options *options,
+                         froe_scene **out, froe_read_report *report, froe_diagnostic *diag);
 
 typedef ARRAY(char) formats_text;
 /** The whole file but for a byte order mark, and a NUL behind it. FROE_E_IO, FROE_E_MEMORY; FROE_E_FORMAT when a text

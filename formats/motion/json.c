@@ -1,6 +1,7 @@
 /* json.c: reads a JSON text (RFC 8259). The `span` of a container that is not yet closed says which one it lies in. */
 #include "formats/motion/json.h"
 #include "support/decimal/decimal.h"
+#include "support/escape.h"
 #include "support/utf8.h"
 #include <math.h>
 #include <stdio.h>
@@ -72,43 +73,6 @@ static froe_status read_json_number(parser *p) {
     return put_value(p, FORMATS_JSON_NUMBER, begin, number);
 }
 
-/* The four hexadecimal digits of \uXXXX; -1: they are none. */
-static int code_unit(const char *digits) {
-    char text[5] = {0};
-    if (strspn(digits, "0123456789abcdefABCDEF") < 4) return -1;
-    memcpy(text, digits, 4);
-    return (int)strtol(text, NULL, 16);
-}
-
-/* The code point of an escape that begins at `*at`, behind its backslash; surrogates are one in a pair. 0: it is none,
- * or one that no string can hold. */
-static uint32_t read_code_point(char **at) {
-    int high = code_unit(*at + 1), low;
-    if (high < 0 || (high & 0xfc00) == 0xdc00) return 0;
-    *at += 5;
-    if ((high & 0xfc00) != 0xd800) return (uint32_t)high;
-    if ((*at)[0] != '\\' || (*at)[1] != 'u' || (low = code_unit(*at + 2)) < 0 || (low & 0xfc00) != 0xdc00) return 0;
-    *at += 6;
-    return 0x10000 + ((uint32_t)(high & 0x3ff) << 10 | (uint32_t)(low & 0x3ff));
-}
-
-/* Behind the backslash. False: there is no such escape. */
-static bool decode_escape(char **at, char **to) {
-    static const char from[] = "\"\\/bfnrt", into[] = "\"\\/\b\f\n\r\t";
-    if (**at == 'u') {
-        uint32_t c = read_code_point(at);
-        static const uint8_t first[] = {0, 0xc0, 0xe0, 0xf0};
-        int more = c < 0x80 ? 0 : c < 0x800 ? 1 : c < 0x10000 ? 2 : 3;
-        if (!c) return false;
-        *(*to)++ = (char)(first[more] | c >> 6 * more);
-        while (more--) *(*to)++ = (char)(0x80 | (c >> 6 * more & 0x3f));
-        return true;
-    }
-    const char *known = **at ? strchr(from, **at) : NULL;
-    if (known) *(*to)++ = into[known - from], ++*at;
-    return known != NULL;
-}
-
 /* What a string stands for is never longer than it: it is decoded where it lies. */
 static froe_status read_string(parser *p) {
     char *begin = p->at + 1, *to = begin;
@@ -118,7 +82,7 @@ static froe_status read_string(parser *p) {
         if (!length) return expected(p, "UTF-8");
         if (*p->at == '\\') {
             char *escape = p->at++;
-            if (!decode_escape(&p->at, &to)) return p->at = escape, expected(p, "a character");
+            if (!support_json_unescape(&p->at, &to)) return p->at = escape, expected(p, "a character");
         } else {
             memmove(to, p->at, length);
             to += length, p->at += length;

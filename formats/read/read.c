@@ -20,6 +20,7 @@ static formats_reader *choose_own(const formats_source *source) {
     if (is_off(source->head) || !strcmp(source->extension.text, "off")) return formats_read_off;
     if (!strncmp(source->head, "ply\n", 4) || !strncmp(source->head, "ply\r", 4)) return formats_read_ply;
     if (!strcmp(source->extension.text, "ply")) return formats_read_ply;
+    if (formats_is_collection(source)) return formats_read_geojson;
     return strcmp(source->extension.text, "obj") ? NULL : formats_read_obj;
 }
 
@@ -33,6 +34,7 @@ bool froe_reads_own(const char *path) {
 froe_status froe_read_own(const char *path, const froe_read_options *options, froe_scene **out,
                           froe_read_report *report, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
+    static const formats_readers own = {choose_own, formats_read_geojson, false};
     const froe_status status = formats_check_reading("froe_read_own", path, options, out, diag);
-    return status ? status : formats_read(choose_own, NULL, path, options, out, report, diag);
+    return status ? status : formats_read(&own, path, options, out, report, diag);
 }

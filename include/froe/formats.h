@@ -41,7 +41,7 @@ typedef struct froe_read_options {
     const char *where;           /**< OGR: attribute filter, as in SQL's WHERE; NULL: none */
     froe_faces faces;            /**< solid models: default FROE_FACES_TRIANGLES */
     bool boxes;                  /**< the bounding box of every feature (or row, or node) instead of its shape */
-    bool wrap;                   /**< OGR: cut borders that cross the antimeridian there, see io/wrap.h; with `boxes`
+    bool wrap;                   /**< maps: cut borders that cross the antimeridian there; with `boxes`
                                       features wider than 180 degrees give two, one on each side of Greenwich */
     froe_progress_fn *progress;  /**< may be NULL; false cancels */
     void *user;                  /**< for progress */
@@ -90,6 +90,9 @@ typedef struct froe_read_report {
  *                   object's (o, g) name and a material is a group, coloured by the MTL beside it. Where
  *                   corners have colours or a material has a texture (map_Kd), so is each colour of a
  *                   face: the mean of its corners, or of its part of the texture, in 64 steps a channel.
+ *   GeoJSON         dimension 2: collections of features that are plain (RFC 7946): positions of two numbers, in WGS 84
+ *                   or, where a member `crs` is null, without a coordinate system; as froe_read() does, without GDAL.
+ *                   Names of features are strings and whole numbers, and their ids are of one kind.
  *
  * `face` of an object is the lowest id among those of the same source polygon. With `boxes` every
  * feature gives one box. The caller frees the scene. `options`, `report` and `diag` may be NULL. The time is
@@ -97,11 +100,13 @@ typedef struct froe_read_report {
  *
  * FROE_E_IO: missing, unreadable, a directory. FROE_E_FORMAT: empty, truncated or broken. FROE_E_INPUT: NaN or infinite
  * coordinates, or no objects at all; the message names the feature. FROE_E_UNSUPPORTED: another format, moving
- * features, more than 8 axes. FROE_E_OPTIONS: layer, filter or `wrap`, which are for maps. FROE_E_ARG, FROE_E_MEMORY,
+ * features, more than 8 axes, GeoJSON that is not plain, or with layer or filter; froe_read() may read such a file.
+ * FROE_E_OPTIONS: layer, filter or `wrap`, which are for maps. FROE_E_ARG, FROE_E_MEMORY,
  * FROE_E_CANCELLED, FROE_E_LIMIT. */
 FROE_API froe_status froe_read_own(const char *path, const froe_read_options *options, froe_scene **out,
                                    froe_read_report *report, froe_diagnostic *diag);
-/** Is this a file that froe_read_own() reads? By its first 4096 bytes, then its extension. False, too: NULL, or it
+/** Is this a file that froe_read_own() reads, if it is right and, of GeoJSON, plain? By its first 4096 bytes, then its
+ * extension. False, too: NULL, or it
  * cannot be read. */
 FROE_API bool froe_reads_own(const char *path);
 

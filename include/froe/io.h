@@ -5,8 +5,8 @@
  *     if (froe_read("floor.geojson", &o, &scene, &report, &diag)) puts(diag.message);
  *
  * A companion library (link froe-io) on top of froe/formats.h. Plane maps are read by GDAL's OGR, solid models by
- * assimp, numbers in CSV, OFF, OBJ and PLY by the core. Nothing is printed: messages of those libraries go into the
- * diagnostic. All functions may be called from several threads at once. */
+ * assimp, numbers in CSV, OFF, OBJ, PLY and plain GeoJSON by the core. Nothing is printed: messages of those libraries
+ * go into the diagnostic. All functions may be called from several threads at once. */
 #ifndef FROE_IO_H
 #define FROE_IO_H
 
@@ -19,7 +19,7 @@ extern "C" {
 
 /** Reads a scene. The content of the file decides which reader is used, then its extension:
  *
- *   CSV by header, OFF, OBJ, PLY   as froe_read_own() does
+ *   CSV by header, OFF, OBJ, PLY, plain GeoJSON   as froe_read_own() does
  *
  *   assimp          glTF, STL, IFC, FBX, ...: dimension 3, single precision; node transforms are
  *                   applied in double; each pair of a node and a material of its faces is a group,

@@ -58,7 +58,7 @@ static double round_by_powers(uint64_t w, int q) {
     return exponent >= INFINITE ? HUGE_VAL : assemble_double(mantissa, exponent);
 }
 
-static double nearest_double(uint64_t w, long long q) {
+double support_decimal_nearest(uint64_t w, long long q) {
     static const double tens[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7,  1e8,  1e9,  1e10, 1e11,
                                   1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18, 1e19, 1e20, 1e21, 1e22};
     if (w <= (uint64_t)1 << (MANTISSA + 1) && q >= -22 && q <= 22)
@@ -98,6 +98,6 @@ double support_decimal(const char *text, char **end) {
         }
     }
     *end = (char *)at;
-    const double value = nearest_double(w, q);
+    const double value = support_decimal_nearest(w, q);
     return negative ? -value : value;
 }

@@ -15,6 +15,10 @@ static void each_format_that_needs_no_library_is_read(void **state) {
          "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double z\n"
          "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
          "PLY", 3, 1},
+        {"own.geojson",
+         "{\"type\":\"FeatureCollection\",\"features\":[{\"type\":\"Feature\",\"properties\":{},\"geometry\":"
+         "{\"type\":\"LineString\",\"coordinates\":[[0,0],[1,0],[0,1]]}}]}",
+         "GeoJSON", 2, 2},
         {"own", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "OFF", 3, 1}, /* by its content */
         {"counts.off", "# no word\n3 1\n0 0 0\n1 0 0 # a corner\n0 1 0\n3 0 1 2\n", "OFF", 3, 1},
         {"lines.off", "OFF\n3\n1\n0\n0 0 0 1 0 0 0 1 0\n3 0 1 2\n", "OFF", 3, 1},
@@ -139,14 +143,15 @@ static void each_colour_is_one_group(void **state) {
     froe_scene_free(scene);
 }
 
+#define OTHERS "is neither CSV, OFF, OBJ or PLY nor a collection of features in GeoJSON"
 static void other_formats_are_refused(void **state) {
     (void)state;
     static const struct {
         const char *path, *text, *words;
     } files[] = {
-        {"other.geojson", "{\"type\":\"FeatureCollection\",\"features\":[]}", "is neither CSV nor OFF, OBJ or PLY"},
-        {"wkt.csv", "name,WKT\na,POINT (1 2)\n", "is neither CSV nor OFF, OBJ or PLY"},
-        {"other.stl", "solid a\nendsolid a\n", "is neither CSV nor OFF, OBJ or PLY"},
+        {"other.geojson", "{\"type\":\"Feature\",\"properties\":{},\"geometry\":null}", OTHERS},
+        {"wkt.csv", "name,WKT\na,POINT (1 2)\n", OTHERS},
+        {"other.stl", "solid a\nendsolid a\n", OTHERS},
         {"other.mfjson", "{}", "holds moving features"},
     };
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {

@@ -1,12 +1,12 @@
 /* wrap.c: see wrap.h. */
-#include "wrap.h"
+#include "formats/input/wrap.h"
 #include "formats/input/triangulate.h"
 #include <math.h>
 #include <stdlib.h>
 
 static const double half = 180, whole = 360, pole = 90;
 
-froe_status io_wrap_point(formats_sink *sink, const double *point, double *out) {
+froe_status formats_wrap_point(formats_sink *sink, const double *point, double *out) {
     const double x = point[0], y = point[1];
     if (fabs(x) > whole || fabs(y) > pole)
         return formats_sink_fail(
@@ -32,7 +32,7 @@ static double crossing(const double *a, const double *b) {
     return fmin(fmax(y, fmin(a[1], b[1])), fmax(a[1], b[1]));
 }
 
-static froe_status add_edge(formats_sink *sink, const double *a, const double *b, io_wrap_cuts *cuts) {
+static froe_status add_edge(formats_sink *sink, const double *a, const double *b, formats_wrap_cuts *cuts) {
     if (!crosses(a, b)) return formats_sink_segment(sink, a, b);
     const double y = crossing(a, b), at_a[2] = {copysign(half, a[0]), y}, at_b[2] = {copysign(half, b[0]), y};
     froe_status status = FROE_OK;
@@ -49,12 +49,12 @@ static bool is_frame(const double *xy, size_t count) {
     return i == count;
 }
 
-froe_status io_wrap_line(formats_sink *sink, const double *xy, size_t count, io_wrap_cuts *cuts) {
+froe_status formats_wrap_line(formats_sink *sink, const double *xy, size_t count, formats_wrap_cuts *cuts) {
     const bool frame = is_frame(xy, count);
     double a[2], b[2];
-    froe_status status = io_wrap_point(sink, xy, a);
+    froe_status status = formats_wrap_point(sink, xy, a);
     for (size_t i = 1; i < count && !status; i++, a[0] = b[0], a[1] = b[1]) {
-        status = io_wrap_point(sink, xy + 2 * i, b);
+        status = formats_wrap_point(sink, xy + 2 * i, b);
         if (!status) status = frame ? formats_sink_segment(sink, a, b) : add_edge(sink, a, b, cuts);
     }
     return status;
@@ -72,7 +72,7 @@ static froe_status add_side(formats_sink *sink, bool turned, double x0, double y
     return turned ? formats_sink_segment(sink, b, a) : formats_sink_segment(sink, a, b);
 }
 
-froe_status io_wrap_close(formats_sink *sink, io_wrap_cuts *cuts, bool right) {
+froe_status formats_wrap_close(formats_sink *sink, formats_wrap_cuts *cuts, bool right) {
     double *y = cuts->data;
     size_t count = cuts->count;
     froe_status status = FROE_OK;
@@ -95,7 +95,7 @@ froe_status io_wrap_close(formats_sink *sink, io_wrap_cuts *cuts, bool right) {
 }
 
 /* Sums are rounded: a ring thinner than that, some 10 nanometres, may seem to turn the other way. */
-int io_wrap_ring_side(double *xy, size_t count) {
+int formats_wrap_ring_side(double *xy, size_t count) {
     double turned = 0, low = pole, high = -pole; /* degrees; latitudes of crossings */
     const bool frame = is_frame(xy, count);
     for (size_t i = 1; i <= count && !frame; i++) {

@@ -16,23 +16,23 @@
  * degrees, rings around poles, and rings that end in 180 or -180, as those of Fiji and Russia do. A crossing's latitude
  * is rounded to a double, the same one in both directions; all other coordinates stay what they are. Longitudes beyond
  * 180, of maps that have the Pacific in the middle, become those within. */
-#ifndef FROE_IO_WRAP_H
-#define FROE_IO_WRAP_H
+#ifndef FROE_FORMATS_WRAP_H
+#define FROE_FORMATS_WRAP_H
 
 #include "formats/input/sink.h"
 
 /** Latitudes in which the rings of a polygon cross. */
-typedef ARRAY(double) io_wrap_cuts;
+typedef ARRAY(double) formats_wrap_cuts;
 
 /** Longitude and latitude of a point, the longitude within 180. FROE_E_INPUT: it is beyond 360, or the latitude beyond
  * 90. */
-froe_status io_wrap_point(formats_sink *sink, const double *point, double *out);
+froe_status formats_wrap_point(formats_sink *sink, const double *point, double *out);
 /** Adds the segments of a line or a ring, and its crossings to the cuts. */
-froe_status io_wrap_line(formats_sink *sink, const double *xy, size_t count, io_wrap_cuts *cuts);
+froe_status formats_wrap_line(formats_sink *sink, const double *xy, size_t count, formats_wrap_cuts *cuts);
 /** Adds the segments along the antimeridian between the crossings of a polygon, of which none are left. Its interior is
  * on their right, or otherwise on their left. */
-froe_status io_wrap_close(formats_sink *sink, io_wrap_cuts *cuts, bool right);
+froe_status formats_wrap_close(formats_sink *sink, formats_wrap_cuts *cuts, bool right);
 /** On which side of a ring is its interior, on the Earth? As formats_ring_side(). The longitudes become continuous. */
-int io_wrap_ring_side(double *xy, size_t count);
+int formats_wrap_ring_side(double *xy, size_t count);
 
 #endif
