@@ -63,9 +63,9 @@ static froe_status flush(formats_sink *sink) {
     batch.coords = sink->coords.data;
     batch.starts = has_starts(sink->kind) ? sink->starts.data : NULL;
     batch.radii = sink->kind == FROE_BALL ? sink->radii.data : NULL;
-    batch.tags = sink->tags.count ? sink->tags.data : NULL;
-    batch.faces = sink->object_faces.count ? sink->object_faces.data : NULL;
-    batch.groups = sink->groups.count ? sink->groups.data : NULL;
+    batch.tags = sink->tags.data;
+    batch.faces = sink->object_faces.data;
+    batch.groups = sink->groups.data;
     froe_diagnostic why = {.message = ""};
     froe_status status = froe_scene_add(sink->scene, &batch, &why);
     if (status) {
@@ -99,28 +99,19 @@ static froe_status begin_put(formats_sink *sink, froe_kind kind, size_t count, s
     return FROE_OK;
 }
 
-/* Faces, groups and tags of the next `count` objects. An array stays empty as long as all objects of the batch are
- * what the scene takes them for without it. */
+/* Faces, groups and tags of the next `count` objects. */
 static bool put_descriptions(formats_sink *sink, size_t count) {
     const froe_allocator *alloc = &sink->alloc;
-    const size_t old = sink->count, all = old + count, begin = sink->total - old; /* begin: the id of the first */
-    const bool faces = sink->object_faces.count || sink->face != FROE_NONE;
-    const bool groups = sink->groups.count || sink->group != FROE_NONE, tags = sink->tags.count || sink->tagged;
-    if ((faces && !array_reserve(alloc, &sink->object_faces, all - sink->object_faces.count)) ||
-        (groups && !array_reserve(alloc, &sink->groups, all - sink->groups.count)) ||
-        (tags && !array_reserve(alloc, &sink->tags, all - sink->tags.count)))
+    if (!array_reserve(alloc, &sink->object_faces, count) || !array_reserve(alloc, &sink->groups, count) ||
+        !array_reserve(alloc, &sink->tags, count))
         return false;
-    for (size_t i = sink->object_faces.count; faces && i < all; i++)
-        sink->object_faces.data[i] = i < old || sink->face == FROE_NONE ? (uint32_t)(begin + i) : sink->face;
-    for (size_t i = sink->groups.count; groups && i < all; i++)
-        sink->groups.data[i] = i < old ? FROE_NONE : sink->group;
-    for (size_t i = sink->tags.count; tags && i < all; i++)
-        sink->tags.data[i] = i < old || !sink->tagged ? begin + i : sink->tag;
-    sink->object_faces.count = faces ? all : 0;
-    sink->groups.count = groups ? all : 0;
-    sink->tags.count = tags ? all : 0;
-    sink->count = all;
-    sink->total += count;
+    for (size_t i = sink->count, end = i + count; i < end; i++, sink->total++) {
+        sink->object_faces.data[i] = sink->face == FROE_NONE ? (uint32_t)sink->total : sink->face;
+        sink->groups.data[i] = sink->group;
+        sink->tags.data[i] = sink->tagged ? sink->tag : sink->total;
+    }
+    sink->count += count;
+    sink->object_faces.count = sink->groups.count = sink->tags.count = sink->count;
     return true;
 }
 

@@ -45,7 +45,6 @@ typedef struct formats_sink {
     size_t total;   /**< objects so far, batch included: the next id */
     ARRAY(double) coords, radii;
     ARRAY(size_t) starts;
-    /* empty until an object of the batch is not like the default: its own face, no group, its id as tag */
     ARRAY(uint32_t) object_faces, groups;
     ARRAY(uint64_t) tags;
     formats_bounds bounds, half[2]; /**< of the feature, and of its parts */
