@@ -72,3 +72,11 @@ bool support_array_grow(const froe_allocator *alloc, void **data, size_t *capaci
     *capacity = room;
     return true;
 }
+
+void support_array_shrink(const froe_allocator *alloc, void **data, size_t *capacity, size_t count, size_t item_size) {
+    if (!count || *capacity - count < *capacity / 8) return;
+    void *shrunk = support_realloc(alloc, *data, *capacity * item_size, count * item_size);
+    if (!shrunk) return; /* it stays as it is */
+    *data = shrunk;
+    *capacity = count;
+}

@@ -31,6 +31,11 @@
     (support_free((alloc), (a)->data, (a)->capacity * sizeof *(a)->data), (a)->data = NULL,                            \
      (a)->count = (a)->capacity = 0)
 
+/** Gives back most of the room behind its items, where that is an eighth of all or more. */
+#define array_shrink(alloc, a)                                                                                         \
+    support_array_shrink((alloc), (void **)&(a)->data, &(a)->capacity, (a)->count, sizeof *(a)->data)
+
 bool support_array_grow(const froe_allocator *alloc, void **data, size_t *capacity, size_t count, size_t extra,
                         size_t item_size);
+void support_array_shrink(const froe_allocator *alloc, void **data, size_t *capacity, size_t count, size_t item_size);
 #endif

@@ -34,12 +34,11 @@ static froe_status polygon_form(scene_adding *a, size_t j, uint32_t *ring, uint3
     struct scene_store *store = a->scene->store;
     scene_fault fault;
     if (scene_polygon_form(&store->context, store->coords.data, ring, count, form, &fault)) return FROE_OK;
-    const froe_objects *b = a->batch;
     const double *x = store_vertex(a, fault.vertex);
     uint32_t corner = FROE_NONE; /* of object j of the batch, that has become this vertex */
     size_t dim = (size_t)a->scene->dim, begin = scene_adding_corner(a, j), end = scene_adding_corner(a, j + 1);
     for (size_t c = begin; c < end && corner == FROE_NONE; c++) {
-        const double *y = b->coords + (b->indices ? b->indices[c] : c) * dim;
+        const double *y = scene_adding_point(a, c);
         size_t same = 0;
         while (same < dim && x[same] == y[same]) same++;
         if (same == dim) corner = (uint32_t)(c - begin);
@@ -106,4 +105,83 @@ froe_status scene_form_object(scene_adding *a, size_t j, uint32_t *ring, uint32_
     default:
         return FROE_OK;
     }
+}
+
+/* ------------------------------------------------------------------- plain -- */
+
+enum { RING_MOST = 16, OBJECTS_A_JOB = 1 << 14 };
+
+/** The vertex of corner i of the batch. */
+static uint32_t corner_id(const scene_adding *a, const uint32_t *ids, size_t i) {
+    return a->in_order ? a->scene->store->vertex_count + (uint32_t)i : ids[i];
+}
+
+static bool are_different(const scene_adding *a, const uint32_t *ids, size_t from, size_t to) {
+    if (a->in_order) return true;
+    bool same = false;
+    for (size_t j = from; j < to; j++) same |= ids[2 * j] == ids[2 * j + 1];
+    return !same;
+}
+
+static bool ascend(const scene_adding *a, const uint32_t *ids, size_t from, size_t to) {
+    bool descends = false;
+    for (size_t j = from; !a->in_order && j < to; j++)
+        for (size_t i = j * a->each + 1; i < (j + 1) * a->each; i++) descends |= ids[i] <= ids[i - 1];
+    return !descends;
+}
+
+static bool are_boxes(const scene_adding *a, size_t from, size_t to) {
+    bool inside_out = false;
+    for (size_t j = from; j < to; j++) {
+        const double *lo = scene_adding_point(a, a->first + 2 * j), *hi = scene_adding_point(a, a->first + 2 * j + 1);
+        for (int k = 0; k < a->scene->dim; k++) inside_out |= lo[k] > hi[k];
+    }
+    return !inside_out;
+}
+
+static bool are_rings(const scene_adding *a, const uint32_t *ids, size_t from, size_t to) {
+    struct scene_store *store = a->scene->store;
+    uint32_t ring[RING_MOST], given[RING_MOST];
+    for (size_t j = from; j < to; j++) {
+        uint32_t count = (uint32_t)a->each;
+        for (uint32_t i = 0; i < count; i++) given[i] = ring[i] = corner_id(a, ids, j * a->each + i);
+        froe_kind form = FROE_POLYGON;
+        scene_fault fault;
+        if (!scene_polygon_form(&store->context, store->coords.data, ring, &count, &form, &fault)) return false;
+        if (form != FROE_POLYGON || count != a->each || memcmp(ring, given, count * sizeof *ring) != 0) return false;
+    }
+    return true;
+}
+
+/** Do objects from .. to - 1 of the batch keep their corners? a->form says as what. */
+static bool are_plain(const scene_adding *a, size_t from, size_t to) {
+    const uint32_t *ids = a->in_order ? NULL : scene_adding_ids(a);
+    switch (a->batch->kind) {
+    case FROE_POINT:
+        return true;
+    case FROE_SEGMENT:
+        return a->form == FROE_HULL ? ascend(a, ids, from, to) : are_different(a, ids, from, to);
+    case FROE_POLYGON:
+        return a->each <= RING_MOST && are_rings(a, ids, from, to);
+    case FROE_BOX:
+        return are_boxes(a, from, to);
+    case FROE_HULL:
+        return ascend(a, ids, from, to);
+    default:
+        return false;
+    }
+}
+
+froe_status scene_look_at_forms(scene_adding *a) {
+    const size_t count = a->batch->count;
+    a->form = a->batch->kind == FROE_SEGMENT && a->scene->dim > 3 ? FROE_HULL : a->batch->kind;
+    a->plain = a->each > 0;
+    a->used = a->corners;
+    for (size_t j = 0; a->plain && j < count; j += OBJECTS_A_JOB) {
+        const size_t end = count - j < OBJECTS_A_JOB ? count : j + OBJECTS_A_JOB;
+        a->plain = are_plain(a, j, end);
+        froe_status status = scene_adding_progress(a, 0.6 + 0.3 * (double)end / (double)count);
+        if (status) return status;
+    }
+    return FROE_OK;
 }

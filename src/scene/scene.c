@@ -18,10 +18,10 @@ const char *froe_kind_name(froe_kind kind) {
 static void store_free(const froe_allocator *alloc, struct scene_store *store) {
     scene_table_free(alloc, &store->table);
     array_free(alloc, &store->coords);
-    array_free(alloc, &store->kinds);
-    array_free(alloc, &store->forms);
-    array_free(alloc, &store->starts);
-    array_free(alloc, &store->corners);
+    array_free(alloc, &store->kind_of);
+    array_free(alloc, &store->form_of);
+    array_free(alloc, &store->start_of);
+    array_free(alloc, &store->vertex_of);
     array_free(alloc, &store->radii);
     array_free(alloc, &store->tags);
     array_free(alloc, &store->faces);
@@ -45,10 +45,11 @@ froe_status froe_scene_new(int dim, const froe_allocator *caller, froe_scene **o
     atomic_init(&s->holds, 1);
     for (int k = 0; k < FROE_MAX_DIM; k++) s->lo[k] = INFINITY, s->hi[k] = -INFINITY;
     s->store = support_calloc(&alloc, 1, sizeof *s->store);
-    if (!s->store || !array_push(&alloc, &s->store->starts, 0)) {
+    if (!s->store) {
         froe_scene_free(s);
         return FROE_E_MEMORY;
     }
+    s->store->plan = match_usual;
     scene_publish(s);
     *out = s;
     return FROE_OK;
@@ -66,7 +67,10 @@ void froe_scene_free(froe_scene *scene) {
 }
 
 void scene_hold(froe_scene *scene) {
-    atomic_fetch_add_explicit(&scene->holds, 1, memory_order_relaxed);
+    /* Nothing reads the table while the scene is frozen. Of several threads the one that freezes it gives it back; no
+     * other can before this one's hold is given up. */
+    const bool freezes = atomic_fetch_add_explicit(&scene->holds, 1, memory_order_acq_rel) == 1;
+    if (freezes && scene->store) scene_table_free(&scene->alloc, &scene->store->table);
 }
 
 froe_status scene_growable(const froe_scene *s, froe_diagnostic *diag) {
@@ -76,17 +80,17 @@ froe_status scene_growable(const froe_scene *s, froe_diagnostic *diag) {
 
 void scene_publish(froe_scene *s) {
     const struct scene_store *store = s->store;
-    s->vertex_count = (uint32_t)store->table.count;
-    s->object_count = (uint32_t)store->kinds.count;
-    s->corner_count = (uint32_t)store->corners.count;
+    s->vertex_count = store->vertex_count;
+    s->object_count = store->object_count;
+    s->corner_count = store->corner_count;
     s->radius_count = (uint32_t)store->radii.count;
     s->group_count = (uint32_t)store->group_table.count;
     s->text_size = store->text.count;
     s->coords = store->coords.data;
-    s->kind_of = store->kinds.data;
-    s->form_of = store->forms.data;
-    s->start_of = store->starts.data;
-    s->vertex_of = store->corners.data;
+    s->kind_of = store->kind_of.count ? store->kind_of.data : NULL;
+    s->form_of = store->form_of.count ? store->form_of.data : NULL;
+    s->start_of = store->start_of.count ? store->start_of.data : NULL;
+    s->vertex_of = store->vertex_of.count ? store->vertex_of.data : NULL;
     s->radii = store->radii.data;
     s->tags = store->tags.count ? store->tags.data : NULL;
     s->faces = store->faces.count ? store->faces.data : NULL;

@@ -17,11 +17,33 @@ uint32_t scene_vertex_tag(const double *point, int dim) {
     return (uint32_t)(hash >> 32);
 }
 
+/** Enters all vertices into the table, where it is not made. */
+static bool make_vertex_table(froe_scene *s) {
+    struct scene_store *store = s->store;
+    const uint32_t count = store->vertex_count;
+    uint32_t tags[SCENE_CHUNK];
+    if (store->table.count >= count) return true; /* more: of a batch on its way */
+    if (!scene_table_reserve(&s->alloc, &store->table, count)) return false;
+    for (uint32_t done = 0; done < count; done += SCENE_CHUNK) {
+        const uint32_t some = count - done < SCENE_CHUNK ? count - done : SCENE_CHUNK;
+        for (uint32_t i = 0; i < some; i++) {
+            tags[i] = scene_vertex_tag(store->coords.data + (size_t)(done + i) * (size_t)s->dim, s->dim);
+            __builtin_prefetch(store->table.slots + scene_table_first(&store->table, tags[i]), 1);
+        }
+        for (uint32_t i = 0; i < some; i++) {
+            size_t at = scene_table_first(&store->table, tags[i]);
+            while (scene_table_find(&store->table, tags[i], &at) != FROE_NONE) at = (at + 1) & (store->table.size - 1);
+            scene_table_put(&store->table, at, tags[i], done + i);
+        }
+    }
+    return true;
+}
+
 froe_status scene_vertices_add(froe_scene *s, const double *points, size_t count, uint32_t *ids) {
     struct scene_store *store = s->store;
     size_t dim = (size_t)s->dim;
     uint32_t tags[SCENE_CHUNK];
-    if (!scene_table_reserve(&s->alloc, &store->table, count)) return FROE_E_MEMORY;
+    if (!make_vertex_table(s) || !scene_table_reserve(&s->alloc, &store->table, count)) return FROE_E_MEMORY;
     if (!array_reserve(&s->alloc, &store->coords, count * dim)) return FROE_E_MEMORY;
     for (size_t i = 0; i < count; i++) tags[i] = scene_vertex_tag(points + i * dim, s->dim);
     for (size_t i = 0; i < count; i++)
@@ -55,4 +77,5 @@ void scene_vertices_truncate(froe_scene *s, uint32_t count) {
         const double *last = store->coords.data + store->coords.count;
         scene_table_remove(&store->table, scene_vertex_tag(last, s->dim), (uint32_t)store->table.count - 1);
     }
+    store->coords.count = count * dim; /* where there is no table */
 }

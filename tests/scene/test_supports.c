@@ -352,7 +352,7 @@ static void every_failing_allocation_is_survived(void **state) {
     (void)state;
     froe_scene *s = motley();
     assert_true(test_memory_each(map_and_compare, s) >= 4);
-    assert_true(test_memory_each(add_polygons, NULL) >= 9);
+    assert_true(test_memory_each(add_polygons, NULL) >= 5);
     froe_scene_free(s);
 }
 
