@@ -359,9 +359,9 @@ froe_status froe_batch_groups(froe_query *query, const double *points, size_t co
     BASE_FLOATS_OWN;
     if (!query || !out || (count && !points)) return support_fail_null(diag, __func__);
     batch b = {.query = query, .points = points, .count = count};
-    const froe_status status = query_groups_prepare(query, &b.areas, diag); /* once for all threads */
+    const froe_status status = count ? query_groups_prepare(query, &b.areas, diag) : FROE_OK; /* for all threads */
     if (status) return status;
-    if (b.areas->borders)
+    if (count && b.areas->borders)
         b.ask_in = ask_groups_in;
     else
         b.ask = ask_groups;
