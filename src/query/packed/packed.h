@@ -28,6 +28,17 @@ typedef struct packed_far {
     uint32_t node;
 } packed_far;
 
+/** Fragments of a leaf of which a kernel does not know whether they meet. */
+typedef struct packed_open {
+    uint32_t i, j;
+    bool bent; /**< they are surely not on one line */
+} packed_open;
+
+/** First and last corner of a fragment's object. */
+typedef struct packed_corners {
+    uint32_t vertex[2];
+} packed_corners;
+
 enum { PACKED_FLIGHT = 16 }; /* vertical rays in flight */
 
 /** What a context has for packed trees. */
@@ -37,10 +48,12 @@ typedef struct packed_work {
     ARRAY(packed_visit) visits;
     ARRAY(packed_unsure) unsure;
     ARRAY(uint32_t) candidates;
-    ARRAY(uint16_t) bits;  /**< of a row of pairs */
-    ARRAY(packed_far) far; /**< room for the height of the tree */
-    ARRAY(float) squares;  /**< of distances in a leaf */
-    uint32_t *climbs;      /**< stacks of PACKED_FLIGHT vertical rays, of height + 2 nodes each */
+    ARRAY(uint16_t) bits; /**< of a row of pairs, and boxes of fragments */
+    ARRAY(packed_open) open;
+    ARRAY(packed_corners) corners; /**< by fragment of a leaf */
+    ARRAY(packed_far) far;         /**< room for the height of the tree */
+    ARRAY(float) squares;          /**< of distances in a leaf */
+    uint32_t *climbs;              /**< stacks of PACKED_FLIGHT vertical rays, of height + 2 nodes each */
     size_t climb_size;
     uint64_t decided; /**< fragments that kernels left open, for tests and benches */
 } packed_work;

@@ -23,6 +23,39 @@ LANES lanes lanes_units(const uint16_t *p) {
     __m256i b = _mm256_cvtepu16_epi32(_mm_loadu_si128((const void *)(p + 8)));
     return (lanes){_mm256_cvtepi32_ps(a), _mm256_cvtepi32_ps(b)};
 }
+typedef __m256i ulanes, ulanes_mask;
+LANES ulanes ulanes_load(const uint16_t *p) {
+    return _mm256_loadu_si256((const void *)p);
+}
+LANES ulanes ulanes_set(uint16_t x) {
+    return _mm256_set1_epi16((short)x);
+}
+LANES void ulanes_store(uint16_t *p, ulanes a) {
+    _mm256_storeu_si256((void *)p, a);
+}
+LANES ulanes ulanes_raise(ulanes a, ulanes b) {
+    return _mm256_adds_epu16(a, b);
+}
+LANES ulanes ulanes_lower(ulanes a, ulanes b) {
+    return _mm256_subs_epu16(a, b);
+}
+LANES ulanes ulanes_min(ulanes a, ulanes b) {
+    return _mm256_min_epu16(a, b);
+}
+LANES ulanes ulanes_max(ulanes a, ulanes b) {
+    return _mm256_max_epu16(a, b);
+}
+LANES ulanes_mask ulanes_first(uint32_t n) {
+    const __m256i at = _mm256_setr_epi16(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    return _mm256_cmpgt_epi16(_mm256_set1_epi16(n < PACKED_LANES ? (short)n : PACKED_LANES), at);
+}
+LANES ulanes_mask ulanes_le(ulanes_mask m, ulanes a, ulanes b) {
+    return _mm256_and_si256(m, _mm256_cmpeq_epi16(_mm256_min_epu16(a, b), a));
+}
+LANES uint32_t ulanes_bits(ulanes_mask m) {
+    const uint32_t bytes = (uint32_t)_mm256_movemask_epi8(_mm256_packs_epi16(m, _mm256_setzero_si256()));
+    return (bytes & 0xff) | (bytes >> 8 & 0xff00);
+}
 LANES lanes lanes_bytes(const uint8_t *p) {
     __m128i all = _mm_loadu_si128((const void *)p);
     __m256i a = _mm256_cvtepu8_epi32(all), b = _mm256_cvtepu8_epi32(_mm_srli_si128(all, 8));

@@ -19,6 +19,38 @@ typedef __mmask16 lanes_mask;
 LANES lanes lanes_units(const uint16_t *p) {
     return _mm512_cvtepi32_ps(_mm512_cvtepu16_epi32(_mm256_loadu_si256((const void *)p)));
 }
+typedef __m256i ulanes;
+typedef __mmask16 ulanes_mask;
+LANES ulanes ulanes_load(const uint16_t *p) {
+    return _mm256_loadu_si256((const void *)p);
+}
+LANES ulanes ulanes_set(uint16_t x) {
+    return _mm256_set1_epi16((short)x);
+}
+LANES void ulanes_store(uint16_t *p, ulanes a) {
+    _mm256_storeu_si256((void *)p, a);
+}
+LANES ulanes ulanes_raise(ulanes a, ulanes b) {
+    return _mm256_adds_epu16(a, b);
+}
+LANES ulanes ulanes_lower(ulanes a, ulanes b) {
+    return _mm256_subs_epu16(a, b);
+}
+LANES ulanes ulanes_min(ulanes a, ulanes b) {
+    return _mm256_min_epu16(a, b);
+}
+LANES ulanes ulanes_max(ulanes a, ulanes b) {
+    return _mm256_max_epu16(a, b);
+}
+LANES ulanes_mask ulanes_first(uint32_t n) {
+    return (ulanes_mask)(n < PACKED_LANES ? (1u << n) - 1 : 0xffffu);
+}
+LANES ulanes_mask ulanes_le(ulanes_mask m, ulanes a, ulanes b) {
+    return _mm256_mask_cmple_epu16_mask(m, a, b);
+}
+LANES uint32_t ulanes_bits(ulanes_mask m) {
+    return m;
+}
 LANES lanes lanes_bytes(const uint8_t *p) {
     return _mm512_cvtepi32_ps(_mm512_cvtepu8_epi32(_mm_loadu_si128((const void *)p)));
 }

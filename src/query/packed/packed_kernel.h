@@ -46,7 +46,13 @@ typedef struct packed_heights {
 typedef struct packed_row {
     uint16_t *crossing; /**< surely cross, inside of the cell and of both fragments */
     uint16_t *unsure;
+    uint16_t *bent; /**< of unsure ones: surely not on one line */
 } packed_row;
+
+/** Whole words. */
+static inline size_t packed_boxes_room(uint32_t count) {
+    return ((size_t)count + PACKED_LANES - 1) / PACKED_LANES * PACKED_LANES;
+}
 
 typedef struct packed_kernels {
     const char *name;
@@ -57,8 +63,12 @@ typedef struct packed_kernels {
      * enters it. */
     void (*vertical)(const packed_header *block, uint32_t count, const double *point, int direction,
                      packed_heights *out);
-    /** Words 0 .. (count - 1) / 16 of the row are written. */
-    void (*pairs)(const packed_header *block, uint32_t count, uint32_t i, packed_row *out);
+    /** The boxes of all fragments in whole units, widened by what two of them may err together: four arrays of
+     * packed_boxes_room() numbers, x lo, y lo, x hi, y hi. */
+    void (*boxes)(const packed_header *block, uint32_t count, uint16_t *boxes);
+    /** Words i / 16 .. (count - 1) / 16 of the row are written, those of `bent` where others are not 0. False: all are
+     * 0. */
+    bool (*pairs)(const packed_header *block, uint32_t count, const uint16_t *boxes, uint32_t i, packed_row *out);
     /** Squared distances of all fragments from a point, all in units: near the truth as near_packed.c has it, for a
      * point with coordinates up to 2^60. There is room for `count` and PACKED_LANES more. Returns the least. */
     float (*nearest)(const packed_header *block, uint32_t count, const float *point, float *squares);

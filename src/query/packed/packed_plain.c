@@ -10,6 +10,7 @@
 #define KERNELS_NAME "plain"
 #define SPACE_KERNELS space_kernels_plain
 #define EACH_QUARTER for (int i = 0; i < 4; i++)
+#define EACH_HALF for (int i = 0; i < 2; i++)
 
 typedef float floats __attribute__((vector_size(16)));
 typedef int32_t ints __attribute__((vector_size(16)));
@@ -27,6 +28,66 @@ LANES lanes lanes_units(const uint16_t *p) {
     lanes r;
     EACH_QUARTER r.x[i] = (floats){p[4 * i], p[4 * i + 1], p[4 * i + 2], p[4 * i + 3]};
     return r;
+}
+typedef uint16_t units __attribute__((vector_size(16)));
+typedef struct ulanes {
+    units x[2];
+} ulanes, ulanes_mask; /* of a mask: 0 or all ones */
+LANES ulanes ulanes_load(const uint16_t *p) {
+    ulanes r;
+    memcpy(&r, p, sizeof r);
+    return r;
+}
+LANES ulanes ulanes_set(uint16_t x) {
+    const units all = {x, x, x, x, x, x, x, x};
+    return (ulanes){{all, all}};
+}
+LANES void ulanes_store(uint16_t *p, ulanes a) {
+    memcpy(p, &a, sizeof a);
+}
+LANES ulanes ulanes_raise(ulanes a, ulanes b) {
+    EACH_HALF {
+        const units sum = a.x[i] + b.x[i];
+        a.x[i] = sum | (units)(sum < b.x[i]);
+    }
+    return a;
+}
+LANES ulanes ulanes_lower(ulanes a, ulanes b) {
+    EACH_HALF a.x[i] = (a.x[i] - b.x[i]) & (units)(a.x[i] > b.x[i]);
+    return a;
+}
+LANES ulanes ulanes_min(ulanes a, ulanes b) {
+    EACH_HALF {
+        const units m = (units)(a.x[i] < b.x[i]);
+        a.x[i] = (a.x[i] & m) | (b.x[i] & ~m);
+    }
+    return a;
+}
+LANES ulanes ulanes_max(ulanes a, ulanes b) {
+    EACH_HALF {
+        const units m = (units)(a.x[i] > b.x[i]);
+        a.x[i] = (a.x[i] & m) | (b.x[i] & ~m);
+    }
+    return a;
+}
+LANES ulanes_mask ulanes_first(uint32_t n) {
+    const units end = ulanes_set((uint16_t)(n < PACKED_LANES ? n : PACKED_LANES)).x[0];
+    return (ulanes_mask){
+        {(units)((units){0, 1, 2, 3, 4, 5, 6, 7} < end), (units)((units){8, 9, 10, 11, 12, 13, 14, 15} < end)}};
+}
+LANES ulanes_mask ulanes_le(ulanes_mask m, ulanes a, ulanes b) {
+    EACH_HALF m.x[i] &= (units)(a.x[i] <= b.x[i]);
+    return m;
+}
+/* Each lane keeps its own bit. */
+LANES uint32_t ulanes_bits(ulanes_mask m) {
+    const units all = (m.x[0] & (units){1, 2, 4, 8, 16, 32, 64, 128}) |
+                      (m.x[1] & (units){256, 512, 1024, 2048, 4096, 8192, 16384, 32768});
+    uint64_t halves[2];
+    memcpy(halves, &all, sizeof all);
+    halves[0] |= halves[1];
+    halves[0] |= halves[0] >> 32;
+    return (uint32_t)((halves[0] | halves[0] >> 16) & 0xffff);
 }
 LANES lanes lanes_bytes(const uint8_t *p) {
     lanes r;

@@ -45,6 +45,8 @@ void packed_work_free(packed_work *work, const froe_allocator *alloc) {
     array_free(alloc, &work->unsure);
     array_free(alloc, &work->candidates);
     array_free(alloc, &work->bits);
+    array_free(alloc, &work->open);
+    array_free(alloc, &work->corners);
     array_free(alloc, &work->far);
     array_free(alloc, &work->squares);
     support_free(alloc, work->climbs, PACKED_FLIGHT * work->climb_size * sizeof *work->climbs);
