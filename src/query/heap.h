@@ -37,8 +37,17 @@ static inline void query_heap_unwind(uint32_t *heap, size_t count, query_above_f
     }
 }
 
-/** Sorts any numbers, those that go above others last. */
+enum { QUERY_HEAP_FEW = 24 };
+
+/** Sorts any numbers, those that go above others last; few by insertion, which is quick for what is nearly in order. */
 static inline void query_heap_sort(uint32_t *items, size_t count, query_above_fn *above, void *user) {
+    for (size_t i = 1; i < count && count <= QUERY_HEAP_FEW; i++) {
+        const uint32_t item = items[i];
+        size_t at = i;
+        for (; at && above(user, items[at - 1], item); at--) items[at] = items[at - 1];
+        items[at] = item;
+    }
+    if (count <= QUERY_HEAP_FEW) return;
     for (size_t i = count / 2; i-- > 0;) query_heap_sink(items, count, i, above, user);
     query_heap_unwind(items, count, above, user);
 }

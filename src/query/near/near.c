@@ -104,6 +104,7 @@ static froe_status find_candidates(froe_query *q, size_t k, double bound, bool *
     if (!array_reserve(&q->alloc, &n->found, n->candidates.count) ||
         !array_reserve(&q->alloc, &n->order, n->candidates.count))
         return FROE_E_MEMORY;
+    query_near_order(n); /* nearly their final order, which saves comparisons of distances */
     for (size_t i = 0; i < n->candidates.count; i++) {
         const query_candidate *c = n->candidates.data + i;
         const geom_body body = c->at ? geom_body_at(s->dim, c->at) : scene_body(s, c->object);

@@ -66,10 +66,13 @@ froe_status query_near_points(struct froe_query *query, size_t k, double bound, 
 /** On a packed tree of the plane: query->near.candidates has the k nearest to query->near.point, or all within the
  * bound if there are fewer, and what 16-bit units do not tell from them; none twice. FROE_E_MEMORY. */
 froe_status query_near_packed(struct froe_query *query, size_t k, double bound);
-/** Puts a square among the k least, for which there is room, and lowers the limit to the greatest of k. */
+/** Puts a square among the k least, for which there is room, if it belongs there, and lowers the limit to the greatest
+ * of k. */
 void query_near_keep(query_near *n, double square, size_t k);
 /** Drops candidates beyond the limit. */
 void query_near_sift(query_near *n);
+/** Sorts few candidates by their squares; many are left as they are. */
+void query_near_order(query_near *n);
 /** A power of 2 that brings the greatest coordinate near 1: then squares neither overflow nor, where it matters,
  * underflow. */
 double query_near_scale(const froe_scene *scene, const double *point);

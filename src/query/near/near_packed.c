@@ -24,6 +24,8 @@
 #include "query/packed/packed.h"
 #include <math.h>
 
+enum { LEAST_FEW = 16 };
+
 static double square_of_gap(const double gap[2]) {
     return gap[0] * gap[0] + gap[1] * gap[1];
 }
@@ -77,6 +79,31 @@ static void scan_objects(froe_query *q, const uint32_t *ids, uint32_t count, siz
     }
 }
 
+/* What squares of distances in units are up to, of fragments within the limit. */
+static double squares_within(const query_near *n, const leaf_view *v) {
+    const double within = sqrt(n->limit) / v->unit * (1 + 0x1p-40) + v->slack;
+    return within * within * (1 + 0x1p-40);
+}
+
+/* Lowers the limit by fragments where objects begin. Of a leaf only the k least matter. */
+static void lower_limit(query_near *n, const leaf_view *v, const uint32_t *ids, const packed_near *near, size_t k) {
+    float least[LEAST_FEW];
+    size_t count = 0;
+    for (uint32_t i = 0; i < near->count; i++) {
+        const float square = near->squares[near->places[i]];
+        if (!(ids[near->places[i]] & PACKED_START)) continue;
+        if (k > LEAST_FEW) {
+            query_near_keep(n, square_above(v, sqrt((double)square) + v->slack), k);
+            continue;
+        }
+        if (count == k && square >= least[k - 1]) continue;
+        size_t at = count < k ? count++ : k - 1;
+        for (; at && least[at - 1] > square; at--) least[at] = least[at - 1];
+        least[at] = square;
+    }
+    for (size_t i = 0; i < count; i++) query_near_keep(n, square_above(v, sqrt((double)least[i]) + v->slack), k);
+}
+
 static bool scan_leaf(froe_query *q, const tree_node *leaf, size_t k) {
     query_near *n = &q->near;
     packed_work *work = q->packed;
@@ -87,31 +114,28 @@ static bool scan_leaf(froe_query *q, const tree_node *leaf, size_t k) {
     if (n->candidates.count > 2 * k + 64) query_near_sift(n);
     if (!array_reserve(&q->alloc, &n->candidates, count) ||
         !array_reserve(&q->alloc, &n->best, count < k ? count : k) ||
-        !array_reserve(&q->alloc, &work->squares, count + PACKED_LANES))
+        !array_reserve(&q->alloc, &work->squares, count + PACKED_LANES) ||
+        !array_reserve(&q->alloc, &work->candidates, count))
         return false;
     q->stats.tests += count;
     if (!v.known) {
         scan_objects(q, ids, count, k);
         return true;
     }
-    float *squares = work->squares.data;
-    const double least = sqrt((double)work->kernels->nearest(block, count, v.point, squares));
-    double within = sqrt(n->limit) / v.unit * (1 + 0x1p-40) + v.slack; /* in units */
-    if (least > within) return true;
-    if (k == 1) {
-        query_near_keep(n, square_above(&v, least + v.slack), 1);
-    } else {
-        const double inside = within * within * (1 + 0x1p-40);
-        for (uint32_t i = 0; i < count; i++)
-            if (ids[i] & PACKED_START && (double)squares[i] <= inside)
-                query_near_keep(n, square_above(&v, sqrt((double)squares[i]) + v.slack), k);
-    }
-    within = sqrt(n->limit) / v.unit * (1 + 0x1p-40) + v.slack;
-    within = within * within * (1 + 0x1p-40);
-    for (uint32_t i = 0; i < count; i++) {
-        if (!((double)squares[i] <= within)) continue;
-        const double below = square_below(&v, sqrt((double)squares[i]) - v.slack);
-        n->candidates.data[n->candidates.count++] = (query_candidate){below, NULL, ids[i] & PACKED_OBJECT};
+    packed_near near = {.squares = work->squares.data, .places = work->candidates.data};
+    double within = squares_within(n, &v);
+    work->kernels->nearest(block, count, v.point, within < 0x1p100 ? (float)(within * (1 + 0x1p-20)) : INFINITY, &near);
+    if (!near.count) return true;
+    if (k == 1)
+        query_near_keep(n, square_above(&v, sqrt((double)near.least) + v.slack), 1);
+    else
+        lower_limit(n, &v, ids, &near, k);
+    within = squares_within(n, &v);
+    for (uint32_t i = 0; i < near.count; i++) {
+        const double square = (double)near.squares[near.places[i]];
+        if (!(square <= within)) continue;
+        const double below = square_below(&v, sqrt(square) - v.slack);
+        n->candidates.data[n->candidates.count++] = (query_candidate){below, NULL, ids[near.places[i]] & PACKED_OBJECT};
     }
     return true;
 }

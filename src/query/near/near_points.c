@@ -19,6 +19,8 @@
 #include "query/pieces.h"
 #include <math.h>
 
+enum { CANDIDATES_FEW = 24 };
+
 static double square_of(double x) {
     return x * x;
 }
@@ -44,6 +46,7 @@ void query_near_keep(query_near *n, double square, size_t k) {
     if (n->best.count < k) {
         for (i = n->best.count++; i && heap[(i - 1) / 2] < square; i = (i - 1) / 2) heap[i] = heap[(i - 1) / 2];
     } else {
+        if (square >= heap[0]) return;
         i = 0;
         for (size_t child = 1; child < k; child = 2 * i + 1) {
             if (child + 1 < k && heap[child + 1] > heap[child]) child++;
@@ -61,6 +64,16 @@ void query_near_sift(query_near *n) {
     for (size_t i = 0; i < n->candidates.count; i++)
         if (n->candidates.data[i].square <= n->limit) n->candidates.data[kept++] = n->candidates.data[i];
     n->candidates.count = kept;
+}
+
+void query_near_order(query_near *n) {
+    query_candidate *c = n->candidates.data;
+    for (size_t i = 1; i < n->candidates.count && n->candidates.count <= CANDIDATES_FEW; i++) {
+        const query_candidate one = c[i];
+        size_t at = i;
+        for (; at && c[at - 1].square > one.square; at--) c[at] = c[at - 1];
+        c[at] = one;
+    }
 }
 
 static bool scan(froe_query *q, const query_pieces *pieces, const tree_objects *list, size_t k) {

@@ -54,6 +54,14 @@ static inline size_t packed_boxes_room(uint32_t count) {
     return ((size_t)count + PACKED_LANES - 1) / PACKED_LANES * PACKED_LANES;
 }
 
+/** How near the fragments of a block are to a point. */
+typedef struct packed_near {
+    float *squares;   /**< of distances in units; room for those of the block and PACKED_LANES more */
+    uint32_t *places; /**< ascending; room for those of the block */
+    uint32_t count;   /**< of places */
+    float least;      /**< of all squares */
+} packed_near;
+
 typedef struct packed_kernels {
     const char *name;
     /** Fragments that report for a window: they meet it, and the segment enters it with them, for p is outside or its
@@ -70,8 +78,8 @@ typedef struct packed_kernels {
      * 0. */
     bool (*pairs)(const packed_header *block, uint32_t count, const uint16_t *boxes, uint32_t i, packed_row *out);
     /** Squared distances of all fragments from a point, all in units: near the truth as near_packed.c has it, for a
-     * point with coordinates up to 2^60. There is room for `count` and PACKED_LANES more. Returns the least. */
-    float (*nearest)(const packed_header *block, uint32_t count, const float *point, float *squares);
+     * point with coordinates up to 2^60; and the places of those up to `most`. */
+    void (*nearest)(const packed_header *block, uint32_t count, const float *point, float most, packed_near *out);
 } packed_kernels;
 
 extern const packed_kernels packed_kernels_plain;

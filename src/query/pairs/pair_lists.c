@@ -4,7 +4,6 @@
 #include "query/heap.h"
 
 enum { PAIRS_AT_ONCE = 1024 }; /* pairs that a thread takes from the common stock at a time */
-enum { PAIRS_FEW = 24 };       /* sorted by insertion, which takes n^2 / 4 steps and few for few */
 #define PAIR_OBJECT ((1u << PAIR_KIND) - 1)
 
 froe_status pair_lists_take(pair_lists *out, const froe_allocator *alloc, uint32_t objects, unsigned threads,
@@ -46,20 +45,6 @@ static bool pair_is_later(void *user, uint32_t i, uint32_t j) {
     return (i & PAIR_OBJECT) > (j & PAIR_OBJECT);
 }
 
-/* Most objects are the first of few pairs. */
-static void sort_partners(uint32_t *partners, size_t count) {
-    if (count > PAIRS_FEW) {
-        query_heap_sort(partners, count, pair_is_later, NULL);
-        return;
-    }
-    for (size_t i = 1; i < count; i++) {
-        const uint32_t partner = partners[i];
-        size_t at = i;
-        for (; at && pair_is_later(NULL, partners[at - 1], partner); at--) partners[at] = partners[at - 1];
-        partners[at] = partner;
-    }
-}
-
 static froe_status sort_part(void *user, unsigned worker, size_t part) {
     const pair_lists *l = user;
     const uint64_t next = (uint64_t)(part + 1) << l->shift;
@@ -79,7 +64,7 @@ static froe_status sort_part(void *user, unsigned worker, size_t part) {
         }
     for (uint32_t id = from; id < to; id++) {
         const size_t end = id + 1 < to ? l->starts[id + 1] : l->firsts[part + 1];
-        sort_partners(l->sorted + l->starts[id], end - l->starts[id]);
+        query_heap_sort(l->sorted + l->starts[id], end - l->starts[id], pair_is_later, NULL);
     }
     return FROE_OK;
 }
