@@ -406,6 +406,22 @@ froe chooses the widest vector instructions that the processor has. How many tim
 plain C, on a million short segments and a million triangles of a city? The answers and the trees are the same.""",
                      table(["", "", "as chosen"] + [p[len("froe, "):] for p in programs], rows))
 
+    def reading(self):
+        work, rows = "reading", []
+        for scene in self.r.select(1, work):
+            size = self.r.select(2, work, scene=scene)[0]
+            for program in self.r.select(3, work, size, "seconds", scene):
+                if is_other(program):
+                    key = (work, scene, size, program, "seconds")
+                    rows.append([scene, "%.1f" % (self.r.objects[key[:3]] / 1e6),
+                                 shown(self.r.median(work, scene, size, "froe", "seconds")), program,
+                                 shown(self.r.median(*key)), shown(self.r.ratio(*key))])
+        if rows:
+            self.say("## Reading files", """
+From a file to a scene, beside a program that reads the file into arrays. froe reads CSV, OBJ, OFF and GeoJSON by
+itself, and other files by GDAL and assimp; then its time includes theirs. The file is in the system's cache.""",
+                     table(["file", "MB", "froe, seconds", "beside", "seconds", "so many times as fast"], rows))
+
     def threads(self):
         rows = []
         measure = "seconds of the clock"
@@ -459,6 +475,7 @@ scenes: 0.5 means that froe takes twice as long. Approximate searches are those 
         self.generic("lines", "Line drawings", """
 Drawings of visible edges: silhouettes, borders and creases. *Percent wrong*: length of lines that are drawn but hidden.
 *Percent missing*: length of lines that are visible but not drawn. Both are found by casting rays.""")
+        self.reading()
         self.threads()
         self.paths()
         self.generic("motion", "Segments in motion", """
