@@ -50,48 +50,49 @@ void axis_divide(const axis_work *work, const packed_fragment *f, int axis, doub
 
 /* --------------------------------------------------------------- clipping -- */
 
-/* Where the segment enters the box (last: leaves it), in *x; its own end u is outside. */
-static double clip_end(axis_work *work, const axis_ends *ends, bool last, const packed_box *box, double x[2]) {
-    const double *u = last ? ends->q : ends->p, *v = last ? ends->p : ends->q;
-    double side = last ? box->hi[0] : box->lo[0], level = u[1] > box->hi[1] ? box->hi[1] : box->lo[1];
-    bool beside = last ? u[0] > side : u[0]<side, beyond = u[1]> box->hi[1] || u[1] < box->lo[1];
-    double error = 0;
-    if (beside) {
-        x[0] = side;
-        x[1] = axis_crossing(u, v, 0, side, &error);
-        double gap = u[1] > level ? level - x[1] : x[1] - level; /* how far inside */
-        bool sure = work->context.first == NUM_FILTER && (gap > error || gap < -error);
-        if (!beyond) return error;
-        int inside = u[1] > level ? -1 : 1;
-        if (sure ? gap > 0 : axis_crossing_side(&work->context, u, v, 1, side, level) == inside) return error;
-    }
+/* Where the segment uv leaves the box towards its end u, which is beyond a vertical side and beyond a horizontal one:
+ * at the vertical one, if it is inside there. */
+static double clip_corner(axis_work *work, const double *u, const double *v, double side, double level, bool over,
+                          double x[2]) {
+    double error;
+    x[0] = side;
+    x[1] = axis_crossing(u, v, 0, side, &error);
+    const double gap = over ? level - x[1] : x[1] - level; /* how far inside */
+    const bool sure = work->context.first == NUM_FILTER && (gap > error || gap < -error);
+    const int inside = over ? -1 : 1;
+    if (sure ? gap > 0 : axis_crossing_side(&work->context, u, v, 1, side, level) == inside) return error;
     x[1] = level;
     x[0] = axis_crossing(u, v, 1, level, &error);
     return error;
 }
 
-/* Corners lie in no cut, but they may lie in the border of the root box. */
-static bool is_inside_box(const double *x, const packed_box *box) {
-    return (x[0] >= box->lo[0]) & (x[0] <= box->hi[0]) & (x[1] >= box->lo[1]) & (x[1] <= box->hi[1]);
+/* An end of the fragment, and its error: the end u of the segment uv, or where that leaves the box. Which of these it
+ * is, and by which side, is unpredictable: so all is computed, and taken without a branch where there is one side. */
+static inline uint32_t clip_end(axis_work *work, const double *u, const double *v, bool last, const packed_box *box,
+                                double x[2], bool *own) {
+    const double side = last ? box->hi[0] : box->lo[0];
+    const bool beside = last ? u[0] > side : u[0]<side, over = u[1]> box->hi[1], beyond = over | (u[1] < box->lo[1]);
+    const double level = over ? box->hi[1] : box->lo[1];
+    const int axis = !beside;
+    const double value[2] = {side, level};
+    double error, made[2];
+    made[axis] = value[axis];
+    made[1 - axis] = axis_crossing(u, v, axis, value[axis], &error);
+    if (beside & beyond) error = clip_corner(work, u, v, side, level, over, made);
+    *own = !(beside | beyond);
+    const double *from = *own ? u : made;
+    for (int k = 0; k < 2; k++) {
+        const double y = from[k] > box->lo[k] ? from[k] : box->lo[k];
+        x[k] = y < box->hi[k] ? y : box->hi[k];
+    }
+    return *own ? 0 : packed_half(error);
 }
 
 void axis_clip(axis_work *work, uint32_t object, const packed_box *box, packed_fragment *out) {
     const axis_ends ends = axis_sorted(work, object);
-    out->id = object;
-    out->error = 0;
-    for (int last = 0; last < 2; last++) {
-        const double *u = last ? ends.q : ends.p;
-        double *x = last ? out->q : out->p;
-        if (is_inside_box(u, box)) {
-            x[0] = u[0], x[1] = u[1];
-            out->id |= last ? PACKED_END : PACKED_START;
-            continue;
-        }
-        const uint32_t error = packed_half(clip_end(work, &ends, last, box, x));
-        for (int k = 0; k < 2; k++) {
-            x[k] = x[k] > box->lo[k] ? x[k] : box->lo[k];
-            x[k] = x[k] < box->hi[k] ? x[k] : box->hi[k];
-        }
-        out->error = error > out->error ? error : out->error;
-    }
+    bool start, end;
+    const uint32_t first = clip_end(work, ends.p, ends.q, false, box, out->p, &start);
+    const uint32_t last = clip_end(work, ends.q, ends.p, true, box, out->q, &end);
+    out->id = object | (start ? PACKED_START : 0) | (end ? PACKED_END : 0);
+    out->error = first > last ? first : last;
 }

@@ -98,11 +98,11 @@ static froe_status deal_job(void *user, unsigned worker, size_t job) {
     dealing *d = user;
     split_grid *g = d->grid;
     trace_chunk *chunk = d->chunks + job;
-    const uint32_t lower = grid_lower(g), mask = (1u << lower << GRID_BITS) - 1;
+    const uint32_t lower = grid_lower(g), mask = (1u << (lower + 1 + GRID_BITS)) - 1;
     (void)worker;
     for (size_t i = 0; i < chunk->entries.count; i++) {
         const trace_entry entry = chunk->entries.data[i];
-        const uint32_t to = chunk->parts[entry.place >> GRID_BITS >> lower]++;
+        const uint32_t to = chunk->parts[entry.place >> (lower + 1 + GRID_BITS)]++;
         g->ids[to] = entry.id;
         g->places[to] = (uint16_t)(entry.place & mask);
     }
@@ -125,7 +125,7 @@ static froe_status take_room(dealing *d) {
     }
     for (unsigned i = 0; room && i < worker_count(d->source); i++) {
         d->counts[i].crossings = support_calloc(d->alloc, 2 * parts, sizeof(uint32_t));
-        d->counts[i].met = support_calloc(d->alloc, (size_t)1 << g->levels, 1);
+        d->counts[i].met = support_calloc(d->alloc, (size_t)1 << g->levels, sizeof *d->counts->met);
         room = d->counts[i].crossings && d->counts[i].met;
     }
     return room ? FROE_OK : FROE_E_MEMORY;
@@ -137,7 +137,7 @@ static void give_room_back(dealing *d) {
     for (size_t i = 0; d->chunks && i < d->chunk_count; i++) array_free(d->alloc, &d->chunks[i].entries);
     for (unsigned i = 0; d->counts && i < worker_count(d->source); i++) {
         support_free(d->alloc, d->counts[i].crossings, 2 * parts * sizeof(uint32_t));
-        support_free(d->alloc, d->counts[i].met, (size_t)1 << g->levels);
+        support_free(d->alloc, d->counts[i].met, sizeof *d->counts->met << g->levels);
     }
     support_free(d->alloc, d->counts, worker_count(d->source) * sizeof *d->counts);
     support_free(d->alloc, d->offsets, d->chunk_count * parts * sizeof *d->offsets);
@@ -156,7 +156,7 @@ static froe_status trace_all(dealing *d, bool *made) {
         for (unsigned w = 0; w < worker_count(d->source); w++) {
             memset(d->counts[w].crossings, 0, 2 * parts * sizeof(uint32_t));
             memset(d->counts[w].levels, 0, sizeof d->counts[w].levels);
-            memset(d->counts[w].met, 0, (size_t)1 << g->levels);
+            memset(d->counts[w].met, 0, sizeof *d->counts->met << g->levels);
         }
         status = for_each_chunk(d, 0.15, trace_job);
         size_t c = 0;
@@ -183,7 +183,7 @@ static froe_status sum_up(dealing *d) {
     }
     g->fragments[0] = d->source->count;
     for (uint32_t l = 0; l < g->levels; l++) g->fragments[l + 1] = g->fragments[l] + all->levels[l];
-    for (uint32_t l = g->levels + 1; l--;) { /* the bytes of a level are made from those below */
+    for (uint32_t l = g->levels + 1; l--;) { /* the marks of a level are made from those below */
         for (uint32_t i = 0; i < 1u << l; i++) {
             if (l < g->levels) all->met[i] = all->met[2 * i] | all->met[2 * i + 1];
             g->cells[l] += all->met[i];
@@ -261,36 +261,36 @@ void grid_free(const froe_allocator *alloc, split_grid *g) {
 froe_status grid_sort(const froe_allocator *alloc, const split_grid *g, uint32_t part, grid_part *out) {
     const uint32_t lower = grid_lower(g), cells = 1u << lower, from = g->starts[part], to = g->starts[part + 1];
     out->ids.count = out->since.count = 0;
-    if (!out->starts) out->starts = support_calloc(alloc, cells + 1, sizeof *out->starts);
-    if (!out->count) out->count = support_calloc(alloc, (size_t)2 * cells, sizeof *out->count);
+    if (!out->starts) out->starts = support_calloc(alloc, 2 * (size_t)cells + 1, sizeof *out->starts);
+    if (!out->count) out->count = support_calloc(alloc, 2 * (size_t)cells, sizeof *out->count);
     if (!out->starts || !out->count || !array_reserve(alloc, &out->ids, to - from) ||
         !array_reserve(alloc, &out->since, to - from))
         return FROE_E_MEMORY;
     uint32_t *starts = out->starts, *count = out->count;
     out->ids.count = out->since.count = to - from;
-    memset(starts, 0, (cells + 1) * sizeof *starts);
-    memset(count, 0, (size_t)2 * cells * sizeof *count);
+    memset(starts, 0, (2 * (size_t)cells + 1) * sizeof *starts);
+    memset(count, 0, 2 * (size_t)cells * sizeof *count);
     for (uint32_t i = from; i < to; i++) {
-        const uint32_t cell = g->places[i] >> GRID_BITS, since = g->places[i] & GRID_LEVEL;
-        starts[cell]++;
+        const uint32_t place = g->places[i], since = grid_since(place);
+        starts[place >> GRID_BITS]++;
         /* the level above is that of the node where a crossing parts two cells */
-        if (since > g->upper) count[(cells | cell) >> (lower - (since - 1 - g->upper))]++;
+        if (since > g->upper) count[(cells | place >> (GRID_BITS + 1)) >> (lower - (since - 1 - g->upper))]++;
     }
-    /* starts[c] becomes where the run of cell c ends; filling moves it to where it begins */
-    for (uint32_t c = 1; c <= cells; c++) starts[c] += starts[c - 1];
+    /* a start becomes where its run ends; filling moves it to where it begins */
+    for (uint32_t c = 1; c <= 2 * cells; c++) starts[c] += starts[c - 1];
     for (uint32_t i = to; i-- > from;) {
-        const uint32_t at = --starts[g->places[i] >> GRID_BITS];
+        const uint32_t place = g->places[i], at = --starts[place >> GRID_BITS];
         out->ids.data[at] = g->ids[i];
-        out->since.data[at] = g->places[i] & GRID_LEVEL;
+        out->since.data[at] = (uint8_t)grid_since(place);
     }
-    for (uint32_t c = 0; c < cells; c++) count[cells + c] = starts[c + 1] - starts[c];
+    for (uint32_t c = 0; c < cells; c++) count[cells + c] = starts[2 * c + 2] - starts[2 * c];
     for (uint32_t h = cells; --h;) count[h] = count[2 * h] + count[2 * h + 1] - count[h];
     return FROE_OK;
 }
 
 void grid_part_free(const froe_allocator *alloc, const split_grid *g, grid_part *p) {
     const size_t cells = (size_t)1 << grid_lower(g);
-    support_free(alloc, p->starts, (cells + 1) * sizeof *p->starts);
+    support_free(alloc, p->starts, (2 * cells + 1) * sizeof *p->starts);
     support_free(alloc, p->count, 2 * cells * sizeof *p->count);
     array_free(alloc, &p->ids);
     array_free(alloc, &p->since);

@@ -23,24 +23,32 @@
 
 #define GRID_SHARED 0x80000000u /**< of an id: not all of the object lies in the cell */
 enum {
-    GRID_LEVELS = 20,                  /**< at most */
-    GRID_LOWER = 10,                   /**< of a part, at most */
-    GRID_BITS = 5,                     /**< of the level with a place */
-    GRID_LEVEL = (1 << GRID_BITS) - 1u /**< their mask */
+    GRID_LEVELS = 20, /**< at most */
+    GRID_LOWER = 10,  /**< of a part, at most */
+    GRID_BITS = 5     /**< of a level */
 };
+
+/** Of an entry: its cell, whether it is shared, and the first level at which it is the first of its object in its node.
+ * Entries that are not shared come first in their cell, so that it is known when it is filled which is which. */
+static inline uint32_t grid_place(uint32_t cell, uint32_t since, uint32_t id) {
+    return (cell << 1 | id >> 31) << GRID_BITS | since;
+}
+static inline uint32_t grid_since(uint32_t place) {
+    return place & ((1u << GRID_BITS) - 1);
+}
 
 typedef struct split_grid {
     packed_box box;
     uint32_t levels, upper;
-    uint8_t axis[GRID_LEVELS];        /**< of the cuts of a level, the root's first */
-    uint8_t rest[GRID_LEVELS + 1][2]; /**< how often cells of a level are still halved on each axis */
-    double *lines[2];                 /**< lines of an axis, the borders of the box included */
-    double scale[2];                  /**< cells per 1 */
-    uint32_t *spread[2];              /**< column or row -> its bits within the number of a cell */
-    uint32_t *count;                  /**< node down to the level of parts -> objects */
-    uint32_t *starts;                 /**< part -> entries */
-    uint32_t *ids;                    /**< entry -> object, with GRID_SHARED */
-    uint16_t *places;                 /**< entry -> cell within the part << GRID_BITS | first level of first entries */
+    uint8_t axis[GRID_LEVELS];           /**< of the cuts of a level, the root's first */
+    uint8_t rest[GRID_LEVELS + 1][2];    /**< how often cells of a level are still halved on each axis */
+    double *lines[2];                    /**< lines of an axis, the borders of the box included */
+    double scale[2];                     /**< cells per 1 */
+    uint32_t *spread[2];                 /**< column or row -> its bits within the number of a cell */
+    uint32_t *count;                     /**< node down to the level of parts -> objects */
+    uint32_t *starts;                    /**< part -> entries */
+    uint32_t *ids;                       /**< entry -> object, with GRID_SHARED */
+    uint16_t *places;                    /**< entry -> its place, with the cell within the part */
     uint64_t fragments[GRID_LEVELS + 1]; /**< in all cells of a level */
     uint32_t cells[GRID_LEVELS + 1];     /**< of a level that are not empty */
 } split_grid;
@@ -76,7 +84,7 @@ static inline uint32_t grid_level(uint32_t node) {
 
 /** The entries of a part in the order of its cells. Its nodes are numbered from 1, too. */
 typedef struct grid_part {
-    uint32_t *starts; /**< cell -> entries */
+    uint32_t *starts; /**< 2 cell + (shared) -> entries */
     uint32_t *count;  /**< node -> objects */
     ARRAY(uint32_t) ids;
     ARRAY(uint8_t) since; /**< entry -> the first level at which it is the first of its object in its node */
@@ -89,10 +97,10 @@ void grid_part_free(const froe_allocator *alloc, const split_grid *grid, grid_pa
 /** Entries of a node of a part. */
 static inline uint32_t grid_first(const split_grid *g, const grid_part *p, uint32_t node) {
     const uint32_t level = grid_level(node);
-    return p->starts[(node - (1u << level)) << (grid_lower(g) - level)];
+    return p->starts[(node - (1u << level)) << (grid_lower(g) - level) << 1];
 }
 static inline uint32_t grid_end(const split_grid *g, const grid_part *p, uint32_t node) {
     const uint32_t level = grid_level(node);
-    return p->starts[(node + 1 - (1u << level)) << (grid_lower(g) - level)];
+    return p->starts[(node + 1 - (1u << level)) << (grid_lower(g) - level) << 1];
 }
 #endif

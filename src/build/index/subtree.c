@@ -268,7 +268,7 @@ static froe_status begin_subtree(index_work *w, const index_cell *root) {
         const uint32_t from = g->starts[first << below], to = g->starts[(first + 1) << below];
         if (!array_reserve(alloc, &w->items, to - from)) return FROE_E_MEMORY;
         for (uint32_t i = from; i < to; i++)
-            if ((g->places[i] & GRID_LEVEL) <= level) put_fragment(w, g->ids[i], &cell.box);
+            if (grid_since(g->places[i]) <= level) put_fragment(w, g->ids[i], &cell.box);
     } else {
         if (!array_reserve(alloc, &w->items, objects)) return FROE_E_MEMORY;
         for (uint32_t i = 0; i < objects; i++) put_fragment(w, i, &cell.box);

@@ -14,8 +14,20 @@ static void note_bad(tracing *t, int axis, uint32_t line) {
     t->chunk->bad_line = line;
 }
 
+/* Column and row of an end of an object. False: it needs a closer look. */
+static inline bool place_own(const split_grid *g, const double *x, uint32_t out[2]) {
+    bool sure = true;
+    for (int k = 0; k < 2; k++) {
+        const double *line = g->lines[k], guess = (x[k] - line[0]) * g->scale[k];
+        const uint32_t last = grid_lines(g, k) - 1, i = guess < last ? (uint32_t)(int32_t)guess : last;
+        sure &= (x[k] > line[i]) & (x[k] < line[i + 1]);
+        out[k] = i;
+    }
+    return sure;
+}
+
 /* Column and row of an end of a fragment: of a corner of the object, or of an end that a cut made. */
-static inline void place_end(tracing *t, const packed_fragment *f, bool last, uint32_t out[2]) {
+static void place_end(tracing *t, const packed_fragment *f, bool last, uint32_t out[2]) {
     const split_grid *g = t->grid;
     const bool own = f->id & (last ? PACKED_END : PACKED_START);
     for (int k = 0; k < 2; k++) {
@@ -56,7 +68,7 @@ static bool row_first(tracing *t, const axis_ends *ends, const uint32_t at[2], b
 
 static inline void trace_cell(tracing *t, uint32_t cell, uint32_t since, uint32_t id) {
     trace_chunk *c = t->chunk;
-    c->entries.data[c->entries.count++] = (trace_entry){cell << GRID_BITS | since, id};
+    c->entries.data[c->entries.count++] = (trace_entry){grid_place(cell, since, id), id};
     c->parts[cell >> t->lower]++;
     t->counts->met[cell] = 1;
 }
@@ -66,7 +78,7 @@ static void walk_on(tracing *t, const packed_fragment *f, const uint32_t from[2]
     const split_grid *g = t->grid;
     const uint32_t object = f->id & PACKED_OBJECT;
     const bool up = to[1] > from[1];
-    const axis_ends ends = axis_sorted(t->work, object);
+    const axis_ends ends = axis_sorted(t->work, object); /* f may be a part of it */
     uint32_t at[2] = {from[0], from[1]}, cell = cell_of(g, at);
     while (at[0] != to[0] || at[1] != to[1]) {
         const bool row = at[0] == to[0] || (at[1] != to[1] && row_first(t, &ends, at, up));
@@ -89,9 +101,11 @@ froe_status trace_run(const froe_allocator *alloc, const grid_source *source, co
     for (uint32_t i = chunk->from; i < chunk->to && chunk->bad_axis < 0; i++) {
         const packed_fragment f = source->fragments ? source->fragments[i] : axis_whole(work, i);
         uint32_t from[2], to[2];
-        place_end(&t, &f, false, from);
-        place_end(&t, &f, true, to);
-        if (chunk->bad_axis >= 0) break;
+        if (source->fragments || !(place_own(grid, f.p, from) & place_own(grid, f.q, to))) {
+            place_end(&t, &f, false, from);
+            place_end(&t, &f, true, to);
+            if (chunk->bad_axis >= 0) break;
+        }
         const uint32_t rows = to[1] > from[1] ? to[1] - from[1] : from[1] - to[1], steps = to[0] - from[0] + rows;
         if (!array_reserve(alloc, &chunk->entries, (size_t)steps + 1)) return FROE_E_MEMORY;
         const bool shared = steps || !packed_is_whole(f.id);

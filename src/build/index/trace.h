@@ -12,10 +12,10 @@
 typedef struct trace_counts {
     uint32_t *crossings;          /**< node of the upper levels -> where objects cross its cut; part -> all within it */
     uint64_t levels[GRID_LEVELS]; /**< crossings of cuts of a level */
-    uint8_t *met;                 /**< cell -> is anything there? */
+    uint16_t *met;                /**< cell -> is anything there? No bytes: those could be part of any variable */
 } trace_counts;
 
-/** The place is the cell << GRID_BITS | the level, as in the grid, but with all bits of the cell. */
+/** The place is as in the grid, but with all bits of the cell. */
 typedef struct trace_entry {
     uint32_t place, id;
 } trace_entry;

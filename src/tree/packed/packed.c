@@ -17,28 +17,26 @@ double packed_scale(const packed_box *box) {
     return tame ? scale : 0;
 }
 
-static uint16_t unit_of_number(double x, double lo, double scale) {
-    double u = (x - lo) * scale + 0.5;
-    return (uint16_t)(u > 0 ? u < PACKED_UNITS ? (int)u : PACKED_UNITS : 0);
-}
-
 void packed_write(packed_header *block, const packed_box *box, uint32_t owner, const packed_fragment *f,
                   uint32_t count) {
-    const double x = box->lo[0], y = box->lo[1];
+    const double lo[4] = {box->lo[0], box->lo[1], box->lo[0], box->lo[1]};
     double scale = packed_scale(box);
     uint32_t most = 0;
     for (uint32_t i = 0; i < count; i++) most = f[i].error > most ? f[i].error : most;
     const double units = (0.5 + 0x1p-20 + packed_error(most) * scale) * (1 + 0x1p-20);
     float error = units < 0x1p15 ? (float)units : PACKED_COARSE; /* infinity and NaN are coarse */
     if (error >= PACKED_COARSE || scale == 0) scale = 0, error = PACKED_COARSE;
-    *block = (packed_header){.lo = {x, y}, .scale = scale, .owner = owner, .error = error};
-    uint16_t *px = (uint16_t *)(void *)(block + 1), *py = px + count, *qx = py + count, *qy = qx + count;
-    uint32_t *ids = (uint32_t *)(void *)(qy + count);
+    *block = (packed_header){.lo = {lo[0], lo[1]}, .scale = scale, .owner = owner, .error = error};
+    uint16_t *rows = (uint16_t *)(void *)(block + 1);
+    uint32_t *ids = (uint32_t *)(void *)(rows + 4 * (size_t)count);
     for (uint32_t i = 0; i < count; i++) {
-        px[i] = unit_of_number(f[i].p[0], x, scale);
-        py[i] = unit_of_number(f[i].p[1], y, scale);
-        qx[i] = unit_of_number(f[i].q[0], x, scale);
-        qy[i] = unit_of_number(f[i].q[1], y, scale);
+        const double x[4] = {f[i].p[0], f[i].p[1], f[i].q[0], f[i].q[1]};
+        int32_t unit[4];
+        for (int k = 0; k < 4; k++) { /* in a form that compilers do all four of at once */
+            const double u = (x[k] - lo[k]) * scale + 0.5, v = u > 0 ? u : 0;
+            unit[k] = (int32_t)(v < PACKED_UNITS ? v : PACKED_UNITS);
+        }
+        for (size_t k = 0; k < 4; k++) rows[k * count + i] = (uint16_t)unit[k];
         ids[i] = f[i].id;
     }
 }
