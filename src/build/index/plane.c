@@ -14,7 +14,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { LEAF_MOST = 64, FEW = 1 << 15, LEAST = 28, LEAST_OF_FEW = 9 };
+enum { CHUNK = 1 << 15, LEAF_MOST = 64, FEW = 1 << 15, LEAST = 28, LEAST_OF_FEW = 9 };
 
 /* A node above the parts that is to be cut, or a subtree: its place in the tree is found when all before are there. */
 typedef struct plane_step {
@@ -35,7 +35,7 @@ typedef struct plane_build {
     index_work *works;       /* of threads */
     axis_work *axes;         /* theirs */
     axis_ends *ends;         /* a copy, where they do not lie so in the scene */
-    double length[2];        /* sums of the extents of all objects */
+    double *lengths;         /* chunk -> sums of the extents of its objects; in the end [0] has those of all */
     ARRAY(plane_step) steps; /* depth first */
     ARRAY(plane_job) jobs;
     ARRAY(uint32_t) open; /* nodes of the tree that wait for a step, the next on top */
@@ -61,21 +61,22 @@ static packed_box root_box(const froe_scene *s) {
     return box;
 }
 
-/* The ends of all objects, side by side, and the sums of their extents. */
-static froe_status find_ends(plane_build *p) {
+/* Copies the ends of a chunk of objects, where they do not lie side by side, and sums their extents. */
+static froe_status find_ends(void *user, unsigned worker, size_t job) {
+    plane_build *p = user;
     const froe_scene *s = p->plan->job->scene;
-    const bool there = scene_in_order(s) && s->each == 2;
-    const axis_ends *ends = (const axis_ends *)(const void *)s->coords;
-    if (!there) ends = p->ends = support_realloc(&s->alloc, NULL, 0, ((size_t)s->object_count + 1) * sizeof *p->ends);
-    if (!there && !p->ends) return FROE_E_MEMORY;
-    for (uint32_t i = 0; i < s->object_count; i++) {
-        if (!there) {
-            const double *a = scene_point(s, i, 0), *b = scene_point(s, i, scene_corners(s, i) - 1);
+    const size_t from = job * CHUNK, to = s->object_count - from < CHUNK ? s->object_count : from + CHUNK;
+    const axis_ends *ends = p->axes[worker].ends;
+    double length[2] = {0, 0};
+    for (size_t i = from; i < to; i++) {
+        if (p->ends) {
+            const uint32_t o = (uint32_t)i;
+            const double *a = scene_point(s, o, 0), *b = scene_point(s, o, scene_corners(s, o) - 1);
             p->ends[i] = (axis_ends){{a[0], a[1]}, {b[0], b[1]}};
         }
-        for (int k = 0; k < 2; k++) p->length[k] += fabs(ends[i].q[k] - ends[i].p[k]);
+        for (int k = 0; k < 2; k++) length[k] += fabs(ends[i].q[k] - ends[i].p[k]);
     }
-    for (unsigned i = 0; i < p->plan->job->task->threads; i++) p->axes[i].ends = ends;
+    for (int k = 0; k < 2; k++) p->lengths[2 * job + (size_t)k] = length[k];
     return FROE_OK;
 }
 
@@ -94,7 +95,20 @@ static froe_status begin_plane(plane_build *p) {
         status = geom_context_new(&job->alloc, &p->axes[i].context);
         if (job->first > p->axes[i].context.first) p->axes[i].context.first = job->first;
     }
-    return status ? status : find_ends(p);
+    if (status) return status;
+    /* the ends lie in the scene where nothing else does and none is shared */
+    const froe_scene *s = job->scene;
+    const bool there = scene_in_order(s) && s->each == 2;
+    const size_t chunks = (objects + CHUNK - 1) / CHUNK;
+    if (!there) p->ends = support_realloc(&job->alloc, NULL, 0, ((size_t)objects + 1) * sizeof *p->ends);
+    p->lengths = support_calloc(&job->alloc, chunks, 2 * sizeof *p->lengths);
+    if (!p->lengths || (!there && !p->ends)) return FROE_E_MEMORY;
+    for (unsigned i = 0; i < *threads; i++)
+        p->axes[i].ends = there ? (const axis_ends *)(const void *)s->coords : p->ends;
+    status = base_run(job->task, 0.05, chunks, find_ends, p);
+    for (size_t c = 1; c < chunks; c++)
+        for (size_t k = 0; k < 2; k++) p->lengths[k] += p->lengths[2 * c + k];
+    return status;
 }
 
 static void end_plane(plane_build *p) {
@@ -108,7 +122,9 @@ static void end_plane(plane_build *p) {
     if (p->plan->whole) grid_free(alloc, p->plan->whole);
     support_free(alloc, p->works, threads * sizeof *p->works);
     support_free(alloc, p->axes, threads * sizeof *p->axes);
-    support_free(alloc, p->ends, ((size_t)p->plan->job->scene->object_count + 1) * sizeof *p->ends);
+    const size_t objects = p->plan->job->scene->object_count;
+    support_free(alloc, p->ends, (objects + 1) * sizeof *p->ends);
+    support_free(alloc, p->lengths, (objects + CHUNK - 1) / CHUNK * 2 * sizeof *p->lengths);
     array_free(alloc, &p->steps);
     array_free(alloc, &p->jobs);
     array_free(alloc, &p->open);
@@ -252,7 +268,7 @@ froe_status build_in_plane(index_plan *plan, froe_tree **out) {
                                     .load = plan->load,
                                     .parts = job->scene->object_count >= plan->parts,
                                     .growth = plan->growth < 2 ? plan->growth : 2,
-                                    .length = {p.length[0], p.length[1]},
+                                    .length = {p.lengths[0], p.lengths[1]},
                                     .task = job->task,
                                     .workers = p.axes};
         status = grid_new(&job->alloc, &source, &plan->whole);
