@@ -30,13 +30,14 @@ typedef struct index {
 
 /* ------------------------------------------------------------------- making -- */
 
-static froe_scene *take_in(const peer_data *d) {
+static froe_scene *take_in(const peer_data *d, unsigned threads) {
     static const froe_kind kinds[PEER_KINDS] = {FROE_POINT,   FROE_SEGMENT, FROE_SEGMENT,
                                                 FROE_POLYGON, FROE_BOX,     FROE_SEGMENT};
     froe_diagnostic why = {0};
     froe_objects o = froe_objects_defaults();
     froe_scene *scene = NULL;
     o.kind = kinds[d->kind], o.count = d->count, o.coords = d->coords, o.groups = d->groups, o.faces = d->faces;
+    o.threads = threads;
     bench_must(froe_scene_new(d->dim, NULL, &scene), NULL);
     for (size_t i = 0; i < d->areas; i++) {
         uint32_t id;
@@ -60,7 +61,7 @@ static void *make(const peer_data *d, const peer *self) {
     index *x = bench_take(1, sizeof *x);
     const double start = bench_cpu();
     x->s = self->own, x->kind = d->kind;
-    x->scene = take_in(d);
+    x->scene = take_in(d, x->s->threads);
     x->seconds[0] = bench_cpu() - start;
     x->tree = bench_build(x->scene, x->s->method, NULL, x->s->leaf, x->s->threads, NULL);
     bench_must(froe_query_new(x->tree, &x->query, NULL), NULL);

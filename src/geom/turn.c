@@ -39,6 +39,16 @@ int geom_projection_axis(num_context *context, const double *a, const double *b,
     return -1;
 }
 
+bool geom_surely_turns(const double *a, const double *b, const double *c) {
+    bool sure = false;
+    for (int k = 0; k < 3; k++) { /* turn_filter() along each axis */
+        const int u = (k + 1) % 3, v = (k + 2) % 3;
+        const double left = (a[u] - c[u]) * (b[v] - c[v]), right = (a[v] - c[v]) * (b[u] - c[u]);
+        sure |= fabs(left - right) > 0x1p-51 * (fabs(left) + fabs(right)) + NUM_BALL_TINY;
+    }
+    return sure;
+}
+
 int geom_turn_of_vectors(num_context *context, const geom_vector *a, const geom_vector *b, const geom_vector *c) {
     int sign;
     context->stats.calls++;

@@ -10,6 +10,10 @@ int geom_projected_turn(num_context *context, int axis, const double *a, const d
 /** An axis along which three points do not look collinear; -1: they are. */
 int geom_projection_axis(num_context *context, const double *a, const double *b, const double *c);
 
+/** Are three points of space certainly not collinear? False: they may be all the same. For loops over many, which ask
+ * num_rounding_trusted() once. */
+bool geom_surely_turns(const double *a, const double *b, const double *c);
+
 /** The vector from one point of space to another. */
 typedef struct geom_vector {
     const double *from, *to;

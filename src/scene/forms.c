@@ -1,6 +1,7 @@
 /* forms.c: what an object really is: a zero-length segment is a point, a hull is a set of vertices. Above dimension
  * 3 no cut runs along a segment, so that it is a hull as well: it is listed, and never cut. */
 #include "scene/forms.h"
+#include "geom/turn.h"
 #include "scene/polygon.h"
 #include "support/fail.h"
 #include <math.h>
@@ -111,21 +112,15 @@ froe_status scene_form_object(scene_adding *a, size_t j, uint32_t *ring, uint32_
 
 enum { RING_MOST = 16, OBJECTS_A_JOB = 1 << 14 };
 
-/** The vertex of corner i of the batch. */
-static uint32_t corner_id(const scene_adding *a, const uint32_t *ids, size_t i) {
-    return a->in_order ? a->scene->store->vertex_count + (uint32_t)i : ids[i];
-}
-
-static bool are_different(const scene_adding *a, const uint32_t *ids, size_t from, size_t to) {
-    if (a->in_order) return true;
+static bool are_different(const uint32_t *ids, size_t from, size_t to) {
     bool same = false;
-    for (size_t j = from; j < to; j++) same |= ids[2 * j] == ids[2 * j + 1];
+    for (size_t j = from; ids && j < to; j++) same |= ids[2 * j] == ids[2 * j + 1];
     return !same;
 }
 
 static bool ascend(const scene_adding *a, const uint32_t *ids, size_t from, size_t to) {
     bool descends = false;
-    for (size_t j = from; !a->in_order && j < to; j++)
+    for (size_t j = from; ids && j < to; j++)
         for (size_t i = j * a->each + 1; i < (j + 1) * a->each; i++) descends |= ids[i] <= ids[i - 1];
     return !descends;
 }
@@ -139,12 +134,15 @@ static bool are_boxes(const scene_adding *a, size_t from, size_t to) {
     return !inside_out;
 }
 
-static bool are_rings(const scene_adding *a, const uint32_t *ids, size_t from, size_t to) {
+/** Polygons that are exactly what a scene keeps. */
+static bool are_rings(const scene_adding *a, size_t from, size_t to) {
+    const uint32_t *ids = a->in_order ? NULL : scene_adding_ids(a);
     struct scene_store *store = a->scene->store;
     uint32_t ring[RING_MOST], given[RING_MOST];
     for (size_t j = from; j < to; j++) {
         uint32_t count = (uint32_t)a->each;
-        for (uint32_t i = 0; i < count; i++) given[i] = ring[i] = corner_id(a, ids, j * a->each + i);
+        for (uint32_t i = 0; i < count; i++)
+            given[i] = ring[i] = ids ? ids[j * a->each + i] : store->vertex_count + (uint32_t)(j * a->each + i);
         froe_kind form = FROE_POLYGON;
         scene_fault fault;
         if (!scene_polygon_form(&store->context, store->coords.data, ring, &count, &form, &fault)) return false;
@@ -153,16 +151,28 @@ static bool are_rings(const scene_adding *a, const uint32_t *ids, size_t from, s
     return true;
 }
 
-/** Do objects from .. to - 1 of the batch keep their corners? a->form says as what. */
+/** Triangles for certain: then their corners differ, and no other order of them is better. */
+static bool are_triangles(const scene_adding *a, size_t from, size_t to) {
+    bool sure = a->scene->store->context.first == NUM_FILTER && a->each == 3 && num_rounding_trusted();
+    for (size_t j = from; sure && j < to; j++) {
+        const size_t corner = a->first + 3 * j;
+        sure = geom_surely_turns(scene_adding_point(a, corner), scene_adding_point(a, corner + 1),
+                                 scene_adding_point(a, corner + 2));
+    }
+    return sure;
+}
+
+/** Do objects from .. to - 1 of the batch certainly keep their corners? a->form says as what. For all but polygons it
+ * is certain that they do not, otherwise. */
 static bool are_plain(const scene_adding *a, size_t from, size_t to) {
     const uint32_t *ids = a->in_order ? NULL : scene_adding_ids(a);
     switch (a->batch->kind) {
     case FROE_POINT:
         return true;
     case FROE_SEGMENT:
-        return a->form == FROE_HULL ? ascend(a, ids, from, to) : are_different(a, ids, from, to);
+        return a->form == FROE_HULL ? ascend(a, ids, from, to) : are_different(ids, from, to);
     case FROE_POLYGON:
-        return a->each <= RING_MOST && are_rings(a, ids, from, to);
+        return are_triangles(a, from, to);
     case FROE_BOX:
         return are_boxes(a, from, to);
     case FROE_HULL:
@@ -172,16 +182,42 @@ static bool are_plain(const scene_adding *a, size_t from, size_t to) {
     }
 }
 
-froe_status scene_look_at_forms(scene_adding *a) {
-    const size_t count = a->batch->count;
-    a->form = a->batch->kind == FROE_SEGMENT && a->scene->dim > 3 ? FROE_HULL : a->batch->kind;
-    a->plain = a->each > 0;
-    a->used = a->corners;
-    for (size_t j = 0; a->plain && j < count; j += OBJECTS_A_JOB) {
-        const size_t end = count - j < OBJECTS_A_JOB ? count : j + OBJECTS_A_JOB;
-        a->plain = are_plain(a, j, end);
-        froe_status status = scene_adding_progress(a, 0.6 + 0.3 * (double)end / (double)count);
-        if (status) return status;
-    }
+typedef struct plain_look {
+    scene_adding *adding;
+    uint8_t *doubt; /**< of jobs */
+} plain_look;
+
+static void job_objects(const scene_adding *a, size_t job, size_t *from, size_t *to) {
+    *from = job * OBJECTS_A_JOB;
+    *to = a->batch->count - *from < OBJECTS_A_JOB ? a->batch->count : *from + OBJECTS_A_JOB;
+}
+
+static froe_status look_at_some(void *user, unsigned worker, size_t job) {
+    (void)worker;
+    const plain_look *look = user;
+    size_t from, to;
+    job_objects(look->adding, job, &from, &to);
+    look->doubt[job] = !are_plain(look->adding, from, to);
     return FROE_OK;
+}
+
+froe_status scene_look_at_forms(scene_adding *a) {
+    const froe_allocator *alloc = &a->scene->alloc;
+    const bool rings = a->batch->kind == FROE_POLYGON;
+    const size_t jobs = (a->batch->count + OBJECTS_A_JOB - 1) / OBJECTS_A_JOB;
+    plain_look look = {.adding = a, .doubt = support_calloc(alloc, jobs, 1)};
+    if (!look.doubt) return support_fail_memory(a->diag);
+    a->form = a->batch->kind == FROE_SEGMENT && a->scene->dim > 3 ? FROE_HULL : a->batch->kind;
+    a->plain = a->each > 0 && a->each <= RING_MOST;
+    a->used = a->corners;
+    froe_status status = a->plain ? base_run(&a->task, 0.2, jobs, look_at_some, &look) : FROE_OK;
+    for (size_t job = 0; !status && a->plain && job < jobs; job++) {
+        size_t from, to;
+        if (!look.doubt[job]) continue;
+        job_objects(a, job, &from, &to);
+        a->plain = rings && are_rings(a, from, to);
+        if (!base_progress(&a->task, 0.8 + 0.1 * (double)job / (double)jobs)) status = FROE_E_CANCELLED;
+    }
+    support_free(alloc, look.doubt, jobs);
+    return status ? support_fail_cancelled(a->diag) : FROE_OK;
 }

@@ -15,8 +15,15 @@ const char *froe_kind_name(froe_kind kind) {
 
 /* -------------------------------------------------------------------- life -- */
 
-static void store_free(const froe_allocator *alloc, struct scene_store *store) {
+/** Gives back the table and the context, which are made again where they are needed. */
+static void give_back(const froe_allocator *alloc, struct scene_store *store) {
     scene_table_free(alloc, &store->table);
+    if (store->context_ready) num_context_free(&store->context);
+    store->context_ready = false;
+}
+
+static void store_free(const froe_allocator *alloc, struct scene_store *store) {
+    give_back(alloc, store);
     array_free(alloc, &store->coords);
     array_free(alloc, &store->kind_of);
     array_free(alloc, &store->form_of);
@@ -28,7 +35,6 @@ static void store_free(const froe_allocator *alloc, struct scene_store *store) {
     array_free(alloc, &store->groups);
     array_free(alloc, &store->group_table);
     array_free(alloc, &store->text);
-    if (store->context_ready) num_context_free(&store->context);
     support_free(alloc, store, sizeof *store);
 }
 
@@ -67,10 +73,10 @@ void froe_scene_free(froe_scene *scene) {
 }
 
 void scene_hold(froe_scene *scene) {
-    /* Nothing reads the table while the scene is frozen. Of several threads the one that freezes it gives it back; no
-     * other can before this one's hold is given up. */
+    /* What only serves to grow is not read while the scene is frozen. Of several threads the one that freezes it gives
+     * that back; no other can before this one's hold is given up. */
     const bool freezes = atomic_fetch_add_explicit(&scene->holds, 1, memory_order_acq_rel) == 1;
-    if (freezes && scene->store) scene_table_free(&scene->alloc, &scene->store->table);
+    if (freezes && scene->store) give_back(&scene->alloc, scene->store);
 }
 
 froe_status scene_growable(const froe_scene *s, froe_diagnostic *diag) {
