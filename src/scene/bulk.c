@@ -3,14 +3,19 @@
  *     points of the batch   without `indices` its corners; with them all points there are
  *     entries of match.h    lie where the coordinates of new vertices will be, which take more room
  *     number                points that are the first of those equal become vertices, in the order of corners
- *     link                  the other corners get the vertex of their first
+ *     link                  the other corners get the vertex of their first, and are compared with it: vertices lie
+ *                           closer together than the points of the caller
  *
- * Nothing is published before all is known. Where a coordinate is not finite, an index is wrong or too many different
- * points have one hash, the batch goes the way of small ones, which names what is wrong. */
+ * Nothing is published before all is known. Where two points differ that have one hash, all is done once more, with
+ * care. Where a coordinate is not finite, an index is wrong or very many points collide, the batch goes the way of
+ * small ones, which names what is wrong. */
 #include "scene/forms.h"
 #include "support/fail.h"
 #include <math.h>
 #include <string.h>
+
+/** Points among which some have one tag more often than not. */
+#define CAREFUL_FROM (1u << 26)
 
 typedef struct bulk_chunk {
     uint32_t before; /**< vertices before its own */
@@ -72,18 +77,32 @@ static froe_status number_points(void *user, unsigned worker, size_t job) {
     return FROE_OK;
 }
 
+/** False: a corner differs from the vertex it was given. */
+static inline __attribute__((always_inline)) bool link_in(const bulk_work *w, uint32_t from, uint32_t to, int dim) {
+    const uint32_t known = w->points.known_count;
+    const double *coords = w->adding->scene->store->coords.data, *x = w->points.fresh;
+    uint32_t *first = w->first;
+    bool same = true;
+    for (uint32_t i = from; i < to; i++) {
+        if (!(first[i] & MATCH_EQUAL)) continue;
+        const uint32_t other = first[i] & ~MATCH_EQUAL, id = other < known ? other : first[other - known];
+        same &= match_same_point(x + (size_t)i * (size_t)dim, coords + (size_t)id * (size_t)dim, dim);
+        first[i] = id;
+    }
+    return same;
+}
+
 /** The other corners: their firsts have their vertices by now, which do not change any more. */
 static froe_status link_points(void *user, unsigned worker, size_t job) {
     (void)worker;
-    const bulk_work *w = user;
-    const uint32_t known = w->points.known_count;
+    bulk_work *w = user;
+    const int dim = w->points.dim;
     uint32_t from, to;
     match_fresh_chunk(&w->match, (uint32_t)job, &from, &to);
-    for (uint32_t i = from; i < to; i++) {
-        if (!(w->first[i] & MATCH_EQUAL)) continue;
-        const uint32_t other = w->first[i] & ~MATCH_EQUAL;
-        w->first[i] = other < known ? other : w->first[other - known];
-    }
+    const bool same = dim == 2   ? link_in(w, from, to, 2)
+                      : dim == 3 ? link_in(w, from, to, 3)
+                                 : link_in(w, from, to, dim);
+    if (!same) atomic_store(&w->match.mistaken, true);
     return FROE_OK;
 }
 
@@ -187,7 +206,7 @@ static void forget_first(bulk_work *w) {
     array_free(&a->scene->alloc, &a->scene->store->vertex_of);
 }
 
-static froe_status take_corners(bulk_work *w, bool *done) {
+static froe_status take_corners(bulk_work *w, bool careful, bool *done) {
     scene_adding *a = w->adding;
     struct scene_store *store = a->scene->store;
     uint32_t firsts = 0;
@@ -195,13 +214,14 @@ static froe_status take_corners(bulk_work *w, bool *done) {
                                      (uint64_t *)(void *)(store->coords.data + store->coords.count));
     if (!status && !atomic_load(&w->match.lost)) {
         if (!take_room(w)) status = FROE_E_MEMORY;
-        if (!status && w->match.equals) status = match_spread(&w->match, w->first, &firsts);
-        *done = !atomic_load(&w->match.lost);
+        if (!status && w->match.equals) status = match_spread(&w->match, careful, w->first, &firsts);
+        *done = !atomic_load(&w->match.lost) && !atomic_load(&w->match.mistaken);
         if (w->match.equals && firsts == w->points.fresh_count) forget_first(w);
         if (!status && *done) status = a->batch->indices ? take_indices(w, done) : take_points(w);
         give_room_back(w);
     }
     match_end(&w->match);
+    if (atomic_load(&w->match.mistaken)) *done = false;
     return status;
 }
 
@@ -217,7 +237,9 @@ froe_status scene_take_corners_at_once(scene_adding *a, bool *done) {
     w.points = (match_points){.known = store->coords.data, .known_count = store->vertex_count, .dim = s->dim};
     w.points.fresh = b->indices ? b->coords : b->coords + a->first * dim;
     w.points.fresh_count = (uint32_t)points;
-    froe_status status = take_corners(&w, done);
+    bool careful = b->indices || points >= CAREFUL_FROM;
+    froe_status status = take_corners(&w, careful, done);
+    if (!status && !careful && atomic_load(&w.match.mistaken)) status = take_corners(&w, true, done);
     if (status == FROE_E_CANCELLED) return support_fail_cancelled(a->diag);
     if (status) return support_fail_memory(a->diag);
     if (!*done) return FROE_OK;

@@ -25,12 +25,6 @@ static const double *point_at(const match_work *w, uint32_t number) {
     return (known ? p->known : p->fresh) + (size_t)(known ? number : number - p->known_count) * (size_t)p->dim;
 }
 
-static inline bool equal_points(const double *x, const double *y, int dim) { /* -0 equals 0 */
-    for (int k = 0; k < dim; k++)
-        if (x[k] != y[k]) return false;
-    return true;
-}
-
 /* --------------------------------------------------------------------- deal -- */
 
 /** Hashes of n points; false: a coordinate is not finite. Multiplications move differences to higher bits, shifts to
@@ -167,12 +161,15 @@ static froe_status spread_chunk(void *user, unsigned worker, size_t job) {
             else if (wrong++ < WRONG) /* known points differ */
                 out[wrong - 1] = (uint32_t)*e;
         }
-    for (uint32_t i = 0; fresh && i < count; i++) {
+    for (uint32_t i = 0; fresh && !w->careful && i < count; i++) firsts += !(first[i] & MATCH_EQUAL);
+    for (uint32_t i = 0; fresh && w->careful && i < count; i++) {
         const bool is_first = !(first[i] & MATCH_EQUAL);
         firsts += is_first;
-        if (is_first || equal_points(x + (size_t)i * (size_t)dim, point_at(w, first[i] & ~MATCH_EQUAL), dim)) continue;
+        if (is_first || match_same_point(x + (size_t)i * (size_t)dim, point_at(w, first[i] & ~MATCH_EQUAL), dim))
+            continue;
         if (wrong++ < WRONG) out[wrong - 1] = number + i;
     }
+    if (wrong && !w->careful) atomic_store(&w->mistaken, true);
     if (wrong > WRONG) atomic_store(&w->lost, true);
     w->counts[chunk] = wrong;
     w->counts[w->chunks + chunk] = firsts;
@@ -187,7 +184,7 @@ static void repair(match_work *w) {
         for (uint32_t i = 0; i < w->counts[c]; i++) {
             const uint32_t number = w->wrong[(size_t)c * WRONG + i];
             uint32_t j = 0;
-            while (j < kept && !equal_points(point_at(w, number), point_at(w, wrong[j]), w->points.dim)) j++;
+            while (j < kept && !match_same_point(point_at(w, number), point_at(w, wrong[j]), w->points.dim)) j++;
             if (number >= known) w->first[number - known] = j < kept ? MATCH_EQUAL | wrong[j] : number;
             if (j < kept) continue;
             w->counts[w->chunks + c] += number >= known;
@@ -218,6 +215,7 @@ froe_status match_begin(match_work *w, const match_points *points, const match_p
                         const froe_allocator *alloc, uint64_t *entries) {
     *w = (match_work){.points = *points, .plan = *plan, .task = task, .alloc = *alloc, .entries = entries};
     atomic_init(&w->lost, false);
+    atomic_init(&w->mistaken, false);
     choose_sizes(w);
     const size_t parts = (size_t)1 << w->part_bits;
     w->begins = support_calloc(alloc, w->chunks * (parts + 1), sizeof *w->begins);
@@ -233,11 +231,12 @@ froe_status match_begin(match_work *w, const match_points *points, const match_p
     return status;
 }
 
-froe_status match_spread(match_work *w, uint32_t *first, uint32_t *fresh_firsts) {
+froe_status match_spread(match_work *w, bool careful, uint32_t *first, uint32_t *fresh_firsts) {
     w->first = first;
+    w->careful = careful;
     froe_status status = base_run(w->task, 0.1, w->chunks, spread_chunk, w);
     if (status || atomic_load(&w->lost)) return status;
-    repair(w);
+    if (careful) repair(w);
     memmove(w->counts, w->counts + w->chunks, w->chunks * sizeof *w->counts);
     *fresh_firsts = 0;
     for (uint32_t c = 0; c < w->chunks; c++) *fresh_firsts += w->counts[c];

@@ -4,8 +4,9 @@
  *                         bits, [ tag | number ], of a chunk are sorted by part, within the cache
  *     match    by part    the entries of a part, chunk after chunk, go through a hash table that fits the cache; the
  *                         first point with a tag stands for all others, which are few or have equal coordinates
- *     spread   by chunk   each of the others learns its first, and is compared with it
- *     repair              two points with one tag: those that differ from their first are compared with one another
+ *     spread   by chunk   each of the others learns its first
+ *     repair              only for careful callers: each is compared with its first; those that differ from it (two
+ *                         points, one tag) are compared with one another
  *
  * So memory is read and written in order, where one large table misses the cache at every point (Shatdal, Kant and
  * Naughton: Cache conscious algorithms for relational query processing, 1994). All steps but the last run on several
@@ -48,8 +49,10 @@ typedef struct match_work {
     uint64_t *scratch;
     size_t scratch_each; /**< for each thread */
     uint32_t *first;
-    uint64_t equals;  /**< points that equal an earlier one, as far as tags tell */
-    atomic_bool lost; /**< a coordinate is not finite, or there are too many collisions: nothing is known */
+    bool careful;
+    uint64_t equals;      /**< points that equal an earlier one, as far as tags tell */
+    atomic_bool lost;     /**< a coordinate is not finite, or there are too many collisions: nothing is known */
+    atomic_bool mistaken; /**< without care: two vertices there are have one tag */
 } match_work;
 
 /** Deals and matches. `entries`: room for all points. When `equals` is 0 all points differ. FROE_E_MEMORY,
@@ -57,9 +60,16 @@ typedef struct match_work {
 froe_status match_begin(match_work *w, const match_points *points, const match_plan *plan, base_task *task,
                         const froe_allocator *alloc, uint64_t *entries);
 /** For each fresh point its own number, if it is the first of those equal to it, or MATCH_EQUAL | the first's.
- * *fresh_firsts of them are the first. FROE_E_MEMORY, FROE_E_CANCELLED. */
-froe_status match_spread(match_work *w, uint32_t *first, uint32_t *fresh_firsts);
+ * *fresh_firsts of them are the first. Without `careful` equal tags count as equal points, which is three times as
+ * fast; the caller compares them, and begins anew where two differ. FROE_E_CANCELLED. */
+froe_status match_spread(match_work *w, bool careful, uint32_t *first, uint32_t *fresh_firsts);
 void match_end(match_work *w);
+
+static inline bool match_same_point(const double *x, const double *y, int dim) { /* -0 equals 0 */
+    for (int k = 0; k < dim; k++)
+        if (x[k] != y[k]) return false;
+    return true;
+}
 
 /** Fresh points of chunk `chunk`, of fresh_chunks: *from .. *to - 1, counted from the first fresh one. */
 static inline uint32_t match_fresh_chunks(const match_work *w) {
