@@ -84,6 +84,7 @@ static froe_status grow_grain(build_job *job, const split_job *split, int effort
     grown.thinned = &thinned;
     split_method method = {.config = &grain,
                            .choose = split_grain_choose,
+                           .ahead = true,
                            .scratch_new = split_grain_scratch_new,
                            .scratch_free = split_grain_scratch_free,
                            .height = grain.height > 0 ? grain.height + grain.peel : 0,

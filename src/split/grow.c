@@ -1,4 +1,4 @@
-/* grow.c: the shared loop, in one thread down to small cells, then one task per small cell. */
+/* grow.c: the shared loop, cell by cell or level by level down to small cells, then one task per small cell. */
 #include "split/cell.h"
 #include "split/charge/thin.h"
 #include "split/guard/trial.h"
@@ -7,15 +7,20 @@
 #include <string.h>
 
 /* Cells of at most max(least, n / share) fragments become tasks, except tiny ones, which do not pay for a task. */
-enum { TASK_TINY = 16, TASK_LEAST = 1024, TASK_SHARE = 64, REGROWN = 4 };
+enum { TASK_TINY = 16, TASK_LEAST = 1024, TASK_LEAST_AHEAD = 256, TASK_SHARE = 64, REGROWN = 4 };
 
+/** A cell that waits, with its fragments; small ones become subtrees. */
 typedef struct grow_task {
     split_cell cell;
-    size_t first_item, first_corner, first_room; /**< in the store */
-    uint32_t corner_count;
+    ARRAY(split_fragment) items;
+    ARRAY(split_corner) corners;
+    ARRAY(unsigned char) room;
+    split_choice choice;  /**< of large ones */
     uint32_t crossing[2]; /**< why it was refused */
     tree_draft draft;
 } grow_task;
+
+typedef ARRAY(grow_task) grow_tasks;
 
 typedef struct grow {
     const split_job *job;
@@ -23,10 +28,8 @@ typedef struct grow {
     tree_draft main;
     split_work *workers; /**< one per thread; the first also does the main part */
     unsigned worker_count;
-    ARRAY(grow_task) tasks;
-    ARRAY(split_fragment) store_items;
-    ARRAY(split_corner) store_corners; /**< fragments count from their task's first_corner */
-    ARRAY(unsigned char) store_rooms;
+    grow_tasks tasks;
+    grow_tasks level, next; /**< large cells: of the level at hand, and those found below it */
     uint32_t task_size;
     atomic_uint_least64_t emitted; /**< pieces in final drafts */
 } grow;
@@ -86,12 +89,20 @@ static froe_status divide_cell(const split_method *method, split_work *work, con
     return FROE_OK;
 }
 
+static split_verdict choose_cut(const split_method *method, split_work *work, const split_cell *cell, froe_cut *cut) {
+    const split_choice *chosen = work->chosen;
+    work->chosen = NULL; /* if that separates nothing, the method is asked again */
+    if (!chosen) return method->choose(method->config, work, cell, cut);
+    *cut = chosen->cut;
+    return chosen->verdict;
+}
+
 froe_status split_step(const split_method *method, split_work *work, split_cell *cell) {
     froe_cut cut = {.kind = FROE_CUT_NONE};
     froe_status status = FROE_OK;
     while (!status) {
         bool peeled = method->peels_first && cover_peel(&work->set, cell, &cut);
-        split_verdict verdict = peeled ? SPLIT_CUT_ANYWAY : method->choose(method->config, work, cell, &cut);
+        split_verdict verdict = peeled ? SPLIT_CUT_ANYWAY : choose_cut(method, work, cell, &cut);
         if (verdict > SPLIT_CUT_GUARD) return failure_of(verdict);
         if (verdict < SPLIT_CUT && verdict != SPLIT_LEAF && !method->shaped && !method->peels_first)
             peeled = cover_peel(&work->set, cell, &cut);
@@ -146,35 +157,63 @@ static froe_status grow_cell(grow *g, split_work *work, split_cell *cell) {
     return most && atomic_load(&g->emitted) + count > most ? FROE_E_BUDGET : FROE_OK;
 }
 
-/** Moves a small cell's fragments to the store, for a task. */
-static froe_status put_off(grow *g, split_work *work, const split_cell *cell) {
-    const froe_allocator *alloc = &g->job->alloc;
-    const split_set *set = &work->set;
-    grow_task task = {.cell = *cell,
-                      .first_item = g->store_items.count,
-                      .first_corner = g->store_corners.count,
-                      .first_room = g->store_rooms.count};
-    if (!array_append(alloc, &g->store_rooms, work->rooms.data, g->method->room)) return FROE_E_MEMORY;
-    if (!array_reserve(alloc, &g->store_items, cell->count)) return FROE_E_MEMORY;
-    for (uint32_t i = 0; i < cell->count; i++) {
-        split_fragment f = set->items.data[cell->first + i];
-        if (f.count) {
-            if (!array_reserve(alloc, &g->store_corners, f.count)) return FROE_E_MEMORY;
-            memcpy(g->store_corners.data + g->store_corners.count, set->corners.data + f.first,
-                   f.count * sizeof(split_corner));
-            f.first = (uint32_t)(g->store_corners.count - task.first_corner);
-            g->store_corners.count += f.count;
-        }
-        g->store_items.data[g->store_items.count++] = f;
-    }
-    task.crossing[0] = FROE_NONE;
-    task.corner_count = (uint32_t)(g->store_corners.count - task.first_corner);
-    draft_leaf(set->draft, cell->node, 0);
-    work->set.items.count = cell->first;
-    return array_push(alloc, &g->tasks, task) ? FROE_OK : FROE_E_MEMORY;
+static void forget_task(const froe_allocator *alloc, grow_task *task) {
+    array_free(alloc, &task->items);
+    array_free(alloc, &task->corners);
+    array_free(alloc, &task->room);
+    draft_free(&task->draft);
 }
 
-/** Works off all pending cells; in the main part, small ones are put off. */
+static void forget_tasks(const froe_allocator *alloc, grow_tasks *tasks) {
+    for (size_t i = 0; i < tasks->count; i++) forget_task(alloc, tasks->data + i);
+    array_free(alloc, tasks);
+}
+
+/** Moves a cell's fragments away, for its turn. */
+static froe_status put_off(grow *g, split_work *work, const split_cell *cell, grow_tasks *tasks) {
+    const froe_allocator *alloc = &g->job->alloc;
+    const split_set *set = &work->set;
+    if (!array_push(alloc, tasks, (grow_task){.cell = *cell, .crossing = {FROE_NONE}})) return FROE_E_MEMORY;
+    grow_task *task = tasks->data + tasks->count - 1;
+    if (!array_append(alloc, &task->room, work->rooms.data, g->method->room)) return FROE_E_MEMORY;
+    if (!array_reserve(alloc, &task->items, cell->count)) return FROE_E_MEMORY;
+    for (uint32_t i = 0; i < cell->count; i++) {
+        split_fragment f = set->items.data[cell->first + i];
+        const uint32_t first = f.first;
+        f.first = f.count ? (uint32_t)task->corners.count : 0;
+        if (f.count && !array_append(alloc, &task->corners, set->corners.data + first, f.count)) return FROE_E_MEMORY;
+        task->items.data[task->items.count++] = f;
+    }
+    task->cell.first = 0;
+    task->cell.corner_top = (uint32_t)task->corners.count;
+    work->set.items.count = cell->first;
+    return FROE_OK;
+}
+
+/** Makes a cell that was put off the only one that is pending, at hand. */
+static froe_status take_up(split_work *work, const grow_task *task) {
+    split_set *set = &work->set;
+    set->items.count = set->corners.count = work->cells.count = work->rooms.count = 0;
+    return array_append(&set->alloc, &set->items, task->items.data, task->items.count) &&
+                   array_append(&set->alloc, &set->corners, task->corners.data, task->corners.count) &&
+                   array_append(&set->alloc, &work->rooms, task->room.data, task->room.count)
+               ? FROE_OK
+               : FROE_E_MEMORY;
+}
+
+/** Is the turn of a cell of the main part to come later? Small ones become tasks, and their nodes leaves for now; large
+ * ones wait for the others of their level. */
+static froe_status put_off_if_due(grow *g, split_work *work, const split_cell *cell, bool *due) {
+    const uint32_t load = split_load(cell);
+    const bool whole = trial_is_due(g->job, cell) && !trial_cuts_by_guard(g->job, g->method, cell);
+    const bool small = load <= g->task_size || whole;
+    *due = !work->first.open && !cell->thin && load > TASK_TINY && (small || g->method->ahead);
+    if (!*due) return FROE_OK;
+    if (small) draft_leaf(work->set.draft, cell->node, 0);
+    return put_off(g, work, cell, small ? &g->tasks : &g->next);
+}
+
+/** Works off all pending cells; in the main part, some are put off. */
 static froe_status grow_cells(grow *g, split_work *work, bool main_part) {
     froe_status status = FROE_OK;
     for (uint32_t turn = 0; work->cells.count && !status; turn++) {
@@ -185,12 +224,9 @@ static froe_status grow_cells(grow *g, split_work *work, bool main_part) {
         const uint32_t levels = cell.depth - cell.peels;
         work->books.peels = cell.peels > work->books.peels ? cell.peels : work->books.peels;
         work->deepest = levels > work->deepest && !cell.thinned ? levels : work->deepest;
-        uint32_t load = split_load(&cell);
-        bool whole = trial_is_due(g->job, &cell) && !trial_cuts_by_guard(g->job, g->method, &cell);
-        if (main_part && !work->first.open && !cell.thin && (load <= g->task_size || whole) && load > TASK_TINY)
-            status = put_off(g, work, &cell);
-        else
-            status = grow_cell(g, work, &cell);
+        bool later = false;
+        if (main_part) status = put_off_if_due(g, work, &cell, &later);
+        if (!status && !later) status = grow_cell(g, work, &cell);
         bool ask = main_part || turn % 64 == 63; /* in tasks, too: one task may be nearly the whole build */
         if (ask && !status && !split_go_on(work)) status = FROE_E_CANCELLED;
     }
@@ -245,14 +281,46 @@ static froe_status cut_root(grow *g, split_work *work) {
     return divide_cell(g->method, work, &root, g->job->root, 0, NULL);
 }
 
+/** Names the cut of a large cell. */
+static froe_status choose_ahead(void *user, unsigned worker, size_t index) {
+    grow *g = user;
+    split_work *work = g->workers + worker;
+    grow_task *task = g->level.data + index;
+    work->set.draft = &g->main;
+    const froe_status status = take_up(work, task);
+    if (!status) task->choice.verdict = g->method->choose(g->method->config, work, &task->cell, &task->choice.cut);
+    return status;
+}
+
+/** Names the cuts of all large cells that wait, and makes them. */
+static froe_status grow_level(grow *g, split_work *work) {
+    const grow_tasks level = g->next;
+    g->next = g->level;
+    g->level = level;
+    froe_status status = base_run(g->job->task, 0, level.count, choose_ahead, g);
+    for (size_t i = 0; i < level.count; i++) {
+        grow_task *task = level.data + i;
+        if (!status) status = take_up(work, task);
+        work->chosen = &task->choice;
+        if (!status) status = grow_cell(g, work, &task->cell);
+        work->chosen = NULL;
+        if (!status) status = grow_cells(g, work, true);
+        forget_task(&g->job->alloc, task);
+    }
+    g->level.count = 0;
+    return status;
+}
+
 static froe_status main_part(grow *g) {
     split_work *work = g->workers;
     uint32_t n = g->job->scene->object_count;
+    const uint32_t least = g->method->ahead ? TASK_LEAST_AHEAD : TASK_LEAST;
     work->set.draft = &g->main;
-    g->task_size = n / TASK_SHARE > TASK_LEAST ? n / TASK_SHARE : TASK_LEAST;
+    g->task_size = n / TASK_SHARE > least ? n / TASK_SHARE : least;
     froe_status status = push_root(g, work);
     if (!status) status = cut_root(g, work);
     if (!status) status = grow_cells(g, work, n > g->task_size || g->method->height > 0);
+    while (g->next.count && !status) status = grow_level(g, work);
     return status ? status : count_pieces(g, &g->main);
 }
 
@@ -266,26 +334,15 @@ static froe_status grow_task_from(grow *g, split_work *work, grow_task *task, ui
     if (status) return status;
     set->main = &g->main;
     set->draft = &task->draft;
-    set->items.count = set->corners.count = work->cells.count = 0;
-    if (!array_reserve(alloc, &set->items, task->cell.count) ||
-        !array_reserve(alloc, &set->corners, task->corner_count))
-        return FROE_E_MEMORY;
-    if (task->cell.count)
-        memcpy(set->items.data, g->store_items.data + task->first_item, task->cell.count * sizeof(split_fragment));
-    if (task->corner_count)
-        memcpy(set->corners.data, g->store_corners.data + task->first_corner,
-               task->corner_count * sizeof(split_corner));
-    set->items.count = task->cell.count;
-    set->corners.count = task->corner_count;
+    status = take_up(work, task);
+    if (status) return status;
     split_cell cell = task->cell;
     cell.node = task->draft.outer;
-    cell.first = 0;
-    cell.corner_top = task->corner_count;
     cell.depth += sunk;
     work->deepest = 0;
     if (!array_push(alloc, &work->cells, cell) || !fit_rooms(g->method, work)) return FROE_E_MEMORY;
     const size_t room = g->method->room;
-    if (room) memcpy(work->rooms.data + room, g->store_rooms.data + task->first_room, room);
+    if (room) memcpy(work->rooms.data + room, task->room.data, room);
     status = grow_cells(g, work, false);
     if (status == FROE_E_INPUT) memcpy(task->crossing, work->crossing, sizeof task->crossing);
     return status;
@@ -377,11 +434,9 @@ froe_status split_grow(const split_job *job, const split_method *method, froe_tr
         split_guard_tree_free(alloc, &work->thin);
     }
     support_free(alloc, g.workers, g.job->task->threads * sizeof *g.workers);
-    for (size_t i = 0; i < g.tasks.count; i++) draft_free(&g.tasks.data[i].draft);
-    array_free(alloc, &g.tasks);
-    array_free(alloc, &g.store_items);
-    array_free(alloc, &g.store_corners);
-    array_free(alloc, &g.store_rooms);
+    forget_tasks(alloc, &g.tasks);
+    forget_tasks(alloc, &g.level);
+    forget_tasks(alloc, &g.next);
     draft_free(&g.main);
     return status == FROE_E_INPUT ? status : split_explain(job->diag, job->max_fragments, status);
 }

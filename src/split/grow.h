@@ -5,8 +5,10 @@
  *     lowest->ids       [ .. | objects that nothing has cut yet | .. ]     in the guard stage only
  *
  * Nothing recurses. Cells of at most 1/64 of the fragments become tasks: each
- * is finished in a draft of its own, on any thread, and grafted. What a cell becomes depends
- * on its path and its fragments alone, so the tree is the same for any number of threads. */
+ * is finished in a draft of its own, on any thread, and grafted. Larger cells are cut on one thread. Where naming their
+ * cuts takes most of the time (split_method.ahead), they are worked off level by level: the cuts of a level are named
+ * on all threads, and made one after the other. What a cell becomes depends on its path and its fragments alone, so
+ * the tree is the same for any number of threads. */
 #ifndef FROE_SPLIT_GROW_H
 #define FROE_SPLIT_GROW_H
 #include "base/task.h"
@@ -45,6 +47,12 @@ typedef enum split_verdict {
     SPLIT_MEMORY,      /**< out of memory */
     SPLIT_CANCELLED    /**< split_go_on() returned false */
 } split_verdict;
+
+/** What `choose` of a method said. */
+typedef struct split_choice {
+    split_verdict verdict;
+    froe_cut cut;
+} split_choice;
 
 /** What trials go by (guard/trial.h). */
 typedef struct split_trial_terms {
@@ -110,6 +118,7 @@ typedef struct split_work {
     ARRAY(unsigned char) rooms; /**< split_method.room bytes each: of the cell at hand, then of those in cells */
     void *scratch;
     base_task *task;
+    const split_choice *chosen; /**< for the cell at hand, ahead of its turn; NULL: it has yet to be chosen */
     split_trial first, later;
     split_books books;
     uint64_t tests;        /**< fragments compared with planes: with cuts and with candidates for them */
@@ -135,6 +144,9 @@ typedef struct split_method {
     split_verdict (*choose)(const void *config, split_work *work, const split_cell *cell, froe_cut *cut);
     /** Grows the whole subtree of a cell at once; *done false: the cell is to be cut. NULL: never done. */
     froe_status (*finish)(const void *config, split_work *work, const split_cell *cell, bool *done);
+    /** Does `choose` read nothing but the fragments of the cell and the cuts above it, and take long? Then it is called
+     * for many large cells at once, before any of them is cut. REQUIRES: no guard stage, no boxes. */
+    bool ahead;
     /** Bytes that the method keeps of a cell besides, its room: all zero at the root. */
     size_t room;
     /** Fills the rooms of the children, positive and negative, of a cell that `cut` has just cut: so far they are
