@@ -224,8 +224,7 @@ static froe_status read_root_member(geojson *g, formats_scan_text *name, bool *t
         if (*filled || g->named || !formats_scan_string(&g->at, &text)) return odd_text(g);
         g->named = true;
         g->layer = formats_scan_decode(&text);
-    } else if (formats_scan_is(name, "properties") || formats_scan_is(name, "exceededTransferLimit") ||
-               !formats_scan_skip(&g->at)) {
+    } else if (!formats_scan_skip(&g->at)) {
         return odd_text(g);
     }
     return FROE_OK;

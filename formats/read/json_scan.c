@@ -51,7 +51,7 @@ static bool pass_digits(char **at) {
 }
 
 bool formats_scan_any_number(char **at, double *value) {
-    enum { MOST_WHOLE = 18, MOST_LENGTH = 1000, MOST_EXPONENT = 2 };
+    enum { MOST_WHOLE = 18, MOST_LENGTH = 1000 };
     char *c = *at + (**at == '-'), *const first = c, *end;
     if (*c == '0' ? (c++, false) : !pass_digits(&c)) return false;
     bool whole = true;
@@ -62,8 +62,7 @@ bool formats_scan_any_number(char **at, double *value) {
     if (*c == 'e' || *c == 'E') {
         whole = false;
         c += c[1] == '+' || c[1] == '-' ? 2 : 1;
-        char *const exponent = c;
-        if (!pass_digits(&c) || c - exponent > MOST_EXPONENT) return false;
+        if (!pass_digits(&c)) return false;
     }
     if (c - first > (whole ? MOST_WHOLE : MOST_LENGTH)) return false;
     *value = support_decimal(*at, &end);

@@ -3,8 +3,7 @@
  *     {"a": [1, 2], "b": "c"}       formats_scan_member() a, formats_scan_item(), formats_scan_number() 1, ...
  *
  * The text ends with a NUL, and none is in it. What readers of JSON disagree about, or few files have, is odd: names of
- * members with escapes, whole numbers of more than 18 digits, exponents of more than two, infinite numbers, values
- * nested more than FORMATS_SCAN_DEPTH deep. */
+ * members with escapes, whole numbers of more than 18 digits, numbers that are infinite as doubles, values nested more than FORMATS_SCAN_DEPTH deep. */
 #ifndef FROE_FORMATS_JSON_SCAN_H
 #define FROE_FORMATS_JSON_SCAN_H
 #include "support/decimal/decimal.h"

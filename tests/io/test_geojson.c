@@ -170,7 +170,7 @@ static const struct {
     {true, SHAPED("Point", "[ 1.00 ,\n\t2\r]")},
     {true, SHAPED("Point", "[500000.1,1e10]")},
     {false, SHAPED("Point", "[1e400,0]")},
-    {false, SHAPED("Point", "[1e100,0]")},
+    {true, SHAPED("MultiPoint", "[[1e100,0],[1e-100,5e-324],[1e-400,1.7976931348623157e+0308]]")},
     {false, SHAPED("Point", "[12345678901234567890,0]")},
     {false, SHAPED("Point", "[+1,0]")},
     {false, SHAPED("Point", "[.5,0]")},
@@ -241,6 +241,8 @@ static const struct {
     {false, TWO("\"name\":\"b\",", "null", "", "{\"name\":\"a\"}")},
     /* collections */
     {true, ALL("")},
+    {true, "{\"type\":\"FeatureCollection\",\"properties\":{\"kind\":\"state\"},\"features\":[" FEATURE("", "{}",
+                                                                                                        SQUARE) "]}"},
     {true, "\xef\xbb\xbf \n" SHAPE(SQUARE) "\n\t "},
     {true, "{\"type\":\"FeatureCollection\",\"name\":\"the layer\",\"crs\":null,\"features\":[" FEATURE(
                "\"bbox\":[0,0,1,1],", "{}", SQUARE) "],\"bbox\":[0,0,4,4]}"},
