@@ -1,6 +1,7 @@
 /* rows.c: headers, records and numbers. */
 #include "queries/rows.h"
 #include "exit.h"
+#include "support/decimal/decimal.h"
 #include "support/path.h"
 #include <errno.h>
 #include <stdlib.h>
@@ -9,12 +10,26 @@
 
 /* ----------------------------------------------------------------- records -- */
 
-/* Reads a line with its end. False: there is none. */
+/* Makes room for so many bytes, a NUL, and what numbers are read ahead. */
+static bool make_room(char **text, size_t *capacity, size_t length) {
+    enum { BEHIND = 1 + SUPPORT_DECIMAL_AHEAD };
+    if (*capacity < length + BEHIND) {
+        char *more = realloc(*text, 2 * length + BEHIND);
+        if (!more) return errno = ENOMEM, false;
+        *text = more;
+        *capacity = 2 * length + BEHIND;
+    }
+    memset(*text + length, '\0', BEHIND);
+    return true;
+}
+
+/* Reads a line with its end. False: there is none, or no memory. */
 static bool next_line(cli_rows *rows, char **text, size_t *capacity, size_t *length) {
     const ssize_t got = getline(text, capacity, rows->file);
     if (got < 0) return false;
     rows->lines++;
     *length = (size_t)got;
+    if (!make_room(text, capacity, *length)) return false;
     for (char *zero; (zero = memchr(*text, '\0', *length));) *zero = '?'; /* no text: it spoils its field */
     return true;
 }
@@ -33,13 +48,8 @@ static bool next_record(cli_rows *rows) {
     }
     rows->open = memchr(rows->text, '"', length) && support_csv_goes_on(rows->text, rows->separator, false);
     while (rows->open && next_line(rows, &rows->more, &rows->room, &more)) {
-        if (length + more >= rows->capacity) {
-            char *text = realloc(rows->text, 2 * (length + more) + 1);
-            if (!text) return errno = ENOMEM, false;
-            rows->text = text;
-            rows->capacity = 2 * (length + more) + 1;
-        }
-        memcpy(rows->text + length, rows->more, more + 1);
+        if (!make_room(&rows->text, &rows->capacity, length + more)) return false;
+        memcpy(rows->text + length, rows->more, more);
         length += more;
         rows->open = support_csv_goes_on(rows->more, rows->separator, true);
     }

@@ -1,5 +1,6 @@
 /* source.c: from a path to a scene, by the reader that is chosen by the first bytes of the file. */
 #include "formats/input/source.h"
+#include "support/decimal/decimal.h"
 #include "support/locale.h"
 #include <errno.h>
 #include <fcntl.h>
@@ -81,7 +82,9 @@ bool formats_is_collection(const formats_source *source) {
 }
 
 froe_status formats_load(const formats_source *source, formats_sink *sink, bool binary, formats_text *text) {
-    const bool room = source->size < SIZE_MAX && array_reserve(&sink->alloc, text, (size_t)source->size + 1);
+    enum { BEHIND = 1 + SUPPORT_DECIMAL_AHEAD };
+    const bool room =
+        source->size < SIZE_MAX - BEHIND && array_reserve(&sink->alloc, text, (size_t)source->size + BEHIND);
     char *to = text->data;
     if (!room) return support_fail_memory(sink->diag);
     int file = open(source->file, O_RDONLY | O_CLOEXEC);
@@ -90,7 +93,7 @@ froe_status formats_load(const formats_source *source, formats_sink *sink, bool 
     if (file >= 0) close(file);
     if (got < 0) return support_fail_file(sink->diag, "read", source->path, error);
     text->count = drop_mark(to, (size_t)got);
-    to[text->count] = '\0';
+    memset(to + text->count, '\0', BEHIND);
     if (!binary && memchr(to, '\0', text->count))
         return support_fail(sink->diag, FROE_E_FORMAT, "%s: The file is not text, because byte %zu is zero.",
                             support_short(source->path), strlen(to));

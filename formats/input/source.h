@@ -44,7 +44,8 @@ froe_status formats_read(const formats_readers *readers, const char *path, const
                          froe_scene **out, froe_read_report *report, froe_diagnostic *diag);
 
 typedef ARRAY(char) formats_text;
-/** The whole file but for a byte order mark, and a NUL behind it. FROE_E_IO, FROE_E_MEMORY; FROE_E_FORMAT when a text
+/** The whole file but for a byte order mark, and behind it a NUL and as many more as numbers are read ahead
+ * (support/decimal/decimal.h). FROE_E_IO, FROE_E_MEMORY; FROE_E_FORMAT when a text
  * holds a NUL. */
 froe_status formats_load(const formats_source *source, formats_sink *sink, bool binary, formats_text *text);
 

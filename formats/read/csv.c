@@ -11,8 +11,11 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Where the radius of a ball stands among the numbers of a row, and what stands for a column without number. */
+enum { RADIUS = 2 * FROE_MAX_DIM, NO_NUMBER };
+
 typedef struct csv_row {
-    double corners[2 * FROE_MAX_DIM], radius; /* corner 1 directly behind corner 0 */
+    double numbers[NO_NUMBER]; /* the corners, corner 1 directly behind corner 0, and the radius */
     uint64_t row, tag, hull;
     bool tagged;
     const char *name; /* of its group; NULL or "": none */
@@ -23,8 +26,9 @@ typedef struct csv_reader {
     formats_csv_table table;
     const char *name; /* of the last group, in the text */
     uint32_t group;
-    uint64_t line; /* that the next record begins in, from 1 */
-    csv_row first; /* of the hull whose rows are read */
+    uint64_t line;                            /* that the next record begins in, from 1 */
+    csv_row row, first;                       /* the current one; that of the hull whose rows are read */
+    unsigned char place[SUPPORT_CSV_COLUMNS]; /* of the number of a column */
     ARRAY(double) corners;
 } csv_reader;
 
@@ -34,13 +38,19 @@ static froe_status read_csv_number(formats_sink *sink, char *field, char separat
     return formats_sink_fail(sink, FROE_E_FORMAT, "'%.40s' is not a number.", field);
 }
 
-static froe_status read_field(formats_sink *sink, const formats_csv_table *t, int role, char *field, csv_row *r) {
-    if (role == FORMATS_CSV_RADIUS && t->kind == FROE_BALL)
-        return read_csv_number(sink, field, t->separator, &r->radius);
-    if (role < FORMATS_CSV_RADIUS) {
-        int corner = role / FROE_MAX_DIM, axis = role % FROE_MAX_DIM;
-        return read_csv_number(sink, field, t->separator, &r->corners[corner * t->dim + axis]);
-    }
+/* Where the number of a column with this role stands. */
+static unsigned char place_of_role(const formats_csv_table *t, int role) {
+    if (role == FORMATS_CSV_RADIUS && t->kind == FROE_BALL) return RADIUS;
+    const int corner = role / FROE_MAX_DIM, axis = role % FROE_MAX_DIM;
+    return role < FORMATS_CSV_RADIUS ? (unsigned char)(corner * t->dim + axis) : NO_NUMBER;
+}
+
+static froe_status read_field(csv_reader *c, int column, char *field) {
+    const formats_csv_table *t = &c->table;
+    csv_row *r = &c->row;
+    const int role = t->role[column];
+    if (c->place[column] != NO_NUMBER)
+        return read_csv_number(c->sink, field, t->separator, r->numbers + c->place[column]);
     if (role == FORMATS_CSV_NAME) r->name = field;
     const bool hull = role == FORMATS_CSV_HULL && t->kind == FROE_HULL;
     if (role != FORMATS_CSV_TAG && !hull) return FROE_OK;
@@ -49,7 +59,7 @@ static froe_status read_field(formats_sink *sink, const formats_csv_table *t, in
     *(hull ? &r->hull : &r->tag) = strtoull(field, &end, 10);
     if (!hull) r->tagged = true;
     if (end == field || *end || errno || *field == '-')
-        return formats_sink_fail(sink, FROE_E_FORMAT, "The %s '%.40s' is not a whole number below 2^64.",
+        return formats_sink_fail(c->sink, FROE_E_FORMAT, "The %s '%.40s' is not a whole number below 2^64.",
                                  hull ? "hull" : "tag", field);
     return FROE_OK;
 }
@@ -86,7 +96,7 @@ static froe_status take_corner(csv_reader *c, const csv_row *r) {
         if (status) return status;
     }
     if (!c->corners.count) c->first = *r;
-    return array_append(&c->sink->alloc, &c->corners, r->corners, (size_t)c->table.dim)
+    return array_append(&c->sink->alloc, &c->corners, r->numbers, (size_t)c->table.dim)
                ? FROE_OK
                : support_fail_memory(c->sink->diag);
 }
@@ -101,28 +111,42 @@ static froe_status refuse_open(formats_sink *sink, uint64_t line) {
 static froe_status read_row(csv_reader *c, char **at, uint64_t row) {
     formats_sink *sink = c->sink;
     const formats_csv_table *t = &c->table;
-    csv_row r = {.row = row};
-    support_csv_field field = {.last = false};
-    froe_status status = FROE_OK;
+    csv_row *r = &c->row;
+    bool last = false;
     int column = 0;
     const uint64_t line = c->line++;
-    sink->number = row;
-    for (; !field.last && !status; ++column) {
-        field = support_csv_next(at, t->separator);
+    r->row = sink->number = row;
+    r->name = NULL;
+    for (; !last; ++column) {
+        const int place = column < t->columns ? c->place[column] : NO_NUMBER;
+        if (place != NO_NUMBER && support_csv_plain(at, t->separator, r->numbers + place, &last)) continue;
+        const support_csv_field field = support_csv_next(at, t->separator);
         if (field.open) return refuse_open(sink, line);
         c->line += support_csv_line_ends(&field);
-        if (column < t->columns) status = read_field(sink, t, t->role[column], field.text, &r);
+        last = field.last;
+        const froe_status status = column < t->columns ? read_field(c, column, field.text) : FROE_OK;
+        if (status) return status;
     }
-    if (status) return status;
     if (column != t->columns)
         return formats_sink_fail(sink, FROE_E_FORMAT, "The row has %d columns, and the header %d.", column, t->columns);
-    if (t->kind == FROE_HULL) return take_corner(c, &r);
-    status = begin_object(c, &r);
+    if (t->kind == FROE_HULL) return take_corner(c, r);
+    const froe_status status = begin_object(c, r);
     if (status) return status;
-    if (t->kind == FROE_SEGMENT) return formats_sink_segment(sink, r.corners, r.corners + t->dim);
-    if (t->kind == FROE_BOX) return formats_sink_box(sink, r.corners, r.corners + t->dim);
-    if (t->kind == FROE_BALL) return formats_sink_ball(sink, r.corners, r.radius);
-    return formats_sink_point(sink, r.corners);
+    if (t->kind == FROE_SEGMENT) return formats_sink_segment(sink, r->numbers, r->numbers + t->dim);
+    if (t->kind == FROE_BOX) return formats_sink_box(sink, r->numbers, r->numbers + t->dim);
+    if (t->kind == FROE_BALL) return formats_sink_ball(sink, r->numbers, r->numbers[RADIUS]);
+    return formats_sink_point(sink, r->numbers);
+}
+
+/* Does the next line have no record? Then it is passed. */
+static bool pass_blank_line(csv_reader *c, char **at) {
+    if ((unsigned char)**at > ' ') return false;
+    const char *word = *at + strspn(*at, " \t\r");
+    if (*word != '\n' && *word) return false;
+    *at += strcspn(*at, "\n");
+    *at += **at == '\n';
+    ++c->line;
+    return true;
 }
 
 static froe_status refuse_header(const csv_reader *c, const formats_source *source, formats_csv_header what) {
@@ -160,14 +184,9 @@ froe_status formats_read_csv(const formats_source *source, formats_sink *sink) {
     if (!status)
         formats_report_format(sink, "float64", "CSV %ss",
                               c.table.kind == FROE_BOX ? "boxe" : froe_kind_name(c.table.kind));
+    for (int i = 0; i < c.table.columns; ++i) c.place[i] = place_of_role(&c.table, c.table.role[i]);
     while (!status && *at) {
-        const char *word = at + strspn(at, " \t\r");
-        if (*word == '\n' || !*word) { /* a blank line */
-            at += strcspn(at, "\n");
-            at += *at == '\n';
-            ++c.line;
-            continue;
-        }
+        if (pass_blank_line(&c, &at)) continue;
         status = read_row(&c, &at, ++row);
         if (!status && row % ROWS_PER_REPORT == 0)
             status = formats_sink_progress(sink, (double)(at - text.data) / (double)text.count);

@@ -65,7 +65,7 @@ bool formats_scan_any_number(char **at, double *value) {
         if (!pass_digits(&c)) return false;
     }
     if (c - first > (whole ? MOST_WHOLE : MOST_LENGTH)) return false;
-    *value = support_decimal(*at, &end);
+    *value = support_decimal_ahead(*at, &end);
     *at = c;
     return end == c && isfinite(*value);
 }

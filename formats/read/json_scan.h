@@ -2,8 +2,9 @@
  *
  *     {"a": [1, 2], "b": "c"}       formats_scan_member() a, formats_scan_item(), formats_scan_number() 1, ...
  *
- * The text ends with a NUL, and none is in it. What readers of JSON disagree about, or few files have, is odd: names of
- * members with escapes, whole numbers of more than 18 digits, numbers that are infinite as doubles, values nested more than FORMATS_SCAN_DEPTH deep. */
+ * The text ends with a NUL, and none is in it; numbers are read ahead of it (support/decimal/decimal.h). What readers
+ * of JSON disagree about, or few files have, is odd: names of members with escapes, whole numbers of more than 18
+ * digits, numbers that are infinite as doubles, values nested more than FORMATS_SCAN_DEPTH deep. */
 #ifndef FROE_FORMATS_JSON_SCAN_H
 #define FROE_FORMATS_JSON_SCAN_H
 #include "support/decimal/decimal.h"
@@ -63,7 +64,7 @@ static inline bool formats_scan_number(char **at, double *value) {
     if (c - first > 18) return formats_scan_any_number(at, value);
     if (*c == '.') {
         const char *point = ++c;
-        for (; (unsigned char)(*c - '0') < 10; c++) w = 10 * w + (uint64_t)(*c - '0');
+        c = (char *)support_decimal_digits(c, &w);
         q = (int)(point - c);
         if (!q || c - first > 20) return formats_scan_any_number(at, value);
     }

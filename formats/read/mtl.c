@@ -61,7 +61,7 @@ static const char *after(const char *line, const char *word) {
 static void read_colour(formats_material *m, const char *at) {
     int count = 0;
     for (char *end; count < 3; count++, at = end) {
-        m->rgba[count] = support_decimal(at, &end);
+        m->rgba[count] = support_decimal_ahead(at, &end);
         if (end == at) break;
     }
     m->coloured = count > 0;
@@ -70,7 +70,7 @@ static void read_colour(formats_material *m, const char *at) {
 
 static void read_share(double *share, const char *at, bool clear) {
     char *end;
-    const double value = support_decimal(at, &end);
+    const double value = support_decimal_ahead(at, &end);
     if (end != at) *share = clear ? 1 - value : value;
 }
 

@@ -196,7 +196,7 @@ static froe_status read_line(obj *o) {
         char *end = line + 1;
         for (int k = 0; k < 3; ++k) {
             const char *from = end;
-            p[k] = support_decimal(from, &end);
+            p[k] = support_decimal_ahead(from, &end);
             if (end == from) return broken_obj(o, "A vertex needs three coordinates.");
         }
         return array_append(&o->sink->alloc, &o->points, p, 3) ? read_shade(o, end) : out_of_memory(o);

@@ -52,7 +52,7 @@ static void skip_line(off *o) {
 static bool number(off *o, double *value) {
     char *end;
     skip_blanks(o);
-    *value = support_decimal(o->at, &end);
+    *value = support_decimal_ahead(o->at, &end);
     bool found = end != o->at;
     o->at = end;
     return found;
@@ -76,7 +76,7 @@ static uint32_t rest_colour(off *o) {
         char *end;
         o->at += strspn(o->at, " \t\r");
         if (!*o->at || !strchr("+-.0123456789", *o->at)) break;
-        shares[count] = support_decimal(o->at, &end);
+        shares[count] = support_decimal_ahead(o->at, &end);
         if (end == o->at) break;
         whole_numbers = whole_numbers && strcspn(o->at, ".eE") >= (size_t)(end - o->at);
         o->at = end;

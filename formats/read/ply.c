@@ -157,7 +157,7 @@ static froe_status read_ply_header(ply *p) {
 static bool read_number(ply *p, ply_type type, double *value) {
     if (p->text) {
         char *end;
-        *value = support_decimal(p->at, &end);
+        *value = support_decimal_ahead(p->at, &end);
         bool found = end != p->at;
         p->at = end;
         return found;

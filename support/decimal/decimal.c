@@ -67,25 +67,36 @@ double support_decimal_nearest(uint64_t w, long long q) {
     return q > GREATEST_POWER ? HUGE_VAL : round_by_powers(w, (int)q);
 }
 
-double support_decimal(const char *text, char **end) {
+/* Digits one by one. */
+static inline const char *pass_digits(const char *at, uint64_t *w) {
+    for (; is_digit(*at); ++at) *w = 10 * *w + (uint64_t)(*at - '0');
+    return at;
+}
+
+/* ahead: bytes behind the NUL may be read. */
+static inline double read_decimal(const char *text, char **end, bool ahead) {
     const char *at = text;
     while (*at == ' ' || (*at >= '\t' && *at <= '\r')) ++at;
     const bool negative = *at == '-';
     at += *at == '-' || *at == '+';
     const char *first = at;
     uint64_t w = 0;
-    size_t digits = 0; /* behind leading zeros */
-    for (; is_digit(*at); ++at) w = 10 * w + (uint64_t)(*at - '0'), digits += w || digits;
+    at = pass_digits(at, &w); /* mostly few */
     const bool whole = at > first;
+    size_t length = (size_t)(at - first);
     long long q = 0;
     if (*at == '.' && (whole || is_digit(at[1]))) {
         const char *point = ++at;
-        for (; is_digit(*at); ++at) w = 10 * w + (uint64_t)(*at - '0'), digits += w || digits;
+        at = ahead ? support_decimal_digits(at, &w) : pass_digits(at, &w);
         q = point - at;
+        length = (size_t)(at - first) - 1;
     } else if (!whole || *at == 'x' || *at == 'X') {
         return strtod(text, end); /* nothing, infinity, NaN, or hexadecimal */
     }
-    if (digits > MOST_DIGITS) return strtod(text, end); /* w has overflown */
+    if (length > MOST_DIGITS) { /* w may have overflown: zeros before its first digit do not count */
+        for (; *first == '0' || *first == '.'; first++) length -= *first == '0';
+        if (length > MOST_DIGITS) return strtod(text, end);
+    }
     if (*at == 'e' || *at == 'E') {
         const char *e = at + 1;
         const bool down = *e == '-';
@@ -100,4 +111,12 @@ double support_decimal(const char *text, char **end) {
     *end = (char *)at;
     const double value = support_decimal_nearest(w, q);
     return negative ? -value : value;
+}
+
+double support_decimal(const char *text, char **end) {
+    return read_decimal(text, end, false);
+}
+
+double support_decimal_ahead(const char *text, char **end) {
+    return read_decimal(text, end, true);
 }

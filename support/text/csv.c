@@ -57,7 +57,6 @@ static char *unquote(char *to, const char *from, char **rest) {
 }
 
 support_csv_field support_csv_next(char **at, char separator) {
-    const char ends[] = {separator, '\n', '\0'};
     char *from = *at, *to, *least;
     while (*from == ' ') ++from;
     support_csv_field field = {.text = from, .quoted = *from == '"'};
@@ -67,7 +66,7 @@ support_csv_field support_csv_next(char **at, char separator) {
         to = least = unquote(to, from, &from);
     }
     const size_t moved = (size_t)(from - to);
-    from += strcspn(from, ends);
+    while (*from && *from != separator && *from != '\n') ++from;
     to = from - moved;
     if (moved) memmove(least, least + moved, (size_t)(to - least));
     field.last = *from != separator;
@@ -99,10 +98,21 @@ bool support_csv_goes_on(const char *text, char separator, bool within) {
     return false;
 }
 
+bool support_csv_plain(char **at, char separator, double *out, bool *last) {
+    char *from = *at, *end;
+    if ((unsigned char)(*from - '0') >= 10 && *from != '-' && *from != '.') return false; /* blanks may be line ends */
+    *out = support_decimal_ahead(from, &end);
+    end += *end == '\r';
+    if (end == from || (*end != separator && *end != '\n')) return false;
+    *last = *end == '\n';
+    *at = end + 1;
+    return true;
+}
+
 bool support_csv_number(char *field, char separator, double *out) {
     char *end, *comma = separator == ';' ? strchr(field, ',') : NULL;
     if (comma) *comma = '.';
-    *out = support_decimal(field, &end);
+    *out = support_decimal_ahead(field, &end);
     const bool whole = end != field && (!*end || !end[strspn(end, " 	")]);
     if (comma) *comma = ',';
     return whole;

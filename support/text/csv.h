@@ -4,7 +4,8 @@
  *     "St. ""J""; Ont.";-81,2;43 fields in quotation marks have any text, line ends too;
  *                                numbers may have decimal commas where semicolons separate
  *
- * Fields are read in place: a text is changed while it is read. */
+ * Fields are read in place: a text is changed while it is read. It ends with a NUL, and numbers are read ahead of it
+ * (support/decimal/decimal.h). */
 #ifndef FROE_SUPPORT_TEXT_CSV_H
 #define FROE_SUPPORT_TEXT_CSV_H
 #include <stdbool.h>
@@ -28,6 +29,9 @@ size_t support_csv_line_ends(const support_csv_field *field);
 /** Does the text end within quotation marks, so that its last record goes on in the next line? `within`: it begins
  * there. */
 bool support_csv_goes_on(const char *text, char separator, bool within);
+/** Passes a number that stands alone in a field, without blanks and quotation marks, and what separates it from the
+ * next; *last: it ends its record. False: something else stands there, and nothing is passed. */
+bool support_csv_plain(char **at, char separator, double *out, bool *last);
 /** Is the field a number, and nothing else? *out is the nearest double. For threads in the locale C. The field is the
  * same again afterwards. */
 bool support_csv_number(char *field, char separator, double *out);

@@ -17,13 +17,23 @@
 #include <string.h>
 
 static void check(const char *text) {
-    char *end, *stop;
-    const double expected = strtod(text, &stop), found = support_decimal(text, &end);
-    uint64_t a, b;
-    memcpy(&a, &expected, sizeof a);
-    memcpy(&b, &found, sizeof b);
-    if (end != stop || (a != b && !(isnan(expected) && isnan(found))))
-        fail_msg("'%s': %a up to %td, not %a up to %td", text, found, end - text, expected, stop - text);
+    const size_t length = strlen(text);
+    char *ahead = malloc(length + 1 + SUPPORT_DECIMAL_AHEAD), *stop;
+    assert_non_null(ahead);
+    memcpy(ahead, text, length + 1);
+    memset(ahead + length + 1, '5', SUPPORT_DECIMAL_AHEAD); /* which must not count */
+    const double expected = strtod(text, &stop);
+    for (int i = 0; i < 2; i++) {
+        char *end;
+        const double found = i ? support_decimal_ahead(ahead, &end) : support_decimal(text, &end);
+        const ptrdiff_t passed = end - (i ? ahead : text);
+        uint64_t a, b;
+        memcpy(&a, &expected, sizeof a);
+        memcpy(&b, &found, sizeof b);
+        if (passed != stop - text || (a != b && !(isnan(expected) && isnan(found))))
+            fail_msg("'%s': %a up to %td, not %a up to %td", text, found, passed, expected, stop - text);
+    }
+    free(ahead);
 }
 
 /* clang-format off */
