@@ -24,13 +24,11 @@ const cli_option cli_tree_build_options[] = {
     {0},
 };
 
-/* Is the file a tree by its content, or by its name, when it was damaged? */
-static bool is_tree(const char *path) {
+bool cli_is_saved_tree(const char *path) {
     return froe_is_tree(path) || !strcmp(support_path_extension(path).text, "froe");
 }
 
-/* The options that only a scene that is read and built can obey. */
-static int open_saved(const cli_common *common, const cli_tree_args *args, froe_tree **tree) {
+int cli_open_saved_tree(const cli_common *common, const cli_tree_args *args, froe_tree **tree) {
     const struct {
         bool given;
         const char *name;
@@ -77,7 +75,7 @@ int cli_save_tree(const froe_tree *tree, const char *path) {
 int cli_open_tree(const cli_common *common, const cli_tree_args *args, const char *purpose, froe_tree **tree) {
     froe_scene *scene;
     froe_read_report reader;
-    if (is_tree(args->scene.path)) return open_saved(common, args, tree);
+    if (cli_is_saved_tree(args->scene.path)) return cli_open_saved_tree(common, args, tree);
     int code = args->method ? cli_check_method(args->method, true) : 0;
     if (!code) code = cli_read_scene(common, &args->scene, &scene, &reader);
     if (code) return code;

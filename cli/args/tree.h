@@ -29,6 +29,11 @@ int cli_build_tree(const cli_common *common, const char *path, uint64_t max_frag
                    froe_build_options *o, froe_tree **tree);
 /** Saves it. Returns 0, or an exit code after saying why. */
 int cli_save_tree(const froe_tree *tree, const char *path);
+/** Is the file a tree by its content, or by its name, when it was damaged? */
+bool cli_is_saved_tree(const char *path);
+/** Opens one, and refuses the options that only a scene that is read and built can obey. Returns 0, or an exit code
+ * after saying why. */
+int cli_open_saved_tree(const cli_common *common, const cli_tree_args *args, froe_tree **tree);
 /** Opens a saved tree, or reads a scene and builds a tree for `purpose` (one of froe_build_options), with progress
  * bars, and saves it where --save-tree says. Returns 0, or an exit code after saying why. */
 int cli_open_tree(const cli_common *common, const cli_tree_args *args, const char *purpose, froe_tree **tree);
