@@ -180,6 +180,8 @@ void froe_kinetic_free(froe_kinetic *k) {
     array_free(&alloc, &k->events.order);
     array_free(&alloc, &k->events.roots);
     array_free(&alloc, &k->events.leaving);
+    array_free(&alloc, &k->events.staying);
+    array_free(&alloc, &k->events.renewed);
     array_free(&alloc, &k->events.turning);
     now_free(&k->now);
     support_free(&alloc, k, sizeof *k);

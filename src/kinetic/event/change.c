@@ -74,7 +74,7 @@ void change_unroll(froe_kinetic *k, uint32_t segment) {
         while (*at != 2 * segment + i) at = &ktree_segment_at(&k->tree, *at / 2)->end[*at % 2].next;
         *at = s->end[i].next;
     }
-    s->alive = s->here = false;
+    s->alive = s->here = s->stays = false;
     cert_forget(&k->certs, &k->certs.segments.data[segment].turn);
 }
 

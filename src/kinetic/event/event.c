@@ -5,6 +5,7 @@
 #include "kinetic/certificate/certify.h"
 #include "kinetic/event/change.h"
 #include "kinetic/event/pass.h"
+#include "kinetic/event/renew.h"
 #include "kinetic/kinetic.h"
 
 enum { CAREFUL_ROUND = 4, RESTART_ROUND = 16, LAST_ROUND = 20 };
@@ -336,6 +337,8 @@ static bool settle_tick(froe_kinetic *k, const event_watcher *watcher) {
 /* ------------------------------------------------------------------- steps -- */
 
 static void leave_tree(froe_kinetic *k, uint32_t segment, uint32_t tell_it) {
+    if (ktree_segment_at(&k->tree, segment)->stays) tell_it = 1;
+    ktree_segment_at(&k->tree, segment)->stays = false;
     for (size_t i = 0; i < k->events.leaving.count; i++)
         if (k->events.leaving.data[i] / 2 == segment) {
             k->events.leaving.data[i] |= tell_it;
@@ -345,11 +348,11 @@ static void leave_tree(froe_kinetic *k, uint32_t segment, uint32_t tell_it) {
 }
 
 /* Takes out the segments that have to be out before time goes on to the tick. Others in one line with them may have to
- * be taken out, too. */
+ * be taken out, too, and what that changes may keep others from staying. */
 static void let_leave(froe_kinetic *k, int64_t tick) {
     size_t gone = 0;
-    k->events.leaving.count = 0;
-    for (;;) {
+    k->events.leaving.count = k->events.staying.count = 0;
+    for (bool first = true;; first = false) {
         cert_find_due(&k->certs, tick);
         for (size_t i = 0; i < k->certs.queue.due.count; i++) {
             const cert_record *c = k->certs.all.data + k->certs.queue.due.data[i];
@@ -362,6 +365,8 @@ static void let_leave(froe_kinetic *k, int64_t tick) {
             const uint32_t cert = k->certs.queue.due.data[i];
             if (k->certs.all.data[cert].kind == CERT_COURSE) cert_set_tick(&k->certs, cert, NOW_NEVER);
         }
+        if (first) renew_choose(k, tick);
+        if (gone == k->events.leaving.count) renew_check(k, tick);
         if (gone == k->events.leaving.count || k->call.stopped) return;
         for (; gone < k->events.leaving.count && !k->call.stopped; gone++)
             change_remove(k, k->events.leaving.data[gone] / 2);
@@ -387,7 +392,8 @@ static void turn_segments(froe_kinetic *k) {
     events->turning.count = kept;
 }
 
-/* Puts those that have left back into the tree, if they are there, and tells what has changed. */
+/* Puts those that have left back into the tree, if they are there, and tells what has changed, in the order of the
+ * segments. */
 static bool enter_tree(froe_kinetic *k, const event_watcher *watcher) {
     static const now_claim nothing = {{0, NAME_NONE}, {0, NAME_NONE}, 0};
     bool go_on = true;
@@ -399,7 +405,8 @@ static bool enter_tree(froe_kinetic *k, const event_watcher *watcher) {
         froe_event_kind kind = !there                          ? FROE_EVENT_DISAPPEAR
                                : k->now.tick <= (o->first | 1) ? FROE_EVENT_APPEAR
                                                                : FROE_EVENT_PLAN;
-        if (there) change_insert(k, s);
+        if (there && !ktree_segment_at(&k->tree, s)->stays) change_insert(k, s);
+        ktree_segment_at(&k->tree, s)->stays = false;
         froe_event event = event_at(&k->now, kind);
         add_object(&event, s);
         if (k->events.leaving.data[i] % 2) go_on &= tell_event(k, watcher, &event, &nothing);
@@ -414,8 +421,11 @@ bool event_step(froe_kinetic *k, int64_t tick, const event_watcher *watcher) {
         k->now.tick = tick;
         return true;
     }
+    /* All certificates hold until then. What comes next to each other where a segment leaves must not pass before. */
+    if (next - 2 > k->now.tick) k->now.tick = next - 2;
     let_leave(k, next);
     k->now.tick = next;
+    renew_apply(k);
     turn_segments(k);
     bool go_on = settle_tick(k, watcher);
     go_on &= enter_tree(k, watcher);

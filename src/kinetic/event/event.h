@@ -17,11 +17,20 @@ typedef struct event_watcher {
     void *user;
 } event_watcher;
 
+/** A certificate about a segment that stays (event/renew.h). */
+typedef struct event_renewal {
+    uint32_t cert;
+    int turn[2];  /**< how the lines of the crossings turn that it is about */
+    int64_t tick; /**< at which it fails from now on */
+} event_renewal;
+
 typedef struct event_state {
     ARRAY(slab_item) items;  /**< certificates that fail at this tick */
     ARRAY(uint32_t) order;   /**< of the items, while they are sorted */
     ARRAY(uint32_t) roots;   /**< places in the tree where surgery is needed: 4 parent + slot */
     ARRAY(uint32_t) leaving; /**< 2 segment + 1: its plan or life changes now; 2 segment: it may come into the tree */
+    ARRAY(uint32_t) staying; /**< segments whose plans change now, and that stay in the tree */
+    ARRAY(event_renewal) renewed;
     ARRAY(uint32_t) turning; /**< segments whose ends change sides now */
     bool reporting;          /**< a visitor is in the callback of an event, */
     now_claim reported;      /**< about this; no points: appearances and the like */

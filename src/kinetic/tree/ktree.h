@@ -60,6 +60,7 @@ typedef struct ktree_segment {
     bool alive;     /**< its life has begun and not ended */
     bool here;      /**< the tree is made of it and others: it is alive and not a single point */
     bool bound;     /**< a point of it coincides with a point of another segment for as long as the plans last */
+    bool stays;     /**< its plan goes on at the next tick, and it is not taken out for that (event/renew.h) */
     ktree_end end[2];
 } ktree_segment;
 
