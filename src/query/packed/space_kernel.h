@@ -8,6 +8,14 @@
 #define FROE_QUERY_PACKED_SPACE_KERNEL_H
 #include "query/packed/packed_kernel.h"
 #include "tree/packed/wide.h"
+#include <string.h>
+
+/** Short vectors in the notation that gcc and clang have for any machine: the axes, and something unused. */
+typedef double space_doubles __attribute__((vector_size(32)));
+typedef int64_t space_longs __attribute__((vector_size(32)));
+typedef float space_floats __attribute__((vector_size(16)));
+typedef int32_t space_ints __attribute__((vector_size(16)));
+typedef uint8_t space_bytes __attribute__((vector_size(4)));
 
 /** A ray o + u d in the coordinates of a wide tree, in whose box it is for u >= start only. Keys are u - start. Fourth
  * components are 0, since kernels load four. */
@@ -16,7 +24,6 @@ typedef struct space_ray {
     double o[4], d[4]; /**< the largest component of d is between 1/2 and 1 */
     double entry[4];   /**< o + start d */
     double inverse[4]; /**< 1 / d, at most 2^60 */
-    double slack[4];   /**< what rounding may cost along an axis */
     double start;
     double largest; /**< component of d */
     float step[4];  /**< 1 / d */
@@ -56,7 +63,39 @@ typedef struct space_answers {
     size_t sure_count, unsure_count;
 } space_answers;
 
+/** An entry of a stack: what waits, below the key from which it may be met, so that entries are in the order of keys. A
+ * wide node; a leaf, WIDE_LEAF; or an object, SPACE_ITEM_OBJECT. */
+#define SPACE_ITEM_OBJECT 0x40000000u
+static inline uint64_t space_entry(float key, uint32_t what) {
+    uint32_t bits;
+    memcpy(&bits, &key, sizeof bits); /* of numbers that are not negative: in their order */
+    return (uint64_t)bits << 32 | what;
+}
+static inline float space_key(uint64_t entry) {
+    const uint32_t bits = (uint32_t)(entry >> 32);
+    float key;
+    memcpy(&key, &bits, sizeof key);
+    return key;
+}
+/** Prefetches all of a node, or as much of a leaf as one of 24 triangles has; not an object. It is inlined, since gcc
+ * drops calls of functions that only prefetch. */
+__attribute__((always_inline)) static inline void space_prefetch(const froe_tree *t, uint32_t what) {
+    const bool leaf = what & WIDE_LEAF;
+    const uint8_t *at = leaf ? t->packed.blocks + (size_t)(what & WIDE_INDEX) * PACKED_BLOCK
+                             : (const uint8_t *)(t->packed.wide->nodes + what);
+    if (!leaf && what & SPACE_ITEM_OBJECT) return;
+    for (int i = 0; i < (leaf ? 640 : 192); i += 64) __builtin_prefetch(at + i);
+}
+
 typedef struct space_kernels {
+    /** Prepares a ray for ray->wide, but for shear, axis and largest; `per` is a power of 2 that brings the largest
+     * component of the direction near 1. *meets false: it misses the scene. False: it comes from too far away. */
+    bool (*aim)(space_ray *ray, const double *from, const double *way, double per, bool *meets);
+    /** Replaces nodes on top of the stack by their children that may be met with a key up to the limit, until something
+     * else is on top, or, with `once`, one node; drops what is beyond the limit. What is left of the stack, which has
+     * room for SPACE_ROOM more. Children are prefetched unless it is once. */
+    size_t (*ray_nodes)(const froe_tree *tree, const space_ray *ray, float limit, bool once, uint64_t *stack,
+                        size_t count, uint64_t *nodes);
     /** Children that may be met with a key up to the limit, as bits; their keys. */
     uint32_t (*ray_node)(const wide_node *node, const space_ray *ray, float limit, float keys[PACKED_LANES]);
     uint32_t (*near_node)(const wide_node *node, const space_point *point, float limit, float keys[PACKED_LANES]);

@@ -8,7 +8,6 @@
 #include <math.h>
 #include <string.h>
 
-#define SPACE_ITEM_OBJECT 0x40000000u
 enum { MOST_SORTED = 64 };
 
 froe_status space_work_new(const froe_tree *t, space_work **out) {
@@ -40,36 +39,24 @@ static froe_status begin_space_walk(froe_query *q, space_walk *w, bool near, boo
     return !meets || array_push(&q->alloc, &w->stack, 0) ? FROE_OK : FROE_E_MEMORY;
 }
 
-/* Finds where the ray comes to the scene; from there on planes are at most |entry| + 1/2 away. False: it misses the
- * scene. */
-static bool enter_scene(space_ray *r, const tree_meta *m) {
-    double enter = 0, leave = INFINITY;
-    for (int k = 0; k < 3; k++) {
-        const double a = (m->root_lo[k] - r->wide->middle[k]) * r->wide->scale;
-        const double b = (m->root_hi[k] - r->wide->middle[k]) * r->wide->scale;
-        const double s = (a - r->o[k]) * r->inverse[k], t = (b - r->o[k]) * r->inverse[k];
-        const double first = (s < t ? s : t) - r->slack[k], last = (s < t ? t : s) + r->slack[k];
-        enter = first > enter ? first : enter;
-        leave = last < leave ? last : leave;
-    }
-    r->start = enter;
-    for (int k = 0; k < 3; k++) {
-        r->slack[k] += 0x1p-50 * r->start;
-        r->entry[k] = r->o[k] + r->start * r->d[k];
-        r->step[k] = (float)r->inverse[k];
-        r->rest[k] = (float)(r->slack[k] + 0x1p-21 * fabs(r->inverse[k]) * (fabs(r->entry[k]) + 0.5)) * (1 + 0x1p-20f);
-    }
-    return enter <= leave;
-}
-
-/* The least one above x > 0, if neither is denormal. */
-static double power_of_2(double x) {
+/* The least power of 2 above x > 0, and 1 by it, if nothing of that is denormal. */
+static void powers_of_2(double x, double *above, double *inverse) {
     uint64_t bits;
     memcpy(&bits, &x, sizeof bits);
-    bits = (bits >> 52) + 1;
-    bits <<= 52;
-    memcpy(&x, &bits, sizeof x);
-    return x;
+    const uint64_t exponent = (bits >> 52) + 1, of_both[2] = {exponent << 52, (2046 - exponent) << 52};
+    memcpy(above, of_both, sizeof *above);
+    memcpy(inverse, of_both + 1, sizeof *inverse);
+}
+
+/* Along which axis the ray moves most, and by how much along the others meanwhile. */
+static void shear_ray(space_ray *r) {
+    int last = fabs(r->d[1]) > fabs(r->d[0]) ? 1 : 0;
+    if (fabs(r->d[2]) > fabs(r->d[last])) last = 2;
+    r->axis[0] = last == 0;
+    r->axis[1] = 2 - (last == 2);
+    r->axis[2] = last;
+    r->largest = r->d[last];
+    for (int i = 0; i < 2; i++) r->shear[i] = (float)(r->d[r->axis[i]] * r->inverse[last]);
 }
 
 /* A key that is certainly no later than t; -1: none is. */
@@ -81,35 +68,19 @@ static float key_within(const space_walk *w, double t) {
 
 froe_status space_walk_ray(froe_query *q, space_walk *w, const geom_ray *ray, double t_max, space_wanted wanted,
                            bool *begun) {
-    const tree_wide *wide = q->tree->packed.wide;
     space_ray *r = &w->ray;
-    double most = 0;
+    double most = 0, size, per;
+    bool meets = false;
     for (int k = 0; k < 3; k++) most = fabs(ray->d[k]) > most ? fabs(ray->d[k]) : most;
-    const double size = power_of_2(most);
-    *begun = wide && size > 0x1p-300 && size < 0x1p300;
-    r->wide = wide;
-    /* Rounding of o', of planes and of their difference costs 2^-51 of their sizes; where the ray hardly moves along an
-     * axis, it is taken to move by 2^-60, which is nothing beside 2^-37. */
-    for (int k = 0; *begun && k < 3; k++) {
-        r->d[k] = ray->d[k] / size;
-        r->o[k] = (ray->o[k] - wide->middle[k]) * wide->scale;
-        const bool slow = fabs(r->d[k]) < 0x1p-60;
-        r->inverse[k] = slow ? copysign(0x1p60, r->d[k]) : 1 / r->d[k];
-        r->slack[k] = fabs(r->inverse[k]) * (0x1p-48 * (fabs(r->o[k]) + 1) + (slow ? 0x1p-37 : 0));
-        r->up[k] = r->inverse[k] > 0;
-        *begun = fabs(r->o[k]) <= 0x1p20;
-    }
+    r->wide = q->tree->packed.wide;
+    *begun = r->wide && most > 0x1p-300 && most < 0x1p299;
     if (!*begun) return FROE_OK;
-    int last = fabs(r->d[1]) > fabs(r->d[0]) ? 1 : 0;
-    if (fabs(r->d[2]) > fabs(r->d[last])) last = 2;
-    r->axis[0] = last == 0;
-    r->axis[1] = 2 - (last == 2);
-    r->axis[2] = last;
-    r->largest = r->d[last];
-    for (int i = 0; i < 2; i++) r->shear[i] = (float)(r->d[r->axis[i]] / r->largest);
-    w->per = wide->scale * size;
+    powers_of_2(most, &size, &per);
+    *begun = q->space->kernels->aim(r, ray->o, ray->d, per, &meets);
+    if (!*begun) return FROE_OK;
+    shear_ray(r);
+    w->per = r->wide->scale * size;
     w->wanted = wanted;
-    const bool meets = enter_scene(r, &q->tree->meta);
     w->within = key_within(w, t_max);
     return begin_space_walk(q, w, false, meets);
 }
@@ -147,67 +118,49 @@ static void update_limit(space_walk *w, double limit) {
 
 /* -------------------------------------------------------------------- stack -- */
 
-static uint64_t entry(float key, uint32_t what) {
-    uint32_t bits;
-    memcpy(&bits, &key, sizeof bits); /* of numbers that are not negative: in their order */
-    return (uint64_t)bits << 32 | what;
-}
-
-static float key_of(uint64_t entry) {
-    const uint32_t bits = (uint32_t)(entry >> 32);
-    float key;
-    memcpy(&key, &bits, sizeof key);
-    return key;
-}
-
-/* The last entries, so that the least is on top. */
+/* The last entries, so that the least is on top; not of many, for which any order will do. */
 static void sort_top(space_walk *w, size_t from) {
     uint64_t *e = w->stack.data;
     if (w->stack.count - from > MOST_SORTED) return;
     for (size_t i = from + 1; i < w->stack.count; i++) {
-        uint64_t x = e[i];
+        const uint64_t x = e[i];
         size_t j = i;
         for (; j > from && e[j - 1] < x; j--) e[j] = e[j - 1];
         e[j] = x;
     }
 }
 
-/* Prefetches all of a node, or as much of a leaf as one of 24 triangles has; objects have been prefetched before. It is
- * inlined, since gcc drops calls of functions that only prefetch. */
-__attribute__((always_inline)) static inline void ask_for(const froe_tree *t, uint32_t what) {
-    const bool leaf = what & WIDE_LEAF;
-    const uint8_t *at = leaf ? t->packed.blocks + (size_t)(what & WIDE_INDEX) * PACKED_BLOCK
-                             : (const uint8_t *)(t->packed.wide->nodes + what);
-    if (!leaf && what & SPACE_ITEM_OBJECT) return;
-    for (int i = 0; i < (leaf ? 640 : 192); i += 64) __builtin_prefetch(at + i);
+/* Replaces nodes along a ray, until a leaf or an object is on top; or one of them. False without memory. */
+static bool descend_along_ray(froe_query *q, space_walk *w, bool once) {
+    uint64_t nodes = 0;
+    if (!array_reserve(&q->alloc, &w->stack, w->ray.wide->levels * WIDE_CHILDREN)) return false;
+    w->stack.count =
+        q->space->kernels->ray_nodes(q->tree, &w->ray, w->limit, once, w->stack.data, w->stack.count, &nodes);
+    q->stats.nodes += nodes;
+    return true;
 }
 
-/* Pushes the children of a node that may be met. False without memory. */
-static bool push_children(froe_query *q, space_walk *w, uint32_t index, bool ask) {
+/* Replaces a node by its children within the limit. The least comes on top; of few that wait the others need no order,
+ * as the first leaf lowers the limit. False without memory. */
+static bool push_near_children(froe_query *q, space_walk *w, uint32_t index) {
     const wide_node *n = q->tree->packed.wide->nodes + index;
-    const space_kernels *kernels = q->space->kernels;
     float keys[PACKED_LANES];
-    size_t from = w->stack.count;
-    uint32_t bits =
-        w->near ? kernels->near_node(n, &w->point, w->limit, keys) : kernels->ray_node(n, &w->ray, w->limit, keys);
-    q->stats.nodes++;
     if (!array_reserve(&q->alloc, &w->stack, PACKED_LANES)) return false;
-    for (; bits; bits &= bits - 1) {
-        uint32_t i = (uint32_t)__builtin_ctz(bits);
-        if (ask) ask_for(q->tree, n->child[i]);
-        w->stack.data[w->stack.count++] = entry(keys[i], n->child[i]);
+    uint64_t *e = w->stack.data + w->stack.count;
+    size_t count = 0, least = 0;
+    for (uint32_t bits = q->space->kernels->near_node(n, &w->point, w->limit, keys); bits; bits &= bits - 1) {
+        const uint32_t i = (uint32_t)__builtin_ctz(bits);
+        space_prefetch(q->tree, n->child[i]);
+        e[count] = space_entry(keys[i], n->child[i]);
+        least = e[count] < e[least] ? count : least;
+        count++;
     }
-    if (!w->near || w->stack.count <= from) {
-        sort_top(w, from);
-        return true;
-    }
-    /* The least on top; of few that wait the others need no order, as the first leaf lowers the limit. */
-    uint64_t *e = w->stack.data, *top = e + w->stack.count - 1;
-    size_t least = from;
-    for (size_t i = from + 1; i < w->stack.count; i++) least = e[i] < e[least] ? i : least;
+    q->stats.nodes++;
+    w->stack.count += count;
+    if (!count) return true;
     const uint64_t x = e[least];
-    e[least] = *top;
-    *top = x;
+    e[least] = e[count - 1];
+    e[count - 1] = x;
     return true;
 }
 
@@ -240,7 +193,7 @@ static space_step push_objects(froe_query *q, space_walk *w, uint32_t block, flo
         if (sure && w->wanted == SPACE_ANY) return SPACE_MET;
         scene_ask(q->tree->scene, w->object);
         if (!sure || w->wanted == SPACE_ALL)
-            w->stack.data[w->stack.count++] = entry(found.keys[i], SPACE_ITEM_OBJECT | w->object);
+            w->stack.data[w->stack.count++] = space_entry(found.keys[i], SPACE_ITEM_OBJECT | w->object);
         else if (!take_hit(q, w, w->object, found.keys[i], found.ends[i]))
             return SPACE_NO_MEMORY;
     }
@@ -249,18 +202,22 @@ static space_step push_objects(froe_query *q, space_walk *w, uint32_t block, flo
 }
 
 /* Takes the entry on top: an object is handed out; a node or a leaf is replaced by what may be met of it. */
-static space_step take_space_item(froe_query *q, space_walk *w, bool ask) {
+static space_step take_space_item(froe_query *q, space_walk *w, bool once) {
     const uint64_t top = w->stack.data[--w->stack.count];
     const uint32_t what = (uint32_t)top;
-    if (what & WIDE_LEAF) return push_objects(q, w, what & WIDE_INDEX, key_of(top));
-    if (!(what & SPACE_ITEM_OBJECT)) return push_children(q, w, what, ask) ? SPACE_ON : SPACE_NO_MEMORY;
+    if (what & WIDE_LEAF) return push_objects(q, w, what & WIDE_INDEX, space_key(top));
+    if (!(what & SPACE_ITEM_OBJECT) && w->near) return push_near_children(q, w, what) ? SPACE_ON : SPACE_NO_MEMORY;
+    if (!(what & SPACE_ITEM_OBJECT)) {
+        w->stack.count++;
+        return descend_along_ray(q, w, once) ? SPACE_ON : SPACE_NO_MEMORY;
+    }
     w->object = what & WIDE_INDEX;
     return SPACE_OBJECT;
 }
 
 /* Drops entries beyond the limit. False: none is left. */
 static bool settle_item(space_walk *w) {
-    while (w->stack.count && key_of(w->stack.data[w->stack.count - 1]) > w->limit) w->stack.count--;
+    while (w->stack.count && space_key(w->stack.data[w->stack.count - 1]) > w->limit) w->stack.count--;
     return w->stack.count;
 }
 
@@ -268,9 +225,9 @@ space_step space_walk_step(froe_query *q, space_walk *w, double limit, bool alon
     space_step step = SPACE_ON;
     update_limit(w, limit);
     if (!alone && !settle_item(w)) return SPACE_END;
-    if (!alone) step = take_space_item(q, w, false);
-    while (alone && step == SPACE_ON) step = settle_item(w) ? take_space_item(q, w, true) : SPACE_END;
-    if (step == SPACE_ON && settle_item(w)) ask_for(q->tree, (uint32_t)w->stack.data[w->stack.count - 1]);
+    if (!alone) step = take_space_item(q, w, true);
+    while (alone && step == SPACE_ON) step = settle_item(w) ? take_space_item(q, w, false) : SPACE_END;
+    if (step == SPACE_ON && settle_item(w)) space_prefetch(q->tree, (uint32_t)w->stack.data[w->stack.count - 1]);
     return step;
 }
 

@@ -137,8 +137,10 @@ static void fill_boxes(wide_node *n, const wide_box *all, const wide_box boxes[]
 static bool make_nodes(widening *w) {
     const froe_allocator *alloc = &w->tree->alloc;
     uint32_t child[WIDE_CHILDREN];
+    size_t level = 0; /* where the next one begins */
     if (!array_push(alloc, &w->todo, 0)) return false;
     for (size_t i = 0; i < w->todo.count; i++) {
+        if (i == level) level = w->todo.count, w->wide->levels++;
         uint32_t node = w->todo.data[i], count = open_up(w, node, child);
         wide_node wide = {.count = (uint8_t)count, .unused = WIDE_NORMAL};
         fill_boxes(&wide, w->boxes + node, w->boxes, child);
@@ -180,6 +182,10 @@ froe_status tree_wide_new(const froe_tree *t, tree_wide **out) {
     frexp(size, &exponent);
     wide->scale = ldexp(1, -exponent);
     wide->inverse = ldexp(1, exponent);
+    for (int k = 0; k < 3; k++) {
+        wide->lo[k] = (m->root_lo[k] - wide->middle[k]) * wide->scale;
+        wide->hi[k] = (m->root_hi[k] - wide->middle[k]) * wide->scale;
+    }
     w.boxes = support_calloc(&t->alloc, t->node_count, sizeof *w.boxes);
     w.forests = support_calloc(&t->alloc, t->node_count, sizeof *w.forests);
     bool made = w.boxes && w.forests;

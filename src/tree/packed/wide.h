@@ -32,9 +32,10 @@ typedef struct wide_node {
 _Static_assert(sizeof(wide_node) == 192, "three cache lines");
 
 struct tree_wide {
-    double middle[3], scale, inverse; /**< scale: a power of 2; inverse: 1 / scale */
-    wide_node *nodes;                 /**< [0] is the root */
-    size_t count;
+    double middle[4], lo[4], hi[4]; /**< lo, hi: the region of the root, as x'. Fourth ones are 0: kernels load four */
+    double scale, inverse;          /**< scale: a power of 2; inverse: 1 / scale */
+    wide_node *nodes;               /**< [0] is the root */
+    size_t count, levels;
     void *memory; /**< that nodes lie in */
     size_t memory_size;
 };
