@@ -81,10 +81,16 @@ static bool visit_leaf(froe_query *q, uint32_t block, uint32_t count) {
     return !count || add_visit(q, (packed_visit){block, 0, count});
 }
 
+/* What comes below a node that waits. */
+__attribute__((always_inline)) static inline void ask_below(const froe_tree *t, const tree_node *n) {
+    __builtin_prefetch(tree_is_leaf(n) ? (const void *)block_at(t, n->child) : (const void *)(t->nodes + n->child));
+}
+
 /* All leaves below a node whose closed cells meet the window. False without memory. */
 static bool walk_window(froe_query *q, const packed_window *w, uint32_t node, uint32_t open) {
     const tree_node *nodes = q->tree->nodes;
     packed_waiting *stack = q->packed->stack.data, *top = stack;
+    const bool large = node == 0; /* from the table it is not far to leaves */
     *top++ = (packed_waiting){node, open};
     while (top > stack) {
         packed_waiting at = *--top;
@@ -92,6 +98,7 @@ static bool walk_window(froe_query *q, const packed_window *w, uint32_t node, ui
         while (at.open && !tree_is_leaf(n)) {
             uint32_t axis = n->axis, low = w->lo[axis] <= n->u.value, high = w->hi[axis] >= n->u.value;
             q->stats.nodes++;
+            if (large) ask_below(q->tree, nodes + n->child + 1);
             *top = (packed_waiting){n->child + 1, at.open & ~(low << (2 * axis))};
             top += low & high;
             at.open &= ~((low & high) << (2 * axis + 1));
