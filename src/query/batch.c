@@ -152,6 +152,7 @@ static froe_status check_all(const batch *b, froe_query *q, size_t first, size_t
     for (size_t i = first; i < end; i++) {
         const double *x = point_of(b, b->points, i);
         const froe_status status = b->ask == ask_vertical ? query_vertical_check(q, x, b->direction, diag)
+                                   : b->ask == ask_near   ? query_near_check(q, x, b->limit, diag)
                                    : b->directions ? query_ray_take(q, x, point_of(b, b->directions, i), b->limit, diag)
                                                    : query_check_point(x, q->tree->scene->dim, "a point", diag);
         if (status) diag->object = (uint32_t)i;
@@ -201,6 +202,28 @@ static froe_status answer_windows(const batch *b, froe_query *q, size_t first, s
     return status;
 }
 
+/* What is nearest to the points, which have been checked, by blocks. */
+static froe_status answer_near(const batch *b, froe_query *q, size_t first, size_t end, batch_found *found,
+                               froe_diagnostic *diag) {
+    expect_as_much(b, q, found);
+    for (size_t at = first, count; at < end; at += count) {
+        count = end - at < QUERY_NEAR_FLOCK ? end - at : QUERY_NEAR_FLOCK;
+        if (query_near_flock(q, b->points + 2 * at, count, end - at, b->k, b->limit)) return support_fail_memory(diag);
+        for (size_t i = at; i < at + count; i++) {
+            if (query_near_settle(q, b->points + 2 * i, i - at, b->k, b->limit)) return support_fail_memory(diag);
+            const size_t near = b->starts[i + 1] = q->near.out.count;
+            if (!array_reserve(&q->alloc, &found->ids, near) || !array_reserve(&q->alloc, &found->values, near))
+                return support_fail_memory(diag);
+            for (size_t n = 0; n < near; n++) {
+                found->ids.data[found->ids.count++] = q->near.out.data[n].object;
+                found->values.data[found->values.count++] = q->near.out.data[n].distance;
+            }
+            found->queries++;
+        }
+    }
+    return FROE_OK;
+}
+
 static froe_status answer_one_by_one(const batch *b, froe_query *q, size_t first, size_t end, batch_found *found,
                                      froe_diagnostic *diag) {
     query_leaf leaves[QUERIES_PER_CHUNK];
@@ -240,7 +263,9 @@ static froe_status answer_chunk(void *user, unsigned worker, size_t job) {
     /* On a packed tree rays are answered all at once: one computes while others wait for memory. */
     const bool upright = b->ask == ask_vertical && q->packed;
     const bool in_space = (b->ask == ask_ray || b->ask == ask_ray_any) && q->space && q->tree->packed.wide;
-    froe_status status = upright || in_space || b->ask_in ? check_all(b, q, first, end, &c->diag) : FROE_OK;
+    bool near = false;
+    froe_status status = b->ask == ask_near ? query_near_by_blocks(q, b->k, &near, &c->diag) : FROE_OK;
+    if (!status) status = upright || near || in_space || b->ask_in ? check_all(b, q, first, end, &c->diag) : FROE_OK;
     if (status) return status;
     if (in_space)
         return space_rays(q, points, point_of(b, b->directions, first), end - first, b->limit,
@@ -248,6 +273,7 @@ static froe_status answer_chunk(void *user, unsigned worker, size_t job) {
     if (upright) status = packed_vertical(q, points, end - first, b->direction, b->objects + first);
     if (upright) return status ? support_fail_memory(&c->diag) : FROE_OK;
     if (b->ranges && are_windows(b, q, first, end)) return answer_windows(b, q, first, end, found, &c->diag);
+    if (near) return answer_near(b, q, first, end, found, &c->diag);
     return answer_one_by_one(b, q, first, end, found, &c->diag);
 }
 

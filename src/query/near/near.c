@@ -9,6 +9,7 @@
 #include "query/check.h"
 #include "query/context.h"
 #include "query/heap.h"
+#include "query/pieces.h"
 #include <string.h>
 
 void query_near_free(query_near *n, const froe_allocator *alloc) {
@@ -17,6 +18,7 @@ void query_near_free(query_near *n, const froe_allocator *alloc) {
     array_free(alloc, &n->heap);
     array_free(alloc, &n->best);
     array_free(alloc, &n->candidates);
+    array_free(alloc, &n->flock);
     array_free(alloc, &n->found);
     array_free(alloc, &n->order);
     array_free(alloc, &n->out);
@@ -91,16 +93,11 @@ static froe_status find_neighbours(froe_query *q, size_t k, double bound, froe_d
     return status;
 }
 
-/* The nearest of the candidates, sorted, where there is a quick way to have candidates. */
-static froe_status find_candidates(froe_query *q, size_t k, double bound, bool *done, froe_diagnostic *diag) {
+/* The nearest of the candidates, sorted. */
+static froe_status sort_candidates(froe_query *q, size_t k, double bound) {
     query_near *n = &q->near;
     const froe_scene *s = q->tree->scene;
-    froe_status status = query_near_points(q, k, bound, done, diag);
-    if (!status && !*done && q->packed) {
-        status = query_near_packed(q, k, bound);
-        *done = true;
-    }
-    if (status || !*done) return status;
+    n->found.count = n->order.count = 0;
     if (!array_reserve(&q->alloc, &n->found, n->candidates.count) ||
         !array_reserve(&q->alloc, &n->order, n->candidates.count))
         return FROE_E_MEMORY;
@@ -119,34 +116,75 @@ static froe_status find_candidates(froe_query *q, size_t k, double bound, bool *
     return FROE_OK;
 }
 
+froe_status query_near_by_blocks(froe_query *q, size_t k, bool *out, froe_diagnostic *diag) {
+    const query_pieces *pieces;
+    *out = q->packed && k == 1;
+    if (*out || !q->packed || !k) return FROE_OK;
+    const froe_status status = query_pieces_of(q, &pieces, diag);
+    *out = !status && !pieces->points;
+    return status;
+}
+
+/* Where there is a quick way to have candidates. */
+static froe_status find_candidates(froe_query *q, size_t k, double bound, bool *done, froe_diagnostic *diag) {
+    froe_status status = query_near_by_blocks(q, k, done, diag);
+    if (!status) status = *done ? query_near_packed(q, k, bound) : query_near_points(q, k, bound, done, diag);
+    return status || !*done ? status : sort_candidates(q, k, bound);
+}
+
+/* Distances of what was found and sorted, rounded. */
+static froe_status round_distances(froe_query *q) {
+    query_near *n = &q->near;
+    n->out.count = 0;
+    if (!array_reserve(&q->alloc, &n->out, n->order.count)) return FROE_E_MEMORY;
+    for (size_t i = 0; i < n->order.count; i++) {
+        const query_neighbour *x = n->found.data + n->order.data[i];
+        const double distance = geom_distance_round(&q->numbers, n->point, &x->distance);
+        n->out.data[n->out.count++] = (froe_neighbour){x->object, distance};
+    }
+    return FROE_OK;
+}
+
+froe_status query_near_check(const froe_query *query, const double *point, double bound, froe_diagnostic *diag) {
+    const froe_status status = query_check_point(point, query->tree->scene->dim, "a point", diag);
+    if (status) return status;
+    if (!(bound >= 0))
+        return support_fail(diag, FROE_E_INPUT, "The distance of neighbours, %g, is not a number >= 0.", bound);
+    return FROE_OK;
+}
+
+froe_status query_near_settle(froe_query *q, const double *point, size_t i, size_t k, double bound) {
+    query_near *n = &q->near;
+    const size_t first = i ? n->flock_ends[i - 1] : 0;
+    const uint64_t exact = q->numbers.stats.exact;
+    memcpy(n->point, point, (size_t)q->tree->scene->dim * sizeof *point);
+    n->candidates.count = 0;
+    if (!array_append(&q->alloc, &n->candidates, n->flock.data + first, n->flock_ends[i] - first)) return FROE_E_MEMORY;
+    froe_status status = sort_candidates(q, k, bound);
+    if (!status) status = round_distances(q);
+    q->stats.exact += q->numbers.stats.exact - exact;
+    return status;
+}
+
 froe_status froe_query_near(froe_query *query, const double *point, size_t k, double bound, froe_neighbours *out,
                             froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!query || !point || !out) return support_fail_null(diag, __func__);
     query_near *n = &query->near;
-    const int dim = query->tree->scene->dim;
-    froe_status status = query_check_point(point, dim, "a point", diag);
+    froe_status status = query_near_check(query, point, bound, diag);
     if (status) return status;
-    if (!(bound >= 0))
-        return support_fail(diag, FROE_E_INPUT, "The distance of neighbours, %g, is not a number >= 0.", bound);
     const uint64_t exact = query->numbers.stats.exact;
     query_begin(query);
     n->found.count = n->order.count = 0;
     memset(n->point, 0, sizeof n->point);
-    memcpy(n->point, point, (size_t)dim * sizeof *point);
+    memcpy(n->point, point, (size_t)query->tree->scene->dim * sizeof *point);
     n->limit = INFINITY;
     bool done = false;
     if (k) status = find_candidates(query, k, bound, &done, diag);
     if (!status && !done) status = find_neighbours(query, k, bound, diag);
+    if (!status) status = round_distances(query);
     query->stats.exact += query->numbers.stats.exact - exact;
-    n->out.count = 0;
-    if (!status && !array_reserve(&query->alloc, &n->out, n->order.count)) status = FROE_E_MEMORY;
     if (status) return status == FROE_E_MEMORY ? support_fail_memory(diag) : status;
-    for (size_t i = 0; i < n->order.count; i++) {
-        const query_neighbour *x = n->found.data + n->order.data[i];
-        const double distance = geom_distance_round(&query->numbers, n->point, &x->distance);
-        n->out.data[n->out.count++] = (froe_neighbour){x->object, distance};
-    }
     *out = (froe_neighbours){n->out.data, n->out.count};
     return FROE_OK;
 }

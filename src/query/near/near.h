@@ -32,6 +32,8 @@ typedef struct query_candidate {
     uint32_t object;
 } query_candidate;
 
+enum { QUERY_NEAR_FLOCK = 8 }; /* points of a batch whose candidates are found before any is measured */
+
 /** Distances of nodes are squares of lower bounds, all coordinates times `scale`, a power of 2 that keeps the squares
  * in range. */
 typedef struct query_near {
@@ -46,6 +48,8 @@ typedef struct query_near {
     ARRAY(uint32_t) heap; /**< of places */
     ARRAY(double) best;   /**< a heap of the k least squares among candidates */
     ARRAY(query_candidate) candidates;
+    ARRAY(query_candidate) flock;        /**< those of several points, one after the other */
+    size_t flock_ends[QUERY_NEAR_FLOCK]; /**< of the candidates of each point */
     ARRAY(query_neighbour) found;
     ARRAY(uint32_t) order;
     ARRAY(froe_neighbour) out;
@@ -63,9 +67,20 @@ froe_status query_near_next(struct froe_query *query, struct tree_objects *list)
  * to query->near.point, or all within the bound if there are fewer, and whatever doubles do not tell from them.
  * FROE_E_MEMORY. */
 froe_status query_near_points(struct froe_query *query, size_t k, double bound, bool *done, froe_diagnostic *diag);
+/** Are candidates found by blocks (near_packed.c)? On packed trees of the plane, but for several of many points, which
+ * near_points.c finds more quickly. FROE_E_MEMORY. */
+froe_status query_near_by_blocks(struct froe_query *query, size_t k, bool *out, froe_diagnostic *diag);
 /** On a packed tree of the plane: query->near.candidates has the k nearest to query->near.point, or all within the
  * bound if there are fewer, and what 16-bit units do not tell from them; none twice. FROE_E_MEMORY. */
 froe_status query_near_packed(struct froe_query *query, size_t k, double bound);
+/** The same for each of up to QUERY_NEAR_FLOCK points, into query->near.flock: while the points of these candidates come
+ * from memory, the next are found. `left` points are to come, these included. FROE_E_MEMORY. */
+froe_status query_near_flock(struct froe_query *query, const double *points, size_t count, size_t left, size_t k,
+                             double bound);
+/** Measures the candidates of point i of a flock: the k nearest are query->near.out. FROE_E_MEMORY. */
+froe_status query_near_settle(struct froe_query *query, const double *point, size_t i, size_t k, double bound);
+/** Checks a point and a bound. */
+froe_status query_near_check(const struct froe_query *query, const double *point, double bound, froe_diagnostic *diag);
 /** Puts a square among the k least, for which there is room, if it belongs there, and lowers the limit to the greatest
  * of k. */
 void query_near_keep(query_near *n, double square, size_t k);

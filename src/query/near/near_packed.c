@@ -7,6 +7,9 @@
  *
  *                   distance - slack  <=  truth  <=  distance + slack
  *
+ * The search begins in the cell of the jump table that the point is in. In batches the entries of the table, the blocks
+ * that they name, and in the end the candidates of several points are on their way from memory at the same time.
+ *
  * The k-th least of the upper bounds is the limit. Fragments whose lower bounds are within it are candidates, which are
  * measured exactly in the end. For k > 1 the upper bounds are those of fragments where objects begin, so that no object
  * counts twice.
@@ -22,13 +25,21 @@
  * Scaled squares are those of near_points.c, with its rules of rounding. */
 #include "query/context.h"
 #include "query/packed/packed.h"
+#include "tree/packed/table.h"
 #include <math.h>
+#include <string.h>
 
 enum { LEAST_FEW = 16 };
 
 static double square_of_gap(const double gap[2]) {
     return gap[0] * gap[0] + gap[1] * gap[1];
 }
+
+/* Where a search began: a node whose subtree was searched, or the block of a leaf; NULL: nowhere. */
+typedef struct near_start {
+    const tree_node *node;
+    const packed_header *block;
+} near_start;
 
 /* What a kernel says of a leaf. */
 typedef struct leaf_view {
@@ -104,11 +115,9 @@ static void lower_limit(query_near *n, const leaf_view *v, const uint32_t *ids, 
     for (size_t i = 0; i < count; i++) query_near_keep(n, square_above(v, sqrt((double)least[i]) + v->slack), k);
 }
 
-static bool scan_leaf(froe_query *q, const tree_node *leaf, size_t k) {
+static bool scan_leaf(froe_query *q, const packed_header *block, uint32_t count, size_t k) {
     query_near *n = &q->near;
     packed_work *work = q->packed;
-    const uint32_t count = leaf->u.list.count;
-    const packed_header *block = packed_block(q->tree, leaf);
     const uint32_t *ids = packed_ids(block, count);
     const leaf_view v = view_leaf(n, block);
     if (n->candidates.count > 2 * k + 64) query_near_sift(n);
@@ -117,6 +126,7 @@ static bool scan_leaf(froe_query *q, const tree_node *leaf, size_t k) {
         !array_reserve(&q->alloc, &work->squares, count + PACKED_LANES) ||
         !array_reserve(&q->alloc, &work->candidates, count))
         return false;
+    q->stats.leaves++;
     q->stats.tests += count;
     if (!v.known) {
         scan_objects(q, ids, count, k);
@@ -140,43 +150,89 @@ static bool scan_leaf(froe_query *q, const tree_node *leaf, size_t k) {
     return true;
 }
 
-/* From a subtree to the leaf nearest to the point; what is beyond cuts waits. */
-static bool descend_to_nearest(froe_query *q, packed_far at, size_t k) {
+/* From a subtree to the leaf nearest to the point; what is beyond cuts waits. What has been searched is left out. */
+static bool descend_to_nearest(froe_query *q, packed_far at, size_t k, const near_start *searched) {
     query_near *n = &q->near;
     const tree_node *node = q->tree->nodes + at.node;
     for (; !tree_is_leaf(node); q->stats.nodes++) {
         const uint32_t axis = node->axis, upper = n->point[axis] >= node->u.value;
         packed_far beyond = {{at.gap[0], at.gap[1]}, node->child + !upper};
+        if (node == searched->node) return true;
         beyond.gap[axis] = fabs(node->u.value * n->scale - n->scaled[axis]);
         if (square_of_gap(beyond.gap) <= n->limit) q->packed->far.data[q->packed->far.count++] = beyond;
         node = q->tree->nodes + node->child + upper;
     }
-    q->stats.leaves++;
-    return !node->u.list.count || scan_leaf(q, node, k);
+    const packed_header *block = packed_block(q->tree, node);
+    return block == searched->block || !node->u.list.count || scan_leaf(q, block, node->u.list.count, k);
 }
 
-/* Each object once, and what is beyond the limit not at all; their points are on the way from memory. */
+static bool search_from(froe_query *q, packed_far root, size_t k, const near_start *searched) {
+    q->packed->far.count = 0;
+    q->packed->far.data[q->packed->far.count++] = root;
+    while (q->packed->far.count) {
+        const packed_far at = q->packed->far.data[--q->packed->far.count];
+        if (square_of_gap(at.gap) <= q->near.limit && !descend_to_nearest(q, at, k, searched)) return false;
+    }
+    return true;
+}
+
+/* Begins in the cell of the jump table whose core the point is in, if any. Most searches for one object end there: what
+ * has nothing in the node of the cell is no nearer than the border of the core. */
+static bool begin_in_table(froe_query *q, size_t k, near_start *searched, bool *done) {
+    const tree_table *table = q->tree->packed.table;
+    const query_near *n = &q->near;
+    uint32_t cell[2];
+    double room = INFINITY;
+    for (int i = 0; i < 2 && table; i++) {
+        const double place = tree_table_place(table, i, n->point[i]);
+        if (!(place >= 0 && place < table->cells[i])) return true;
+        cell[i] = (uint32_t)place;
+        const double below = place - cell[i], within = below < 0.5 ? below : 1 - below;
+        if (!(within > 2 * TABLE_MARGIN)) return true;
+        room = fmin(room, (within - 2 * TABLE_MARGIN) / table->scale[i]);
+    }
+    if (!table) return true;
+    const tree_entry entry = tree_table_at(table, cell[0], cell[1]);
+    if (entry.kind & TABLE_LEAF) {
+        const uint32_t count = entry.kind & ~TABLE_LEAF;
+        searched->block = packed_block_at(q->tree, entry.at);
+        if (count && !scan_leaf(q, searched->block, count, k)) return false;
+    } else {
+        if (!search_from(q, (packed_far){.node = entry.at}, k, searched)) return false;
+        searched->node = q->tree->nodes + entry.at;
+    }
+    room *= n->scale;
+    *done = n->limit < room * room * (1 - 0x1p-40);
+    return true;
+}
+
+/* Each object once, and what is beyond the limit not at all; what leads to their points is on the way from memory. */
 static bool clear_candidates(froe_query *q) {
     query_near *n = &q->near;
-    const froe_scene *s = q->tree->scene;
     size_t kept = 0;
     query_near_sift(n);
     if (!query_expect(q, n->candidates.count)) return false;
     for (size_t i = 0; i < n->candidates.count; i++) {
         const uint32_t object = n->candidates.data[i].object;
         if (!query_mark(&q->marks, object)) continue;
-        scene_ask(s, object);
+        scene_ask(q->tree->scene, object);
         n->candidates.data[kept++] = n->candidates.data[i];
     }
     n->candidates.count = kept;
-    for (size_t i = 0; i < kept; i++) scene_ask_points(s, n->candidates.data[i].object);
     return true;
 }
 
-froe_status query_near_packed(froe_query *q, size_t k, double bound) {
+__attribute__((always_inline)) static inline void ask_points(const froe_scene *s, const query_candidate *c,
+                                                             size_t count) {
+    for (size_t i = 0; i < count; i++) scene_ask_points(s, c[i].object);
+}
+
+static bool find_candidates(froe_query *q, size_t k, double bound) {
     query_near *n = &q->near;
     const tree_meta *m = &q->tree->meta;
     packed_far root = {.node = 0};
+    near_start searched = {NULL, NULL};
+    bool done = false;
     n->best.count = n->candidates.count = 0;
     n->scale = query_near_scale(q->tree->scene, n->point);
     n->limit = bound < INFINITY ? query_near_reach(query_near_square(n, bound)) : (double)INFINITY;
@@ -185,11 +241,53 @@ froe_status query_near_packed(froe_query *q, size_t k, double bound) {
         if (n->point[i] < m->root_lo[i]) root.gap[i] = m->root_lo[i] * n->scale - n->scaled[i];
         if (n->point[i] > m->root_hi[i]) root.gap[i] = n->scaled[i] - m->root_hi[i] * n->scale;
     }
-    q->packed->far.count = 0;
-    q->packed->far.data[q->packed->far.count++] = root;
-    while (q->packed->far.count) {
-        const packed_far at = q->packed->far.data[--q->packed->far.count];
-        if (square_of_gap(at.gap) <= n->limit && !descend_to_nearest(q, at, k)) return FROE_E_MEMORY;
+    return begin_in_table(q, k, &searched, &done) && (done || search_from(q, root, k, &searched)) &&
+           clear_candidates(q);
+}
+
+froe_status query_near_packed(froe_query *q, size_t k, double bound) {
+    if (!find_candidates(q, k, bound)) return FROE_E_MEMORY;
+    ask_points(q->tree->scene, q->near.candidates.data, q->near.candidates.count);
+    return FROE_OK;
+}
+
+/* ------------------------------------------------------------------- flocks -- */
+
+/* Prefetches the entry of a point in the jump table, or what the entry names. */
+__attribute__((always_inline)) static inline void ask_table(const froe_tree *t, const double *point, bool named) {
+    const tree_table *table = t->packed.table;
+    if (!table) return;
+    const double column = tree_table_place(table, 0, point[0]), row = tree_table_place(table, 1, point[1]);
+    if (!(column >= 0 && column < table->cells[0] && row >= 0 && row < table->cells[1])) return;
+    const tree_entry *entry = table->entries + (size_t)column * table->cells[1] + (size_t)row;
+    if (!named) {
+        __builtin_prefetch(entry);
+    } else if (entry->kind & TABLE_LEAF) {
+        const uint8_t *bytes = (const uint8_t *)packed_block_at(t, entry->at);
+        const uint32_t size = packed_size(entry->kind & ~TABLE_LEAF) * PACKED_BLOCK;
+        for (uint32_t at = 0; at < size; at += 64) __builtin_prefetch(bytes + at);
+    } else {
+        __builtin_prefetch(t->nodes + entry->at);
     }
-    return clear_candidates(q) ? FROE_OK : FROE_E_MEMORY;
+}
+
+froe_status query_near_flock(froe_query *q, const double *points, size_t count, size_t left, size_t k, double bound) {
+    query_near *n = &q->near;
+    size_t asked = 0;
+    n->flock.count = 0;
+    for (size_t i = 0; i < count; i++) {
+        if (i + 2 * QUERY_NEAR_FLOCK < left) ask_table(q->tree, points + 2 * (i + 2 * QUERY_NEAR_FLOCK), false);
+        if (i + QUERY_NEAR_FLOCK < left) ask_table(q->tree, points + 2 * (i + QUERY_NEAR_FLOCK), true);
+        query_begin(q);
+        memcpy(n->point, points + 2 * i, 2 * sizeof *points);
+        if (!find_candidates(q, k, bound) ||
+            !array_append(&q->alloc, &n->flock, n->candidates.data, n->candidates.count))
+            return FROE_E_MEMORY;
+        /* By now, what leads to the points of the query before has come. */
+        ask_points(q->tree->scene, n->flock.data + asked, (i ? n->flock_ends[i - 1] : 0) - asked);
+        asked = i ? n->flock_ends[i - 1] : 0;
+        n->flock_ends[i] = n->flock.count;
+    }
+    ask_points(q->tree->scene, n->flock.data + asked, n->flock.count - asked);
+    return FROE_OK;
 }

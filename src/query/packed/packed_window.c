@@ -55,14 +55,10 @@ void packed_work_free(packed_work *work, const froe_allocator *alloc) {
 
 /* -------------------------------------------------------------------- walk -- */
 
-static const packed_header *block_at(const froe_tree *t, uint32_t block) {
-    return (const packed_header *)(const void *)(t->packed.blocks + (size_t)block * PACKED_BLOCK);
-}
-
 /* gcc drops calls of functions that do nothing but prefetch. */
 __attribute__((always_inline)) static inline void ask_visit(const froe_tree *t, const packed_visit *v) {
     const uint8_t *bytes = t->packed.blocks + (size_t)v->block * PACKED_BLOCK;
-    if (v->end) __builtin_prefetch(block_at(t, v->end));
+    if (v->end) __builtin_prefetch(packed_block_at(t, v->end));
     for (uint32_t at = 0; at < 32 + 12 * v->count; at += 64) __builtin_prefetch(bytes + at);
 }
 
@@ -83,7 +79,8 @@ static bool visit_leaf(froe_query *q, uint32_t block, uint32_t count) {
 
 /* What comes below a node that waits. */
 __attribute__((always_inline)) static inline void ask_below(const froe_tree *t, const tree_node *n) {
-    __builtin_prefetch(tree_is_leaf(n) ? (const void *)block_at(t, n->child) : (const void *)(t->nodes + n->child));
+    __builtin_prefetch(tree_is_leaf(n) ? (const void *)packed_block_at(t, n->child)
+                                       : (const void *)(t->nodes + n->child));
 }
 
 /* All leaves below a node whose closed cells meet the window. False without memory. */
@@ -204,10 +201,10 @@ static bool reports(froe_query *q, const packed_unsure *u, const packed_window *
 
 /* Appends the answers of one visit to query->found. False without memory. */
 static bool answer_window(froe_query *q, const packed_visit *v, const packed_window *w) {
-    const packed_header *block = block_at(q->tree, v->block);
+    const packed_header *block = packed_block_at(q->tree, v->block);
     packed_work *work = q->packed;
     if (v->end) {
-        uint32_t from = block->owner, count = block_at(q->tree, v->end)->owner - from;
+        uint32_t from = block->owner, count = packed_block_at(q->tree, v->end)->owner - from;
         q->stats.slices++;
         if (!array_reserve(&q->alloc, &q->found, count)) return false;
         if (count) memcpy(q->found.data + q->found.count, q->tree->packed.owners + from, count * sizeof(uint32_t));
@@ -270,7 +267,8 @@ froe_status packed_count_range(froe_query *q, const double *lo, const double *hi
     for (size_t i = 0; i < q->packed->visits.count && memory; i++) {
         const packed_visit *v = make_visit(q, i);
         if (v->end)
-            sum += block_at(q->tree, v->end)->owner - block_at(q->tree, v->block)->owner, q->stats.slices++;
+            sum += packed_block_at(q->tree, v->end)->owner - packed_block_at(q->tree, v->block)->owner,
+                q->stats.slices++;
         else
             memory = answer_window(q, v, &w);
         sum += q->found.count;

@@ -69,8 +69,11 @@ static inline uint32_t packed_half(double error) {
     return error <= 0x1p1020 ? (uint32_t)(bits >> 32) + 1 : 0x7ff00000u;
 }
 
+static inline const packed_header *packed_block_at(const froe_tree *t, uint32_t block) {
+    return (const packed_header *)(const void *)(t->packed.blocks + (size_t)block * PACKED_BLOCK);
+}
 static inline const packed_header *packed_block(const froe_tree *t, const tree_node *leaf) {
-    return (const packed_header *)(const void *)(t->packed.blocks + (size_t)leaf->child * PACKED_BLOCK);
+    return packed_block_at(t, leaf->child);
 }
 /** px of a block; py, qx, qy and the ids follow, `count` each. */
 static inline const uint16_t *packed_units(const packed_header *block) {
