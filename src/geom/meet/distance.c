@@ -175,10 +175,23 @@ static bool round_box(const double *point, const geom_distance *a, double *out) 
     return round_root(s, 0, out);
 }
 
-/* q - p, in the plane with a third coordinate 0. */
-static double difference_between(int dim, const double *p, const double *q, num_pair out[3]) {
-    const double a[3] = {p[0], p[1], dim == 3 ? p[2] : 0}, b[3] = {q[0], q[1], dim == 3 ? q[2] : 0};
-    return num_pair_between(a, b, out);
+/* Are sizes such that pairs of doubles neither overflow nor underflow? */
+static bool is_moderate(double size) {
+    return size > 0x1p-100 && size < 0x1p100;
+}
+
+/* From a corner or the line of a segment of the plane: as round_simplex() below, without what is 0. */
+static bool round_flat(const double *point, const geom_distance *a, double *out) {
+    const double *p = a->corner[0], *q = a->corner[1];
+    const num_pair x = num_pair_sum(p[0], -point[0]), y = num_pair_sum(p[1], -point[1]);
+    const double size = fabs(x.hi) + fabs(y.hi);
+    if (!is_moderate(size)) return false;
+    if (a->count == 1) return round_root(num_pair_add(num_pair_mul(x, x), num_pair_mul(y, y)), 0, out);
+    const num_pair ex = num_pair_sum(q[0], -p[0]), ey = num_pair_sum(q[1], -p[1]);
+    if (!is_moderate(fabs(ex.hi) + fabs(ey.hi))) return false;
+    const num_pair cross = num_pair_sub(num_pair_mul(ex, y), num_pair_mul(ey, x));
+    const num_pair square = num_pair_add(num_pair_mul(ex, ex), num_pair_mul(ey, ey));
+    return round_root(num_pair_div(num_pair_mul(cross, cross), square), 0x1p-94 * size, out);
 }
 
 /* The distance from a simplex, if pairs of doubles can tell how it is to be rounded: sqrt(S) errs by 2^-94 of
@@ -186,11 +199,12 @@ static double difference_between(int dim, const double *p, const double *q, num_
  * by less than 2^-96 |v| |e|, and n v by less than 2^-95 |e| |f| |v|, as n by 2^-96 |e| |f|. */
 static bool round_simplex(const double *point, const geom_distance *a, double *out) {
     num_pair v[3], e[3], f[3], n[3], s;
-    double sizes[3] = {difference_between(a->dim, point, a->corner[0], v), 1, 1}, error = 0;
-    if (a->count > 1) sizes[1] = difference_between(a->dim, a->corner[0], a->corner[1], e);
-    if (a->count > 2) sizes[2] = difference_between(a->dim, a->corner[0], a->corner[2], f);
+    if (a->dim == 2) return round_flat(point, a, out);
+    double sizes[3] = {num_pair_between(point, a->corner[0], v), 1, 1}, error = 0;
+    if (a->count > 1) sizes[1] = num_pair_between(a->corner[0], a->corner[1], e);
+    if (a->count > 2) sizes[2] = num_pair_between(a->corner[0], a->corner[2], f);
     for (int i = 0; i < 3; i++)
-        if (!(sizes[i] > 0x1p-100 && sizes[i] < 0x1p100)) return false;
+        if (!is_moderate(sizes[i])) return false;
     if (a->count == 1) {
         s = num_pair_dot(v, v);
     } else if (a->count == 2) {

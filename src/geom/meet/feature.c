@@ -51,20 +51,25 @@ bool geom_feature_nearest(const double *point, const double *const corner[3], ge
     return true;
 }
 
+/* A sum of two products of differences, each of which is rounded once: 4u of the products' sizes. */
+static num_ball sum_of_products(double p, double q) {
+    return (num_ball){p + q, 5 * FILTER_U * (fabs(p) + fabs(q)) + NUM_BALL_TINY};
+}
+
 /* The same for a segment pq of the plane, e from p to q, v and w from the point to p and q: p where e . v > 0, q where
  * e . w < 0, the interior where e . v < 0 < e . w, and the square of the distance from it is (e x v)^2 / e^2. */
 bool geom_feature_of_segment(const double *point, const double *const corner[2], geom_feature *out) {
-    const double x[3] = {point[0], point[1]}, p[3] = {corner[0][0], corner[0][1]}, q[3] = {corner[1][0], corner[1][1]};
-    const filter_vector e = filter_between(p, q), v = filter_between(x, p), w = filter_between(x, q);
-    const int ahead = sign_of_dot(&e, &v), past = sign_of_dot(&e, &w);
+    const double *p = corner[0], *q = corner[1], ex = q[0] - p[0], ey = q[1] - p[1], vx = p[0] - point[0],
+                 vy = p[1] - point[1], wx = q[0] - point[0], wy = q[1] - point[1];
+    const int ahead = filter_sign(sum_of_products(ex * vx, ey * vy));
+    const int past = filter_sign(sum_of_products(ex * wx, ey * wy));
     if (ahead == 1 || past == -1) {
-        *out = ahead == 1 ? (geom_feature){1, {corner[0]}, filter_dot(&v, &v)}
-                          : (geom_feature){1, {corner[1]}, filter_dot(&w, &w)};
+        *out = ahead == 1 ? (geom_feature){1, {p}, sum_of_products(vx * vx, vy * vy)}
+                          : (geom_feature){1, {q}, sum_of_products(wx * wx, wy * wy)};
         return true;
     }
-    const filter_vector c = filter_cross(&e, &v);
-    const num_ball across = {c.x[2], c.e};
+    const num_ball across = sum_of_products(ex * vy, -ey * vx);
     if (ahead != -1 || past != 1 || filter_sign(across) == NUM_UNSURE) return false; /* it may be on the segment */
-    *out = (geom_feature){2, {corner[0], corner[1]}, filter_div(filter_mul(across, across), filter_dot(&e, &e))};
+    *out = (geom_feature){2, {p, q}, filter_div(filter_mul(across, across), sum_of_products(ex * ex, ey * ey))};
     return true;
 }

@@ -73,8 +73,8 @@ froe_status query_near_by_blocks(struct froe_query *query, size_t k, bool *out, 
 /** On a packed tree of the plane: query->near.candidates has the k nearest to query->near.point, or all within the
  * bound if there are fewer, and what 16-bit units do not tell from them; none twice. FROE_E_MEMORY. */
 froe_status query_near_packed(struct froe_query *query, size_t k, double bound);
-/** The same for each of up to QUERY_NEAR_FLOCK points, into query->near.flock: while the points of these candidates come
- * from memory, the next are found. `left` points are to come, these included. FROE_E_MEMORY. */
+/** The same for each of up to QUERY_NEAR_FLOCK points, into query->near.flock: while the points of these candidates
+ * come from memory, the next are found. `left` points are to come, these included. FROE_E_MEMORY. */
 froe_status query_near_flock(struct froe_query *query, const double *points, size_t count, size_t left, size_t k,
                              double bound);
 /** Measures the candidates of point i of a flock: the k nearest are query->near.out. FROE_E_MEMORY. */
