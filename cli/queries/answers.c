@@ -1,5 +1,6 @@
 /* answers.c: cells as text, gathered in a buffer. */
 #include "queries/answers.h"
+#include "support/decimal/decimal.h"
 #include "support/escape.h"
 #include <math.h>
 #include <stdio.h>
@@ -58,12 +59,14 @@ static void put_json(cli_answers *out, const char *text) {
 
 /* Writes the digits that reading a number back needs; returns how many characters these are, at most CELL - 1. */
 static size_t print_number(char *to, double value) {
-    int length = 0;
-    for (int digits = 15; digits <= 17; digits++) { /* "%.15g" leaves out zeros at the end */
-        length = snprintf(to, CELL, "%.*g", digits, value);
-        if (strtod(to, NULL) == value) break;
+    char text[SUPPORT_DECIMAL_ROOM + SUPPORT_DECIMAL_AHEAD] = "", *end;
+    size_t length = 0;
+    for (int digits = 15; digits <= 17; digits++) {
+        length = support_decimal_format(text, value, digits);
+        if (digits < 17 && support_decimal_ahead(text, &end) == value) break;
     }
-    return (size_t)length;
+    memcpy(to, text, length + 1);
+    return length;
 }
 
 /* Is it a number as JSON has them? -1.5e-3 is, 007, .5 and +1 are not. */
@@ -129,12 +132,8 @@ static inline void end_cell(cli_answers *out) {
 
 void cli_answers_whole(cli_answers *out, uint64_t value) {
     begin_cell(out);
-    char digits[CELL], *to = room(out);
-    size_t count = 0;
-    do digits[count++] = (char)('0' + value % 10);
-    while (value /= 10);
-    for (size_t i = 0; i < count; i++) to[i] = digits[count - 1 - i];
-    out->length += count;
+    char *to = room(out);
+    out->length += support_decimal_whole(to, value);
     end_cell(out);
 }
 

@@ -338,6 +338,7 @@ static int ask_rows(query_run *r, double start) {
     r->bounded = is_bounded(r);
     warn_axes(r);
     const size_t each = r->table.columns.own_count;
+    for (size_t k = 0; k < each; k++) r->rows.kept[r->table.columns.own[k]] = true;
     if (each) r->own = calloc((CLI_BLOCK + 1) * each, sizeof *r->own);
     if (each && !r->own)
         code = cli_fail_memory();

@@ -181,8 +181,9 @@ static bool read_numbers(cli_rows *rows, double *values) {
         return false;
     }
     for (; !field.last && column < rows->columns; column++) {
-        rows->fields[column] = field = support_csv_next(&at, rows->separator);
         double *value = rows->place[column] < 0 ? NULL : &values[rows->place[column]];
+        if (value && !rows->kept[column] && support_csv_plain(&at, rows->separator, value, &field.last)) continue;
+        rows->fields[column] = field = support_csv_next(&at, rows->separator);
         if (!value) continue;
         if (support_csv_number(field.text, rows->separator, value)) {
             support_csv_point(field.text, rows->separator);

@@ -35,7 +35,8 @@ typedef struct cli_rows {
     uint64_t rows;           /**< read so far */
     size_t numbers, columns; /**< asked for; there are */
     const char *names[SUPPORT_CSV_COLUMNS];
-    support_csv_field fields[SUPPORT_CSV_COLUMNS]; /**< of a row that was read, as they stand in the file */
+    bool kept[SUPPORT_CSV_COLUMNS];                /**< set by the owner: the text of these columns is wanted */
+    support_csv_field fields[SUPPORT_CSV_COLUMNS]; /**< these, of a row that was read, as they stand in the file */
     signed char place[SUPPORT_CSV_COLUMNS];        /**< which number a column holds, -1: none */
     char separator;
     int family;         /**< of the names of the axes, see support/text/csv.h */

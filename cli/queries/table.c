@@ -152,10 +152,25 @@ static int by_number(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
+/* Few numbers, each inserted among those before it. */
+static void sort_few(uint32_t *ids, size_t count) {
+    for (size_t i = 1; i < count; i++) {
+        const uint32_t id = ids[i];
+        size_t at = i;
+        for (; at && ids[at - 1] > id; at--) ids[at] = ids[at - 1];
+        ids[at] = id;
+    }
+}
+
 void cli_sort_answers(froe_answers *answers) {
+    enum { FEW = 24 };
     for (size_t i = 0; i < answers->queries; i++) {
-        const size_t first = answers->starts[i], count = answers->starts[i + 1] - first;
-        if (count > 1) qsort(answers->ids + first, count, sizeof *answers->ids, by_number);
+        uint32_t *ids = answers->ids + answers->starts[i];
+        const size_t count = answers->starts[i + 1] - answers->starts[i];
+        if (count > FEW)
+            qsort(ids, count, sizeof *ids, by_number);
+        else
+            sort_few(ids, count);
     }
 }
 

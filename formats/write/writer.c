@@ -1,5 +1,6 @@
 /* writer.c: text files, numbers and quotes. */
 #include "formats/write/writer.h"
+#include "support/decimal/decimal.h"
 #include "support/escape.h"
 #include <math.h>
 #include <stdio.h>
@@ -29,20 +30,16 @@ static void put_byte(formats_writer *w, char byte) {
 }
 
 void formats_put_number(formats_writer *w, double value) {
-    char text[40];
-    if (fabs(value) < 1e15 && value == (double)(int64_t)value) {
-        snprintf(text, sizeof text, "%lld", (long long)value);
-    } else {
-        snprintf(text, sizeof text, "%.15g", value); /* 0.1 stays 0.1; what has more digits gets all 17 */
-        if (strtod(text, NULL) != value) snprintf(text, sizeof text, "%.17g", value);
-    }
-    formats_put(w, text);
+    char text[SUPPORT_DECIMAL_ROOM + SUPPORT_DECIMAL_AHEAD] = "", *end;
+    if (value == 0) value = 0;                               /* not -0 */
+    size_t length = support_decimal_format(text, value, 15); /* 0.1 stays 0.1; what has more digits gets all 17 */
+    if (support_decimal_ahead(text, &end) != value) length = support_decimal_format(text, value, 17);
+    support_writer_put(&w->out, text, length);
 }
 
 void formats_put_whole(formats_writer *w, uint64_t value) {
     char text[24];
-    snprintf(text, sizeof text, "%llu", (unsigned long long)value);
-    formats_put(w, text);
+    support_writer_put(&w->out, text, support_decimal_whole(text, value));
 }
 
 void formats_put_point(formats_writer *w, const double *p, int dim, const char *separator) {

@@ -11,6 +11,7 @@
 #include "support/decimal/powers_of_five.h"
 #include <math.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -119,4 +120,91 @@ double support_decimal(const char *text, char **end) {
 
 double support_decimal_ahead(const char *text, char **end) {
     return read_decimal(text, end, true);
+}
+
+/* ------------------------------------------------------------------ output -- */
+
+/* The whole part of |value| 10^(16 - k), which has 17 digits, and 64 bits of what is behind the point, with an error of
+ * less than one: 192 bits of the product with the table's power of five, of which the last may be wrong. k becomes the
+ * power of the first digit. False: the table does not reach so far. */
+static bool seventeen_digits(uint64_t mantissa, int exponent, int *k, uint64_t *digits, uint64_t *behind) {
+    const uint64_t least = UINT64_C(10000000000000000);
+    const int zeros = __builtin_clzll(mantissa);
+    for (*k = ((exponent + 63 - zeros) * 315653) >> 20;; *k += *digits < least ? -1 : 1) { /* log10(2) 2^20 */
+        const int q = 16 - *k, twos = ((152170 * q) >> 16) + q;                            /* floor(q log2(10)) */
+        if (q < LEAST_POWER || q > GREATEST_POWER) return false;
+        const uint64_t *power = powers_of_five[q - LEAST_POWER], m = mantissa << zeros;
+        const wide low = (wide)m * power[1], high = (wide)m * power[0] + (low >> 64);
+        const int shift = 127 - twos - exponent + zeros - 128;
+        if (shift <= 0 || shift >= 64) return false;
+        *digits = (uint64_t)(high >> 64) >> shift;
+        *behind = (uint64_t)(high >> 64) << (64 - shift) | (uint64_t)high >> shift;
+        if (*digits >= least && *digits < 10 * least) return true;
+    }
+}
+
+/* Rounds to one of the numbers with so many digits. False: 64 bits leave a doubt. */
+static bool round_digits(uint64_t *digits, uint64_t behind, uint64_t unit) {
+    enum { DOUBT = 4 };
+    const uint64_t rest = *digits % unit, half = UINT64_C(1) << 63;
+    *digits /= unit;
+    if (unit == 1) {
+        *digits += behind > half;
+        return behind - half + DOUBT > 2 * DOUBT;
+    }
+    *digits += rest >= unit / 2;
+    return !(rest == unit / 2 && behind <= DOUBT) && !(rest == unit / 2 - 1 && behind >= UINT64_MAX - DOUBT);
+}
+
+/* Writes `count` digits of a number whose first digit stands for 10^k. */
+static char *put_digits(char *to, const char *digits, int count, int k, bool scientific) {
+    if (scientific) {
+        *to++ = *digits;
+        if (count > 1) *to++ = '.';
+        memcpy(to, digits + 1, (size_t)count - 1);
+        return to + count - 1 + snprintf(to + count - 1, sizeof "e-324", "e%c%02d", k < 0 ? '-' : '+', abs(k));
+    }
+    if (k < 0) {
+        memcpy(to, "0.000", 5);
+        to += 1 - k;
+        memcpy(to, digits, (size_t)count);
+        return to + count;
+    }
+    for (int i = 0; i < count || i <= k; i++) {
+        if (i == k + 1) *to++ = '.';
+        *to++ = (char)(i < count ? digits[i] : '0');
+    }
+    return to;
+}
+
+size_t support_decimal_format(char out[SUPPORT_DECIMAL_ROOM], double value, int digits) {
+    static const uint64_t units[] = {100, 10, 1};
+    const uint64_t implied = (uint64_t)1 << MANTISSA;
+    uint64_t bits, number, behind;
+    memcpy(&bits, &value, sizeof bits);
+    const int exponent = (int)(bits >> MANTISSA & INFINITE);
+    const uint64_t mantissa = (bits & (implied - 1)) | (exponent ? implied : 0);
+    int k, count = digits;
+    if (digits < 15 || digits > 17 || exponent == INFINITE || !mantissa ||
+        !seventeen_digits(mantissa, (exponent ? exponent : 1) - BIAS - MANTISSA, &k, &number, &behind) ||
+        !round_digits(&number, behind, units[digits - 15]))
+        return (size_t)snprintf(out, SUPPORT_DECIMAL_ROOM, "%.*g", digits, value);
+    char text[20];
+    for (int i = digits; i-- > 0; number /= 10) text[i] = (char)('0' + number % 10);
+    if (number) text[0] = '1', k++; /* 999...9 became 10^digits */
+    while (count > 1 && text[count - 1] == '0') count--;
+    char *to = out;
+    if (bits >> 63) *to++ = '-';
+    to = put_digits(to, text, count, k, k < -4 || k >= digits);
+    *to = '\0';
+    return (size_t)(to - out);
+}
+
+size_t support_decimal_whole(char *out, uint64_t value) {
+    char text[20], *at = text + sizeof text;
+    do *--at = (char)('0' + value % 10);
+    while (value /= 10);
+    const size_t length = (size_t)(text + sizeof text - at);
+    memcpy(out, at, length);
+    return length;
 }

@@ -1,6 +1,7 @@
-/* decimal.h: decimal numbers in text, correctly rounded, several times as fast as strtod(). */
+/* decimal.h: decimal numbers in text, correctly rounded, several times as fast as strtod() and printf(). */
 #ifndef FROE_SUPPORT_DECIMAL_H
 #define FROE_SUPPORT_DECIMAL_H
+#include <stddef.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -13,6 +14,15 @@ double support_decimal(const char *text, char **end);
 enum { SUPPORT_DECIMAL_AHEAD = 8 };
 /** The same for a text with these bytes behind its NUL. */
 double support_decimal_ahead(const char *text, char **end);
+
+/** Room for what support_decimal_format() writes, read ahead as well. */
+enum { SUPPORT_DECIMAL_ROOM = 40 };
+/** As snprintf() with "%.*g" in the C locale: `digits` significant digits, without zeros at the end. Returns how many
+ * characters that is; a NUL follows. 15 to 17 digits are quick. */
+size_t support_decimal_format(char out[SUPPORT_DECIMAL_ROOM], double value, int digits);
+
+/** Writes a whole number, at most 20 digits, and returns how many these are; no NUL follows. */
+size_t support_decimal_whole(char *out, uint64_t value);
 
 /** The double nearest to w 10^q, ties to even; infinite beyond the largest. */
 double support_decimal_nearest(uint64_t w, long long q);

@@ -103,9 +103,9 @@ bool support_csv_plain(char **at, char separator, double *out, bool *last) {
     if ((unsigned char)(*from - '0') >= 10 && *from != '-' && *from != '.') return false; /* blanks may be line ends */
     *out = support_decimal_ahead(from, &end);
     end += *end == '\r';
-    if (end == from || (*end != separator && *end != '\n')) return false;
-    *last = *end == '\n';
-    *at = end + 1;
+    if (end == from || (*end && *end != separator && *end != '\n')) return false;
+    *last = *end != separator;
+    *at = end + (*end != '\0');
     return true;
 }
 

@@ -110,6 +110,68 @@ static void random_texts_give_the_doubles_of_strtod(void **state) {
     }
 }
 
+static void check_format(double value) {
+    for (int digits = 14; digits <= 18; digits++) {
+        char expected[64], found[SUPPORT_DECIMAL_ROOM];
+        const int length = snprintf(expected, sizeof expected, "%.*g", digits, value);
+        const size_t written = support_decimal_format(found, value, digits);
+        if (written != (size_t)length || strcmp(expected, found) != 0)
+            fail_msg("%a with %d digits: '%s', not '%s'", value, digits, found, expected);
+    }
+}
+
+static void numbers_are_printed_as_by_printf(void **state) {
+    (void)state;
+    static const double values[] = {0.0,
+                                    -0.0,
+                                    1,
+                                    -1,
+                                    10,
+                                    0.1,
+                                    0.5,
+                                    0.25,
+                                    1e-4,
+                                    9.9999e-5,
+                                    99999999999999.95,
+                                    1e15,
+                                    1e16,
+                                    1e17,
+                                    1e18,
+                                    999999999999999.9,
+                                    9999999999999998,
+                                    99999999999999992.0,
+                                    1e22,
+                                    1e23,
+                                    5e-324,
+                                    2.2250738585072014e-308,
+                                    1.7976931348623157e308,
+                                    1e-300,
+                                    1e300,
+                                    INFINITY,
+                                    -INFINITY,
+                                    NAN,
+                                    1000000000000000.5,
+                                    1000000000000001.5,
+                                    100000000000000.05};
+    for (size_t i = 0; i < sizeof values / sizeof *values; i++) check_format(values[i]);
+    for (int q = -330; q <= 308; q++) { /* powers of ten, and their neighbours */
+        char text[16];
+        snprintf(text, sizeof text, "1e%d", q);
+        const double power = strtod(text, NULL);
+        check_format(power), check_format(nextafter(power, 0)), check_format(nextafter(power, INFINITY));
+        check_format(power * 0.5), check_format(ldexp(1, q));
+    }
+    for (uint64_t i = 0; i < 150000; i++) {
+        const uint64_t word = base_hash(2, 0, i), more = base_hash(2, 1, i);
+        double value;
+        memcpy(&value, &word, sizeof value);
+        check_format(value);
+        check_format((double)(word >> 11) * 0x1p-53);
+        check_format((double)(word % 1000000) / 1000);
+        check_format((double)(word >> 11) / (double)(1 << more % 12)); /* half way between numbers of 15 or 16 digits */
+    }
+}
+
 /* 5^q < (n + 1) 2^k and 5^q >= n 2^k with 2^127 <= n < 2^128; or, below 0, n is the least above 5^q / 2^k. */
 static void powers_of_five_are_those_of_gmp(void **state) {
     (void)state;
@@ -145,6 +207,7 @@ int main(void) {
         cmocka_unit_test(texts_end_where_strtod_ends),
         cmocka_unit_test(long_rows_of_zeros_count),
         cmocka_unit_test(random_texts_give_the_doubles_of_strtod),
+        cmocka_unit_test(numbers_are_printed_as_by_printf),
         cmocka_unit_test(powers_of_five_are_those_of_gmp),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
