@@ -14,8 +14,7 @@ typedef struct finder {
     view_grid grid;
     print_ring piece;
     view_ring ring;
-    uint32_t *stamps; /* per part: the visible piece + 1 that it was compared with last */
-    uint32_t *known;  /* per node: the node + 1 that is known to come after it */
+    uint32_t *known; /* per node: the node + 1 that is known to come after it */
     uint64_t most, *tests;
 } finder;
 
@@ -66,8 +65,6 @@ static froe_status compare_piece(finder *f, uint32_t visible) {
     view_grid_walk walk = view_grid_begin(&f->grid, view_grid_cells(&f->grid, f->piece.data, f->piece.count, 0));
     for (uint32_t i; view_grid_next(&walk, &i);) {
         const paint_part *part = f->parts->parts.data + i;
-        if (f->stamps[i] == visible + 1) continue;
-        f->stamps[i] = visible + 1;
         if (part->node == node || f->known[part->node] == node + 1) continue;
         if (f->parts->clear && part->place <= piece->place) continue;
         if (++*f->tests > f->most) return FROE_E_BUDGET;
@@ -95,12 +92,10 @@ froe_status view_find_arcs(view_parts *parts, view_sightlines *sights, uint64_t 
     finder f = {.parts = parts, .sights = sights, .arcs = arcs, .most = most, .tests = tests};
     const size_t part_count = parts->parts.count, node_count = parts->nodes.count;
     arcs->count = 0;
-    f.stamps = support_calloc(alloc, part_count + 1, sizeof *f.stamps);
     f.known = support_calloc(alloc, node_count + 1, sizeof *f.known);
-    froe_status status = f.stamps && f.known ? FROE_OK : FROE_E_MEMORY;
+    froe_status status = f.known ? FROE_OK : FROE_E_MEMORY;
     if (!status) status = view_grid_new(alloc, parts->view, part_count, arc_points, parts, &f.grid);
     for (uint32_t i = 0; i < parts->v->piece_count && !status; i++) status = compare_piece(&f, i);
-    support_free(alloc, f.stamps, (part_count + 1) * sizeof *f.stamps);
     support_free(alloc, f.known, (node_count + 1) * sizeof *f.known);
     view_grid_free(alloc, &f.grid);
     array_free(alloc, &f.piece);

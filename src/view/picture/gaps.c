@@ -20,8 +20,7 @@ typedef struct gapper {
     double same[2]; /* the distance within which lines count as one: visible ones, hidden ones */
     const view_segments *in;
     view_grid grid;
-    uint32_t *stamps; /* per segment: the one + 1 that it was compared with last */
-    ARRAY(gap) gaps;  /* of the current one */
+    ARRAY(gap) gaps; /* of the current one */
     ARRAY(uint32_t) order;
     view_segments out;
 } gapper;
@@ -80,8 +79,7 @@ static bool compare_all(gapper *g, uint32_t i) {
     for (uint32_t j; view_grid_next(&walk, &j);) {
         const view_segment *t = g->in->data + j;
         gap x;
-        if (j == i || g->stamps[j] == i + 1) continue;
-        g->stamps[j] = i + 1;
+        if (j == i) continue;
         const int weaker = view_strength(t->kind, t->hidden) - view_strength(s->kind, s->hidden);
         for (int wide = 0; wide <= s->hidden && (weaker > 0 || (!weaker && j < i)); wide++)
             if (stretch_near(s, t, g->same[wide], &x) && (x.to - x.from) * length_of(s) >= 8 * g->same[wide] &&
@@ -125,9 +123,7 @@ froe_status view_cut_segments(const froe_allocator *alloc, const froe_projection
     const size_t n = segments->count;
     g.same[0] = 2.5e-6 * (view->width + view->height);
     g.same[1] = 20 * g.same[0];
-    g.stamps = support_calloc(alloc, n + 1, sizeof *g.stamps);
-    froe_status status = g.stamps ? FROE_OK : FROE_E_MEMORY;
-    if (!status) status = view_grid_new(alloc, view, n, gap_points, segments, &g.grid);
+    froe_status status = view_grid_new(alloc, view, n, gap_points, segments, &g.grid);
     bool ok = !status;
     for (uint32_t i = 0; ok && i < n; i++) {
         const view_segment *s = segments->data + i;
@@ -146,7 +142,6 @@ froe_status view_cut_segments(const froe_allocator *alloc, const froe_projection
         ok = ok && (last >= 1 || put_part(&g, s, last, 1));
     }
     if (!ok && !status) status = FROE_E_MEMORY;
-    support_free(alloc, g.stamps, (n + 1) * sizeof *g.stamps);
     view_grid_free(alloc, &g.grid);
     array_free(alloc, &g.gaps);
     array_free(alloc, &g.order);

@@ -17,7 +17,6 @@ typedef struct line_sorter {
     view_painter *p;
     print_ring points;               /* of all visible pieces */
     ARRAY(uint32_t) starts;          /* of each, and their end */
-    uint32_t *stamps;                /* per visible piece: the segment + 1 that was compared with it last */
     ARRAY(uint32_t) nearer, farther; /* nodes within reach of the current segment: in front of it, and the others */
     ARRAY(uint32_t) lines;           /* segments that are nodes: those of the picture come before */
     view_arcs arcs;
@@ -115,8 +114,6 @@ static bool add_interleaved_line(line_sorter *s, uint32_t i) {
         size_t n;
         const print_point *ring = line_points(s, visible, &n);
         const uint32_t node = p->parts.node_of[visible];
-        if (s->stamps[visible] == i + 1) continue;
-        s->stamps[visible] = i + 1;
         if (n < 3) continue;
         const near_place m = nearest(ring, n, segment->at[0], segment->at[1]);
         if (m.square > reach * reach) continue;
@@ -175,8 +172,7 @@ froe_status view_interleave(view_painter *p) {
         ok = view_print_visible(&p->parts, i, &s.points);
         s.starts.data[s.starts.count++] = (uint32_t)s.points.count;
     }
-    s.stamps = support_calloc(alloc, (size_t)pieces + 1, sizeof *s.stamps);
-    ok = ok && s.stamps && !view_grid_new(alloc, p->options->view, pieces, line_points, &s, &s.grid);
+    ok = ok && !view_grid_new(alloc, p->options->view, pieces, line_points, &s, &s.grid);
     for (uint32_t i = 0; ok && i < p->segments.count; i++) ok = add_interleaved_line(&s, i);
     const view_graph *faces = &p->graph; /* whose arcs still count */
     for (uint32_t v = 0; v < faces->count; v++)
@@ -185,7 +181,6 @@ froe_status view_interleave(view_painter *p) {
     const froe_status status = ok ? sort_lines(&s, &g) : FROE_E_MEMORY;
     view_graph_free(alloc, &g);
     view_grid_free(alloc, &s.grid);
-    support_free(alloc, s.stamps, ((size_t)p->v->piece_count + 1) * sizeof *s.stamps);
     array_free(alloc, &s.points);
     array_free(alloc, &s.starts);
     array_free(alloc, &s.nearer);

@@ -96,20 +96,30 @@ static void make_strip(print_point a, print_point b, double width, print_point o
     out[3] = (print_point){out[0].x + x, out[0].y + y};
 }
 
-/* Pieces that may meet a ring, each once: in the first of the cells in common. */
+/* Pieces that may meet a ring. */
 static bool list_near(view_seams *s, const print_point *ring, size_t count) {
     const view_grid *g = &s->grid;
-    const view_cells strip = view_grid_cells(g, ring, count, 0);
-    view_grid_walk walk = view_grid_begin(g, strip);
+    view_grid_walk walk = view_grid_begin(g, view_grid_cells(g, ring, count, 0));
     s->near.count = 0;
-    for (uint32_t i; view_grid_next(&walk, &i);) {
-        const seam_span span = s->pieces.data[i];
-        const view_cells own = view_grid_cells(g, s->points.data + span.first, span.count, 0);
-        const bool first =
-            walk.x == (own.x0 > strip.x0 ? own.x0 : strip.x0) && walk.y == (own.y0 > strip.y0 ? own.y0 : strip.y0);
-        if (first && !array_push(&s->parts->v->alloc, &s->near, i)) return false;
-    }
+    for (uint32_t i; view_grid_next(&walk, &i);)
+        if (!array_push(&s->parts->v->alloc, &s->near, i)) return false;
     return true;
+}
+
+/* Drops pieces that lie wholly beside what is looked at along ab: `left` of it to `right` of it. */
+static void drop_far(view_seams *s, print_point a, print_point b, double left, double right) {
+    const double dx = b.x - a.x, dy = b.y - a.y, slack = 1 + 1e-6, length = sqrt(dx * dx + dy * dy) * slack;
+    size_t kept = 0;
+    for (size_t i = 0; i < s->near.count; i++) {
+        const seam_span span = s->pieces.data[s->near.data[i]];
+        double lo = INFINITY, hi = -INFINITY; /* to the right: y points down */
+        for (size_t k = span.first; k < span.first + span.count; k++) {
+            const double at = dx * (s->points.data[k].y - a.y) - dy * (s->points.data[k].x - a.x);
+            lo = at < lo ? at : lo, hi = at > hi ? at : hi;
+        }
+        if (lo <= right * length && hi >= -left * length) s->near.data[kept++] = s->near.data[i];
+    }
+    s->near.count = kept;
 }
 
 static bool ring_meets_visible(const view_seams *s, uint32_t visible, const print_point *ring, size_t count) {
@@ -230,6 +240,7 @@ bool view_seams_look(view_seams *s, uint32_t node, print_point a, print_point b,
     make_strip(a, b, s->width, outer);
     for (int i = 0; i < 4; i++) both[i] = inner[i], both[4 + i] = outer[i];
     if (!list_near(s, both, 8)) return false;
+    drop_far(s, a, b, 0.5 * s->width, s->width);
     if (any_of_node(s, node, inner, 4)) return put_strips(s, node, a, b);
     make_strip(a, b, 0.5 * s->width, outer);
     /* Does something that is painted later end at the side: visible inside, but not beyond? */

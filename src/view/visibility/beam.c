@@ -39,6 +39,19 @@ static view_way way_of(view_sightlines *s, uint32_t piece, uint32_t object, uint
     return line == FROE_NONE ? FROE_NONE : 2 * line + (positive == in_front);
 }
 
+/* The vertex at corner i of a ring: between two edges of the polygon, or at the end of one where a cut goes through it.
+ * FROE_NONE: the corner is none. */
+static uint32_t vertex_at(const view_sightlines *s, const piece_ring *o, uint32_t i) {
+    const froe_scene *scene = s->tree->scene;
+    const uint32_t before = entry(o, i ? i - 1 : o->count - 1), after = entry(o, i),
+                   n = scene_corners(scene, o->object);
+    const bool cut_before = before & TREE_EDGE_CUT, cut_after = after & TREE_EDGE_CUT;
+    if (cut_before && cut_after) return FROE_NONE;
+    const uint32_t vertex = scene_corner(scene, o->object, !cut_after ? after : before + 1 < n ? before + 1 : 0);
+    if (!cut_before && !cut_after) return vertex;
+    return view_cut_has(s, (cut_before ? before : after) & ~TREE_EDGE_CUT, vertex) ? vertex : FROE_NONE;
+}
+
 /* Corners in the order of turning left; a corner lies between entries i - 1 and i of the ring. */
 static bool make_ring(view_sightlines *s, uint32_t piece, const piece_ring *o, view_ring *ring) {
     const int facing = view_facing(s, o->object);
@@ -49,7 +62,7 @@ static bool make_ring(view_sightlines *s, uint32_t piece, const piece_ring *o, v
         const uint32_t before = entry(o, i_before), after = entry(o, i);
         const bool own = !((before | after) & TREE_EDGE_CUT);
         if (own && s->surface->straight[scene_start(s->tree->scene, o->object) + after]) continue;
-        view_corner k = {.vertex = own ? scene_corner(s->tree->scene, o->object, after) : FROE_NONE};
+        view_corner k = {.vertex = vertex_at(s, o, i)};
         k.way = way_of(s, piece, o->object, facing > 0 ? after : before, facing);
         if (k.way == FROE_NONE) return false;
         ring->data[ring->count++] = k;

@@ -54,7 +54,7 @@ double view_share_of(view_sightlines *s, uint32_t edge, view_mark mark) {
     const filter_vector *h = &s->lines.data[mark.way >> 1].image;
     const num_ball at_u = filter_dot(h, &s->rays[v[0]]), at_v = filter_dot(h, &s->rays[v[1]]);
     const num_ball t = filter_div(at_u, filter_sub(at_u, at_v));
-    const double x = t.e <= 0x1p-44 ? t.x : view_share_round(s, mark.way >> 1, v[0], v[1]);
+    const double x = t.e <= 0x1p-40 ? t.x : view_share_round(s, mark.way >> 1, v[0], v[1]);
     return x < 0 ? 0 : x > 1 ? 1 : x;
 }
 

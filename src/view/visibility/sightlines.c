@@ -213,6 +213,54 @@ froe_status view_stop_edge(view_sightlines *s, uint32_t edge, uint32_t object, u
 
 /* ----------------------------------------------------------------------- sides -- */
 
+static bool has_corner(const froe_scene *scene, uint32_t object, uint32_t vertex) {
+    uint32_t i = 0;
+    const uint32_t n = scene_corners(scene, object);
+    while (i < n && scene_corner(scene, object, i) != vertex) i++;
+    return i < n;
+}
+
+bool view_cut_has(const view_sightlines *s, uint32_t node, uint32_t vertex) {
+    const tree_node *n = s->tree->nodes + node;
+    if (n->type == TREE_PLAIN) return scene_vertex(s->tree->scene, vertex)[n->axis] == n->u.value;
+    const tree_cut *cut = s->tree->cuts + n->u.cut;
+    if (cut->kind == FROE_CUT_OBJECT) return has_corner(s->tree->scene, cut->a, vertex);
+    return cut->kind == FROE_CUT_VERTICES && (cut->a == vertex || cut->u.id.b == vertex || cut->u.id.c == vertex);
+}
+
+/* Is an object of a patch made of a vertex? Only small patches are searched. */
+static bool patch_has_corner(const view_sightlines *s, uint32_t patch, uint32_t vertex) {
+    enum { MEMBERS_MOST = 4 };
+    const froe_surface *f = s->surface;
+    const uint32_t first = f->patch_starts[patch], end = f->patch_starts[patch + 1];
+    bool found = false;
+    for (uint32_t m = first; m < end && end - first <= MEMBERS_MOST && !found; m++)
+        found = has_corner(f->scene, f->members[m], vertex);
+    return found;
+}
+
+static bool patch_has_edge(const view_sightlines *s, uint32_t patch, uint32_t edge) {
+    const froe_surface *f = s->surface;
+    bool found = false;
+    for (uint32_t i = f->edge_starts[edge]; i < f->edge_starts[edge + 1] && !found; i++)
+        found = f->patch_of[f->uses[i]] == patch;
+    return found;
+}
+
+/* Does a vertex lie on a line by what both are made of? */
+static bool line_has_vertex(const view_sightlines *s, const view_line *l, uint32_t vertex) {
+    if (l->kind == VIEW_EDGE) return l->a == vertex || l->b == vertex;
+    return l->kind == VIEW_CUT && vertex < s->tree->scene->vertex_count && view_cut_has(s, l->b, vertex) &&
+           patch_has_corner(s, l->a, vertex);
+}
+
+/* A cut stops an edge at one point, which is on the lines of this cut through all patches with the edge. */
+static bool cut_has_meeting(const view_sightlines *s, const view_line *cut, uint32_t line, uint32_t across) {
+    const view_line *e = s->lines.data + line, *c = s->lines.data + across;
+    return cut->kind == VIEW_CUT && e->kind == VIEW_EDGE && c->kind == VIEW_CUT && c->b == cut->b &&
+           e->c != FROE_NONE && patch_has_edge(s, cut->a, e->c) && patch_has_edge(s, c->a, e->c);
+}
+
 static int known(view_sightlines *s) {
     s->context.stats.calls++;
     return num_by_id(&s->context, 0);
@@ -222,7 +270,9 @@ int view_side_exactly(view_sightlines *s, uint32_t line, uint32_t vertex, view_w
     const view_line *l = s->lines.data + line;
     geom_plane planes[6];
     if (vertex == FROE_NONE && (a >> 1 == line || b >> 1 == line)) return known(s);
-    if (vertex != FROE_NONE && l->kind == VIEW_EDGE && (l->a == vertex || l->b == vertex)) return known(s);
+    if (vertex != FROE_NONE && line_has_vertex(s, l, vertex)) return known(s);
+    if (vertex == FROE_NONE && (cut_has_meeting(s, l, a >> 1, b >> 1) || cut_has_meeting(s, l, b >> 1, a >> 1)))
+        return known(s);
     const geom_line h = resolve(s, line, planes);
     if (vertex != FROE_NONE) return geom_line_side_point(&s->context, &s->eye, &h, view_vertex(s, vertex));
     const geom_line first = resolve(s, a >> 1, planes + 2), second = resolve(s, b >> 1, planes + 4);

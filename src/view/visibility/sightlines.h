@@ -68,6 +68,8 @@ uint32_t view_line_of_window(view_sightlines *sights, uint32_t side);
  * fourth to the second (axis 1); i from 1 on. */
 uint32_t view_line_across(view_sightlines *sights, int axis, uint32_t i);
 uint32_t view_line_of_cut(view_sightlines *sights, uint32_t patch, uint32_t node);
+/** Does the cut of a node go through a vertex of the scene, by what the cut is made of? False says nothing. */
+bool view_cut_has(const view_sightlines *sights, uint32_t node, uint32_t vertex);
 /** The plane of an object, or (FROE_NONE) that of the section, the root's cut. */
 geom_plane view_plane_at(const view_sightlines *sights, uint32_t object);
 /** Where such a plane, which parts its vertices, stops an edge: the mark of that point on a line through it.
