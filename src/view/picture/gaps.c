@@ -74,7 +74,7 @@ static double length_of(const view_segment *s) {
 static bool compare_all(gapper *g, uint32_t i) {
     const view_segment *s = g->in->data + i;
     const double reach = fmax(g->same[s->hidden], s->hidden ? 0 : g->halo);
-    view_grid_walk walk = view_grid_begin(&g->grid, view_grid_cells(&g->grid, s->at, 2, reach));
+    view_grid_walk walk = view_grid_along(&g->grid, s->at[0], s->at[1], reach);
     g->gaps.count = 0;
     for (uint32_t j; view_grid_next(&walk, &j);) {
         const view_segment *t = g->in->data + j;

@@ -18,7 +18,8 @@ typedef struct view_grid {
     uint32_t cells;    /**< a side */
     uint32_t *starts;  /**< cells^2 + 1 */
     uint32_t *entries; /**< things, ascending in each cell */
-    view_cells *of;    /**< per thing */
+    uint32_t *stamps;  /**< per thing: the number of the walk that found it last */
+    uint32_t walks;    /**< begun so far */
     uint64_t entry_count;
     size_t count;      /**< of things */
     double wide, high; /**< of a cell */
@@ -33,38 +34,42 @@ void view_grid_free(const froe_allocator *alloc, view_grid *grid);
 /** The cells that the bounds of some points, widened by `beyond`, meet. */
 view_cells view_grid_cells(const view_grid *grid, const print_point *points, size_t count, double beyond);
 
-/** A walk over the things in cells, row by row. */
+/** A walk over the things in cells, row by row; one at a time. */
 typedef struct view_grid_walk {
-    const view_grid *grid;
+    view_grid *grid;
     view_cells cells;
-    uint16_t x, y;       /**< the cell of the thing found last */
+    bool along; /**< only the cells near ab */
+    print_point a, b;
+    double beyond;
+    uint16_t x, x1, y;   /**< the cell entered last, and the last one of its row */
     uint32_t entry, end; /**< what is left of it */
 } view_grid_walk;
 
-static inline void view_grid_enter(view_grid_walk *w, uint32_t x, uint32_t y) {
-    const uint32_t *starts = w->grid->starts + (size_t)y * w->grid->cells + x;
-    w->x = (uint16_t)x, w->y = (uint16_t)y;
+/** Over some cells. */
+view_grid_walk view_grid_begin(view_grid *grid, view_cells cells);
+/** Over the cells that lie no farther than `beyond` from ab along both axes. */
+view_grid_walk view_grid_along(view_grid *grid, print_point a, print_point b, double beyond);
+/** Goes on to the next row that has cells; false: there is none. */
+bool view_grid_row(view_grid_walk *walk);
+
+static inline void view_grid_enter(view_grid_walk *w) {
+    const uint32_t *starts = w->grid->starts + (size_t)w->y * w->grid->cells + w->x;
     w->entry = starts[0], w->end = starts[1];
 }
-static inline view_grid_walk view_grid_begin(const view_grid *g, view_cells c) {
-    view_grid_walk w = {.grid = g, .cells = c, .x = c.x1, .y = c.y1};
-    if (c.x0 <= c.x1 && c.y0 <= c.y1) view_grid_enter(&w, c.x0, c.y0);
-    return w;
-}
-/** The next thing; each comes once, in the first of its cells. False: there is none left. */
+/** The next thing; each comes once. False: there is none left. */
 static inline bool view_grid_next(view_grid_walk *w, uint32_t *thing) {
     for (;;) {
         while (w->entry == w->end) {
-            if (w->x < w->cells.x1)
-                view_grid_enter(w, w->x + 1u, w->y);
-            else if (w->y < w->cells.y1)
-                view_grid_enter(w, w->cells.x0, w->y + 1u);
-            else
+            if (w->x < w->x1)
+                w->x++;
+            else if (!view_grid_row(w))
                 return false;
+            view_grid_enter(w);
         }
         *thing = w->grid->entries[w->entry++];
-        const view_cells *own = w->grid->of + *thing;
-        if ((w->x == own->x0 || w->x == w->cells.x0) && (w->y == own->y0 || w->y == w->cells.y0)) return true;
+        if (w->grid->stamps[*thing] == w->grid->walks) continue;
+        w->grid->stamps[*thing] = w->grid->walks;
+        return true;
     }
 }
 #endif

@@ -109,7 +109,7 @@ static bool add_interleaved_line(line_sorter *s, uint32_t i) {
     if (segment->hidden) return true;
     const double reach = segment->kind == FROE_LINE_POINT ? p->options->interleave_points : p->options->interleave;
     s->nearer.count = s->farther.count = 0;
-    view_grid_walk walk = view_grid_begin(&s->grid, view_grid_cells(&s->grid, segment->at, 2, reach));
+    view_grid_walk walk = view_grid_along(&s->grid, segment->at[0], segment->at[1], reach);
     for (uint32_t visible; view_grid_next(&walk, &visible);) {
         size_t n;
         const print_point *ring = line_points(s, visible, &n);

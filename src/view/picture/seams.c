@@ -96,10 +96,8 @@ static void make_strip(print_point a, print_point b, double width, print_point o
     out[3] = (print_point){out[0].x + x, out[0].y + y};
 }
 
-/* Pieces that may meet a ring. */
-static bool list_near(view_seams *s, const print_point *ring, size_t count) {
-    const view_grid *g = &s->grid;
-    view_grid_walk walk = view_grid_begin(g, view_grid_cells(g, ring, count, 0));
+/* Pieces that a walk finds. */
+static bool list_near(view_seams *s, view_grid_walk walk) {
     s->near.count = 0;
     for (uint32_t i; view_grid_next(&walk, &i);)
         if (!array_push(&s->parts->v->alloc, &s->near, i)) return false;
@@ -233,13 +231,12 @@ static bool put_strips(view_seams *s, uint32_t node, print_point a, print_point 
 }
 
 bool view_seams_look(view_seams *s, uint32_t node, print_point a, print_point b, bool *bare) {
-    print_point inner[4], outer[4], both[8];
+    print_point inner[4], outer[4];
     *bare = false;
     if (a.x == b.x && a.y == b.y) return true;
     make_strip(a, b, -0.5 * s->width, inner);
     make_strip(a, b, s->width, outer);
-    for (int i = 0; i < 4; i++) both[i] = inner[i], both[4 + i] = outer[i];
-    if (!list_near(s, both, 8)) return false;
+    if (!list_near(s, view_grid_along(&s->grid, a, b, s->width))) return false;
     drop_far(s, a, b, 0.5 * s->width, s->width);
     if (any_of_node(s, node, inner, 4)) return put_strips(s, node, a, b);
     make_strip(a, b, 0.5 * s->width, outer);
@@ -253,7 +250,7 @@ bool view_seams_look(view_seams *s, uint32_t node, print_point a, print_point b,
 }
 
 bool view_seams_hidden(view_seams *s, uint32_t node, const print_point *ring, size_t count, bool *hidden) {
-    if (!list_near(s, ring, count)) return false;
+    if (!list_near(s, view_grid_begin(&s->grid, view_grid_cells(&s->grid, ring, count, 0)))) return false;
     *hidden = !any_of_node(s, node, ring, count);
     return true;
 }
