@@ -412,7 +412,7 @@ static void corners_lie_where_they_are_seen(void **state) {
                     off += plane.n[k] * (x[3 * c + (uint32_t)k] - plane.p[0][k]), size += fabs(plane.n[k]);
                 assert_true(fabs(off) <= 1e-9 * size * 10);
                 for (uint32_t s = 0; s < p.corners; s++) { /* on the positive side of all sides, up to rounding */
-                    const view_corner *side = l.v->corners.data + l.v->pieces[i].first + s;
+                    const view_spot *side = l.v->corners.data + l.v->pieces[i].first + s;
                     const filter_vector ray = geom_ray_image(&l.v->sights.eye, x + 3 * (size_t)c);
                     filter_vector n = l.v->sights.lines.data[side->way >> 1].image;
                     const double at = filter_dot(&n, &ray).x * (side->way & 1 ? -1 : 1);

@@ -13,7 +13,7 @@ typedef struct finder {
     view_arcs *arcs;
     view_grid grid;
     print_ring piece;
-    view_ring ring;
+    view_ring own, ring;
     uint32_t *known; /* per node: the node + 1 that is known to come after it */
     uint64_t most, *tests;
 } finder;
@@ -34,22 +34,17 @@ static bool ring_is_beyond(view_sightlines *s, const view_corner *a, uint32_t a_
     return false;
 }
 
-static bool overlap_exactly(finder *f, const view_piece *piece, const paint_part *part, int kind) {
+/* A superfluous arc does no harm: so it is without memory. */
+static bool overlap_exactly(finder *f, uint32_t visible, const paint_part *part, int kind) {
     const froe_visibility *v = f->parts->v;
-    const view_corner *a = v->corners.data + piece->first, *b;
-    uint32_t count;
-    if (kind == PART_VISIBLE) {
-        b = v->corners.data + v->pieces[part->source].first;
-        count = v->pieces[part->source].count;
-    } else {
-        const bool ok = kind == PART_PIECE ? view_beam_of(f->sights, part->source, &f->ring)
-                                           : view_beam_of_object(f->sights, part->source, &f->ring);
-        if (!ok) return true; /* a superfluous arc does no harm */
-        b = f->ring.data;
-        count = (uint32_t)f->ring.count;
-    }
-    return !ring_is_beyond(f->sights, a, piece->count, b, count) &&
-           !ring_is_beyond(f->sights, b, count, a, piece->count);
+    const bool ok = view_ring_of_visible(v, f->sights, visible, &f->own) &&
+                    (kind == PART_VISIBLE ? view_ring_of_visible(v, f->sights, part->source, &f->ring)
+                     : kind == PART_PIECE ? view_beam_of(f->sights, part->source, &f->ring)
+                                          : view_beam_of_object(f->sights, part->source, &f->ring));
+    const view_corner *a = f->own.data, *b = f->ring.data;
+    const uint32_t a_count = (uint32_t)f->own.count, b_count = (uint32_t)f->ring.count;
+    return !ok ||
+           (!ring_is_beyond(f->sights, a, a_count, b, b_count) && !ring_is_beyond(f->sights, b, b_count, a, a_count));
 }
 
 /* ------------------------------------------------------------------------- arcs -- */
@@ -72,7 +67,7 @@ static froe_status compare_piece(finder *f, uint32_t visible) {
         const print_point *ring = f->parts->points.data + part->first;
         if (!print_overlap(f->piece.data, f->piece.count, ring, part->count, -unsure)) continue;
         if (!print_overlap(f->piece.data, f->piece.count, ring, part->count, unsure) &&
-            !overlap_exactly(f, piece, part, f->parts->kinds.data[i]))
+            !overlap_exactly(f, visible, part, f->parts->kinds.data[i]))
             continue;
         f->known[part->node] = node + 1;
         if (!array_push(&f->parts->v->alloc, f->arcs, (graph_arc){part->node, node})) return FROE_E_MEMORY;
@@ -99,6 +94,7 @@ froe_status view_find_arcs(view_parts *parts, view_sightlines *sights, uint64_t 
     support_free(alloc, f.known, (node_count + 1) * sizeof *f.known);
     view_grid_free(alloc, &f.grid);
     array_free(alloc, &f.piece);
+    array_free(alloc, &f.own);
     array_free(alloc, &f.ring);
     return status;
 }

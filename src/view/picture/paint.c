@@ -78,7 +78,7 @@ static bool put_region(view_painter *p, uint32_t patch, uint32_t node) {
         if (!array_reserve(&picture->alloc, &picture->points, r->starts.data[i + 1] - r->starts.data[i])) return false;
         for (uint32_t c = r->starts.data[i]; c < r->starts.data[i + 1]; c++) {
             double page[2];
-            view_camera_ray(p->options->view, s->eye.origin, s->eye.axis, p->v->corners.data[r->corners.data[c]].ray.x,
+            view_camera_ray(p->options->view, s->eye.origin, s->eye.axis, p->v->corners.data[r->corners.data[c]].ray,
                             page);
             picture->points.data[picture->points.count++] = (print_point){page[0], page[1]};
         }

@@ -28,27 +28,29 @@ void view_parts_free(view_parts *p) {
 
 /* ----------------------------------------------------------------------- prints -- */
 
-/* A ring of sightlines in the plane of a patch, onto the page. */
-static bool print_ring_of(view_parts *p, uint32_t patch, const view_corner *ring, size_t count, print_ring *out) {
-    const geom_plane plane = view_plane_of(&p->v->sights, patch);
-    bool cut;
-    print_begin(&p->press);
-    for (size_t i = 0; i < count; i++) {
-        double x[3];
-        view_point_on(&p->v->sights, &plane, ring[i].ray.x, x);
-        if (!print_add(&p->press, x)) return false;
-    }
-    return print_end(&p->press, out, &cut);
+/* Adds the point of a plane that is seen along a ray. */
+static bool add_point_on(view_parts *p, const geom_plane *plane, const double ray[3]) {
+    double x[3];
+    view_point_on(&p->v->sights, plane, ray, x);
+    return print_add(&p->press, x);
 }
 
 bool view_print_visible(view_parts *p, uint32_t visible, print_ring *out) {
     const view_piece *piece = p->v->pieces + visible;
-    return print_ring_of(p, piece->patch, p->v->corners.data + piece->first, piece->count, out);
+    const geom_plane plane = view_plane_of(&p->v->sights, piece->patch);
+    bool cut, ok = true;
+    print_begin(&p->press);
+    for (uint32_t i = 0; ok && i < piece->count; i++)
+        ok = add_point_on(p, &plane, p->v->corners.data[piece->first + i].ray);
+    return ok && print_end(&p->press, out, &cut);
 }
 
 bool view_print_piece(view_parts *p, view_sightlines *sights, uint32_t piece, print_ring *out) {
-    const uint32_t patch = p->v->surface->patch_of[p->v->tree->pieces[piece].object];
-    return view_beam_of(sights, piece, &p->ring) && print_ring_of(p, patch, p->ring.data, p->ring.count, out);
+    const geom_plane plane = view_plane_of(&p->v->sights, p->v->surface->patch_of[p->v->tree->pieces[piece].object]);
+    bool cut, ok = view_beam_of(sights, piece, &p->ring);
+    print_begin(&p->press);
+    for (size_t i = 0; ok && i < p->ring.count; i++) ok = add_point_on(p, &plane, p->ring.data[i].ray.x);
+    return ok && print_end(&p->press, out, &cut);
 }
 
 /* ------------------------------------------------------------------------ parts -- */

@@ -15,6 +15,7 @@ static froe_status find_graph(view_painter *p) {
     froe_status status = view_parts_make(&p->parts, p->sights);
     if (!status) status = view_find_arcs(&p->parts, p->sights, most, &p->arcs, &report->tests);
     if (!status) status = view_graph_new(alloc, (uint32_t)p->parts.nodes.count, p->arcs.data, p->arcs.count, &p->graph);
+    array_free(alloc, &p->arcs);
     if (status) return status;
     const size_t n = p->parts.nodes.count;
     uint8_t *fixed = support_calloc(alloc, n + 1, 1);

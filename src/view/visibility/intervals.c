@@ -71,57 +71,84 @@ static view_mark mark_on_edge(view_sightlines *s, uint32_t edge, uint32_t line, 
 
 typedef struct interval_joiner {
     froe_visibility *v;
-    const view_stretch *stretches;
     uint32_t edge, line;
+    ARRAY(view_end) ends; /* of the stretches of the edge, two each */
+    ARRAY(uint32_t) order;
 } interval_joiner;
 
 static int by_interval_start(void *user, uint32_t a, uint32_t b) {
     interval_joiner *j = user;
-    return view_compare_ends(&j->v->sights, j->line, &j->stretches[a].end[0], &j->stretches[b].end[0]);
+    return view_compare_ends(&j->v->sights, j->line, &j->ends.data[2 * (size_t)a], &j->ends.data[2 * (size_t)b]);
 }
 
-froe_status view_join_intervals(froe_visibility *v, const view_stretches *stretches) {
+/* Appends an interval; rounding keeps the order. */
+static void put_interval(interval_joiner *j, const view_end *from, const view_end *to, double *last) {
+    froe_visibility *v = j->v;
+    view_sightlines *s = &v->sights;
+    const view_mark marks[2] = {mark_on_edge(s, j->edge, j->line, from, 0), mark_on_edge(s, j->edge, j->line, to, 1)};
+    froe_interval x = {view_share_of(s, j->edge, marks[0]), view_share_of(s, j->edge, marks[1])};
+    if (x.from < *last) x.from = *last;
+    if (x.to < x.from) x.to = x.from;
+    *last = x.to;
+    memcpy(v->interval_marks + 2 * (size_t)v->interval_count, marks, sizeof marks);
+    v->intervals[v->interval_count++] = x;
+}
+
+/* Appends the union of the stretches of an edge, which are numbered. */
+static bool join_edge(interval_joiner *j, const view_runs *stretches, const uint32_t *items, uint32_t count) {
+    view_sightlines *s = &j->v->sights;
+    const froe_allocator *alloc = &j->v->alloc;
+    j->ends.count = j->order.count = 0;
+    if (!array_reserve(alloc, &j->ends, 2 * (size_t)count) || !array_reserve(alloc, &j->order, 2 * (size_t)count))
+        return false;
+    for (uint32_t i = 0; i < count; i++) {
+        for (int e = 0; e < 2; e++)
+            j->ends.data[j->ends.count++] = view_end_at(s, j->line, stretches->data[items[i]].end[e]);
+        j->order.data[i] = i;
+    }
+    base_merge_sort(j->order.data, j->order.data + count, count, by_interval_start, j);
+    double last = 0;
+    for (uint32_t i = 0; i < count;) {
+        const view_end *from = j->ends.data + 2 * (size_t)j->order.data[i], *to = from + 1;
+        for (i++; i < count; i++) {
+            const view_end *next = j->ends.data + 2 * (size_t)j->order.data[i];
+            if (view_compare_ends(s, j->line, &next[0], to) > 0) break;
+            if (view_compare_ends(s, j->line, &next[1], to) > 0) to = &next[1];
+        }
+        put_interval(j, from, to, &last);
+    }
+    return true;
+}
+
+froe_status view_join_intervals(froe_visibility *v, const view_runs *stretches) {
     const froe_allocator *alloc = &v->alloc;
     const size_t edges = surface_line_count(v->surface);
     const size_t n = stretches->count;
     if (n > INT32_MAX) return FROE_E_LIMIT;
+    interval_joiner j = {.v = v};
     v->edge_starts = support_calloc(alloc, edges + 1, sizeof *v->edge_starts);
     v->interval_room = n + 1;
     v->intervals = support_calloc(alloc, n + 1, sizeof *v->intervals);
     v->interval_marks = support_calloc(alloc, 2 * (n + 1), sizeof *v->interval_marks);
-    uint32_t *items = support_calloc(alloc, 2 * n + 1, sizeof *items), *starts = v->edge_starts;
-    const bool ok = starts && v->intervals && v->interval_marks && items;
+    uint32_t *items = support_calloc(alloc, n + 1, sizeof *items), *starts = v->edge_starts;
+    bool ok = starts && v->intervals && v->interval_marks && items;
     /* items[starts[e] .. starts[e+1]) become the stretches of edge e. */
-    for (size_t i = 0; ok && i < n; i++) starts[stretches->data[i].edge + 1]++;
+    for (size_t i = 0; ok && i < n; i++) starts[stretches->data[i].line + 1]++;
     for (uint32_t e = 0; ok && e < edges; e++) starts[e + 1] += starts[e];
-    for (size_t i = n; ok && i-- > 0;) items[--starts[stretches->data[i].edge + 1]] = (uint32_t)i;
+    for (size_t i = n; ok && i-- > 0;) items[--starts[stretches->data[i].line + 1]] = (uint32_t)i;
     for (uint32_t e = 0; ok && e < edges; e++) starts[e] = starts[e + 1]; /* ends were lowered to the starts */
     if (ok) starts[edges] = (uint32_t)n;
     for (uint32_t e = 0; ok && e < edges; e++) {
         const uint32_t count = starts[e + 1] - starts[e], first = starts[e];
-        interval_joiner j = {v, stretches->data, e, count ? view_line_of_edge(&v->sights, e) : FROE_NONE};
         starts[e] = v->interval_count;
-        base_merge_sort(items + first, items + n, count, by_interval_start, &j);
-        /* Appends the union of the sorted stretches; rounding keeps the order. */
-        double last = 0;
-        for (uint32_t i = first; i < first + count;) {
-            const view_end *from = &j.stretches[items[i]].end[0], *to = &j.stretches[items[i]].end[1];
-            for (i++; i < first + count; i++) {
-                const view_end *next = j.stretches[items[i]].end;
-                if (view_compare_ends(&v->sights, j.line, &next[0], to) > 0) break;
-                if (view_compare_ends(&v->sights, j.line, &next[1], to) > 0) to = &next[1];
-            }
-            const view_mark marks[2] = {mark_on_edge(&v->sights, e, j.line, from, 0),
-                                        mark_on_edge(&v->sights, e, j.line, to, 1)};
-            froe_interval x = {view_share_of(&v->sights, e, marks[0]), view_share_of(&v->sights, e, marks[1])};
-            if (x.from < last) x.from = last;
-            if (x.to < x.from) x.to = x.from;
-            last = x.to;
-            memcpy(v->interval_marks + 2 * (size_t)v->interval_count, marks, sizeof marks);
-            v->intervals[v->interval_count++] = x;
-        }
+        if (!count) continue;
+        j.edge = e;
+        j.line = view_line_of_edge(&v->sights, e);
+        ok = join_edge(&j, stretches, items + first, count);
     }
     if (ok) starts[edges] = v->interval_count;
-    support_free(alloc, items, (2 * n + 1) * sizeof *items);
+    support_free(alloc, items, (n + 1) * sizeof *items);
+    array_free(alloc, &j.ends);
+    array_free(alloc, &j.order);
     return ok ? FROE_OK : FROE_E_MEMORY;
 }

@@ -22,7 +22,7 @@ static uint32_t find_point_root(uint32_t *point, uint32_t i) {
 /* ------------------------------------------------------------------------- sides -- */
 
 /* The side that leaves corner i of a piece. A corner is  before x way, and also  way x after  of the side before. */
-static region_side side_of_ring(const view_corner *ring, uint32_t count, uint32_t i, uint32_t number) {
+static region_side side_of_ring(const view_spot *ring, uint32_t count, uint32_t i, uint32_t number) {
     const uint32_t j = i + 1 < count ? i + 1 : 0;
     const view_way way = ring[i].way, before = ring[i ? i - 1 : count - 1].way, after = ring[j].way;
     const uint32_t turned = way & 1;
@@ -67,11 +67,12 @@ static int compare_ends(void *user, uint32_t a, uint32_t b) {
     const region_side *s = m->r->sides.data + (a >> 1), *t = m->r->sides.data + (b >> 1);
     const uint32_t p = s->end[a & 1], q = t->end[b & 1];
     if (find_point_root(m->r->point.data, p) == find_point_root(m->r->point.data, q)) return 0;
-    const view_corner *x = m->v->corners.data + m->r->corner_of.data[p];
-    const view_corner *y = m->v->corners.data + m->r->corner_of.data[q];
+    const view_spot *x = m->v->corners.data + m->r->corner_of.data[p];
+    const view_spot *y = m->v->corners.data + m->r->corner_of.data[q];
     if (x->vertex != FROE_NONE && x->vertex == y->vertex) return 0;
     const view_way n = t->across[b & 1];
-    const int side = view_side(m->sights, n >> 1, &x->ray, x->vertex, 2 * s->line, s->across[a & 1]);
+    const view_end end = view_end_at(m->sights, s->line, (view_mark){x->vertex, s->across[a & 1]});
+    const int side = view_side(m->sights, n >> 1, &end.ray, x->vertex, 2 * s->line, s->across[a & 1]);
     return n & 1 ? side : -side;
 }
 

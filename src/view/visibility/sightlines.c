@@ -242,6 +242,7 @@ static bool patch_has_corner(const view_sightlines *s, uint32_t patch, uint32_t 
 static bool patch_has_edge(const view_sightlines *s, uint32_t patch, uint32_t edge) {
     const froe_surface *f = s->surface;
     bool found = false;
+    if (edge >= f->edge_count) return false; /* a wire */
     for (uint32_t i = f->edge_starts[edge]; i < f->edge_starts[edge + 1] && !found; i++)
         found = f->patch_of[f->uses[i]] == patch;
     return found;
@@ -258,7 +259,7 @@ static bool line_has_vertex(const view_sightlines *s, const view_line *l, uint32
 static bool cut_has_meeting(const view_sightlines *s, const view_line *cut, uint32_t line, uint32_t across) {
     const view_line *e = s->lines.data + line, *c = s->lines.data + across;
     return cut->kind == VIEW_CUT && e->kind == VIEW_EDGE && c->kind == VIEW_CUT && c->b == cut->b &&
-           e->c != FROE_NONE && patch_has_edge(s, cut->a, e->c) && patch_has_edge(s, c->a, e->c);
+           patch_has_edge(s, cut->a, e->c) && patch_has_edge(s, c->a, e->c);
 }
 
 static int known(view_sightlines *s) {

@@ -17,7 +17,7 @@ typedef struct visibility_search {
     base_task task;
     view_screen screen;
     view_ring ring;
-    view_stretches stretches;
+    view_runs stretches;
     view_crosser crosser;
     ARRAY(view_piece) pieces;
     uint32_t *ranks; /* per object */
@@ -29,7 +29,8 @@ typedef struct visibility_search {
 
 static bool keep_stretch(void *user, const view_stretch *part) {
     visibility_search *k = user;
-    return array_push(&k->v->alloc, &k->stretches, *part);
+    const view_run run = {part->edge, {view_mark_of(&part->end[0]), view_mark_of(&part->end[1])}};
+    return array_push(&k->v->alloc, &k->stretches, run);
 }
 
 static bool keep_side(void *user, const view_stretch *side) {
@@ -42,16 +43,33 @@ static bool keep_side(void *user, const view_stretch *side) {
 static froe_status keep_pieces(visibility_search *k) {
     froe_visibility *v = k->v;
     const view_screen *s = &k->screen;
-    for (size_t i = 0; i < s->seen.count; i++) {
-        const view_opening *part = s->seen.data + i;
+    for (size_t n = 0; n < s->seen.count; n++) {
+        const view_opening *part = s->seen.data + n;
         if (!array_reserve(&v->alloc, &v->corners, part->count)) return FROE_E_MEMORY;
         k->now.first = (uint32_t)v->corners.count;
         k->now.count = part->count;
-        memcpy(v->corners.data + v->corners.count, s->ring.data + part->first, part->count * sizeof *s->ring.data);
-        v->corners.count += part->count;
+        for (uint32_t i = 0; i < part->count; i++) {
+            const view_corner *corner = s->ring.data + part->first + i;
+            view_spot *spot = v->corners.data + v->corners.count++;
+            *spot = (view_spot){.way = corner->way, .vertex = corner->vertex};
+            memcpy(spot->ray, corner->ray.x, sizeof spot->ray);
+        }
         if (v->corners.count > INT32_MAX || !array_push(&v->alloc, &k->pieces, k->now)) return FROE_E_MEMORY;
     }
     return FROE_OK;
+}
+
+bool view_ring_of_visible(const froe_visibility *v, view_sightlines *s, uint32_t visible, view_ring *out) {
+    const view_piece *p = v->pieces + visible;
+    const view_spot *spots = v->corners.data + p->first;
+    out->count = 0;
+    if (!array_reserve(&v->alloc, out, p->count)) return false;
+    for (uint32_t i = 0; i < p->count; i++) {
+        view_corner k = {.way = spots[i].way, .vertex = spots[i].vertex};
+        k.ray = k.vertex != FROE_NONE ? s->rays[k.vertex] : view_meeting(s, spots[i ? i - 1 : p->count - 1].way, k.way);
+        out->data[out->count++] = k;
+    }
+    return true;
 }
 
 static bool is_wanted(const visibility_search *k, uint32_t edge) {
@@ -157,24 +175,24 @@ static froe_status look_from_eye(visibility_search *k, const geom_eye *eye) {
                        view_side_of_eye(&v->sights.context, v->tree, 0, &v->sights.eye) == -v->section;
     for (uint32_t o = 0; along && o < v->surface->scene->object_count && !status; o++)
         if (v->surface->patch_of[o] != FROE_NONE && !view_facing(&v->sights, o)) status = view_look_along_section(v, o);
+    v->report.screen_nodes = k->screen.nodes.count;
+    view_screen_free(&k->screen);
     if (!status) status = sort_pieces(k);
+    array_free(&v->alloc, &k->pieces);
     if (!status) status = view_join_intervals(v, &k->stretches);
+    array_free(&v->alloc, &k->stretches);
     if (!status) status = view_join_crossings(v, &k->crosser);
     if (!status) view_tally(v, k->options->cull_back);
     if (!status) {
         froe_predicate_stats *predicates = &v->report.predicates;
         v->report.visible_pieces = v->piece_count;
         v->report.intervals = v->interval_count;
-        v->report.screen_nodes = k->screen.nodes.count;
         v->report.lines = v->sights.lines.count;
         *predicates = v->sights.context.stats;
         predicates->calls = predicates->by_id + predicates->filtered + predicates->refined + predicates->exact;
     }
-    view_screen_free(&k->screen);
     array_free(&v->alloc, &k->ring);
-    array_free(&v->alloc, &k->stretches);
     view_crosser_free(&k->crosser);
-    array_free(&v->alloc, &k->pieces);
     support_free(&v->alloc, k->ranks, ((size_t)v->surface->scene->object_count + 1) * sizeof *k->ranks);
     return status;
 }
@@ -278,7 +296,7 @@ size_t froe_visibility_corners(const froe_visibility *v, size_t i, double *coord
     const view_piece *p = v->pieces + i;
     const geom_plane plane = view_plane_of(&v->sights, p->patch);
     for (uint32_t c = 0; c < p->count && c < capacity; c++)
-        view_point_on(&v->sights, &plane, v->corners.data[p->first + c].ray.x, coords + 3 * (size_t)c);
+        view_point_on(&v->sights, &plane, v->corners.data[p->first + c].ray, coords + 3 * (size_t)c);
     return p->count;
 }
 

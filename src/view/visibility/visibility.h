@@ -13,6 +13,13 @@ typedef struct view_piece {
     uint32_t first, count; /**< its ring in `corners` */
 } view_piece;
 
+/** A corner of a visible piece: a view_corner, of which the bounds of the ray can be had again. */
+typedef struct view_spot {
+    double ray[3];
+    view_way way;
+    uint32_t vertex;
+} view_spot;
+
 /** A part of a line, from mark to mark in its direction. */
 typedef struct view_run {
     uint32_t line;
@@ -27,7 +34,7 @@ struct froe_visibility {
     int section;        /**< see froe_visibility_options */
     view_piece *pieces; /**< ordered by patch, then place */
     uint32_t piece_count;
-    ARRAY(view_corner) corners;
+    ARRAY(view_spot) corners;
     uint32_t *patch_starts; /**< patch_count + 1, into pieces */
     froe_interval *intervals;
     view_mark *interval_marks; /**< two per interval: where it ends exactly, on the line of its edge */
@@ -41,6 +48,11 @@ struct froe_visibility {
 };
 
 typedef ARRAY(view_stretch) view_stretches;
+/** Stretches of edges and wires, with the number of these for a line. */
+typedef ARRAY(view_run) view_runs;
+
+/** The ring of a visible piece. False without memory. */
+bool view_ring_of_visible(const froe_visibility *v, view_sightlines *sights, uint32_t visible, view_ring *out);
 
 /** The rank of every object within its plane (see froe_visibility_options), object_count + 1 words; to be
  * freed after a failure, too. FROE_E_MEMORY. */
@@ -54,7 +66,7 @@ void view_tally(froe_visibility *v, bool cull_back);
  * does not see it as a point. FROE_E_MEMORY. */
 froe_status view_rest_of_edge(froe_visibility *v, uint32_t edge, view_stretch *out, bool *there);
 /** Joins the visible stretches of each edge and wire to intervals. FROE_E_MEMORY, FROE_E_LIMIT. */
-froe_status view_join_intervals(froe_visibility *v, const view_stretches *stretches);
+froe_status view_join_intervals(froe_visibility *v, const view_runs *stretches);
 /** The end of a stretch of a line at a mark. */
 view_end view_end_at(view_sightlines *sights, uint32_t line, view_mark mark);
 /** Compares two meetings, or a vertex with a meeting, along a line of sight: -1 the first comes first. Exact. */

@@ -21,7 +21,7 @@ typedef struct wire_tracer {
     froe_visibility *v;
     view_sightlines *sights;
     const view_screen *screen;
-    view_stretches *out;
+    view_runs *out;
     ARRAY(pending_wire) pending;
     ARRAY(wire_task) tasks; /**< other sides of lines along which the current wire runs */
     ARRAY(uint32_t) nodes;
@@ -72,8 +72,10 @@ static froe_status end_in_leaf(wire_tracer *t, uint32_t own, pending_wire *at) {
         if (status || !left) return status;
     }
     const uint32_t next = at->at.next;
-    const bool ok = next != FROE_NONE ? push_pending_wire(t, t->tasks.data[next], &at->part)
-                                      : array_push(&t->sights->alloc, t->out, at->part);
+    const view_stretch *part = &at->part;
+    const view_run run = {part->edge, {view_mark_of(&part->end[0]), view_mark_of(&part->end[1])}};
+    const bool ok = next != FROE_NONE ? push_pending_wire(t, t->tasks.data[next], part)
+                                      : array_push(&t->sights->alloc, t->out, run);
     return ok ? FROE_OK : FROE_E_MEMORY;
 }
 
@@ -219,8 +221,7 @@ static froe_status look_at_points(wire_tracer *t, base_task *task) {
 
 /* ---------------------------------------------------------------------- calling -- */
 
-froe_status view_look_at_wires(froe_visibility *v, const view_screen *screen, base_task *task,
-                               view_stretches *stretches) {
+froe_status view_look_at_wires(froe_visibility *v, const view_screen *screen, base_task *task, view_runs *stretches) {
     enum { PER_REPORT = 4096 };
     wire_tracer t = {.v = v, .sights = &v->sights, .screen = screen, .out = stretches};
     const uint32_t wires = v->surface->wire_count;

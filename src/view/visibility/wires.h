@@ -16,6 +16,5 @@
 
 /** Appends the visible stretches of all wires, with the numbers of their lines for edges, and notes in points_seen
  * which points are visible. The screen is complete. FROE_E_MEMORY, FROE_E_CANCELLED. */
-froe_status view_look_at_wires(froe_visibility *v, const view_screen *screen, base_task *task,
-                               view_stretches *stretches);
+froe_status view_look_at_wires(froe_visibility *v, const view_screen *screen, base_task *task, view_runs *stretches);
 #endif
