@@ -136,6 +136,7 @@ static bool are_boxes(const scene_adding *a, size_t from, size_t to) {
 
 /** Polygons that are exactly what a scene keeps. */
 static bool are_rings(const scene_adding *a, size_t from, size_t to) {
+    if (a->batch->kind != FROE_POLYGON) return false;
     const uint32_t *ids = a->in_order ? NULL : scene_adding_ids(a);
     struct scene_store *store = a->scene->store;
     uint32_t ring[RING_MOST], given[RING_MOST];
@@ -201,23 +202,34 @@ static froe_status look_at_some(void *user, unsigned worker, size_t job) {
     return FROE_OK;
 }
 
+/** Objects in doubt are looked at by one thread, which has the context for exact numbers. */
+static froe_status look_at_all(scene_adding *a, size_t jobs, uint8_t *doubt) {
+    plain_look look = {.adding = a, .doubt = doubt};
+    froe_status status = base_run(&a->task, 0.2, jobs, look_at_some, &look);
+    for (size_t job = 0; !status && a->plain && job < jobs; job++) {
+        size_t from, to;
+        if (!doubt[job]) continue;
+        job_objects(a, job, &from, &to);
+        a->plain = are_rings(a, from, to);
+        if (!base_progress(&a->task, 0.8 + 0.1 * (double)job / (double)jobs)) status = FROE_E_CANCELLED;
+    }
+    return status;
+}
+
 froe_status scene_look_at_forms(scene_adding *a) {
     const froe_allocator *alloc = &a->scene->alloc;
-    const bool rings = a->batch->kind == FROE_POLYGON;
-    const size_t jobs = (a->batch->count + OBJECTS_A_JOB - 1) / OBJECTS_A_JOB;
-    plain_look look = {.adding = a, .doubt = support_calloc(alloc, jobs, 1)};
-    if (!look.doubt) return support_fail_memory(a->diag);
+    const size_t count = a->batch->count, jobs = (count + OBJECTS_A_JOB - 1) / OBJECTS_A_JOB;
     a->form = a->batch->kind == FROE_SEGMENT && a->scene->dim > 3 ? FROE_HULL : a->batch->kind;
     a->plain = a->each > 0 && a->each <= RING_MOST;
     a->used = a->corners;
-    froe_status status = a->plain ? base_run(&a->task, 0.2, jobs, look_at_some, &look) : FROE_OK;
-    for (size_t job = 0; !status && a->plain && job < jobs; job++) {
-        size_t from, to;
-        if (!look.doubt[job]) continue;
-        job_objects(a, job, &from, &to);
-        a->plain = rings && are_rings(a, from, to);
-        if (!base_progress(&a->task, 0.8 + 0.1 * (double)job / (double)jobs)) status = FROE_E_CANCELLED;
+    if (!a->plain) return FROE_OK;
+    if (jobs == 1) {
+        a->plain = are_plain(a, 0, count) || are_rings(a, 0, count);
+        return scene_adding_progress(a, 0.8);
     }
-    support_free(alloc, look.doubt, jobs);
+    uint8_t *doubt = support_calloc(alloc, jobs, 1);
+    if (!doubt) return support_fail_memory(a->diag);
+    const froe_status status = look_at_all(a, jobs, doubt);
+    support_free(alloc, doubt, jobs);
     return status ? support_fail_cancelled(a->diag) : FROE_OK;
 }
