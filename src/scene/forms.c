@@ -203,7 +203,7 @@ static froe_status look_at_some(void *user, unsigned worker, size_t job) {
 }
 
 /** Objects in doubt are looked at by one thread, which has the context for exact numbers. */
-static froe_status look_at_all(scene_adding *a, size_t jobs, uint8_t *doubt) {
+static froe_status look_by_jobs(scene_adding *a, size_t jobs, uint8_t *doubt) {
     plain_look look = {.adding = a, .doubt = doubt};
     froe_status status = base_run(&a->task, 0.2, jobs, look_at_some, &look);
     for (size_t job = 0; !status && a->plain && job < jobs; job++) {
@@ -229,7 +229,7 @@ froe_status scene_look_at_forms(scene_adding *a) {
     }
     uint8_t *doubt = support_calloc(alloc, jobs, 1);
     if (!doubt) return support_fail_memory(a->diag);
-    const froe_status status = look_at_all(a, jobs, doubt);
+    const froe_status status = look_by_jobs(a, jobs, doubt);
     support_free(alloc, doubt, jobs);
     return status ? support_fail_cancelled(a->diag) : FROE_OK;
 }

@@ -4,7 +4,7 @@
 
 enum { PART_BITS_MOST = 13, RUN = 16, WRONG = 64, PARTS_A_JOB = 16, AHEAD = 128 };
 
-const match_plan match_usual = {.least = 1024, .chunk = 1 << 15, .part = 1024, .mask = UINT64_MAX};
+const match_plan match_usual = {.least = 256, .chunk = 1 << 15, .part = 1024, .mask = UINT64_MAX};
 
 /* ------------------------------------------------------------------- points -- */
 
@@ -208,7 +208,8 @@ static void choose_sizes(match_work *w) {
     while (w->chunk < (uint32_t)RUN << w->part_bits && w->chunk < all) w->chunk *= 2;
     w->known_chunks = (uint32_t)(((uint64_t)p->known_count + w->chunk - 1) / w->chunk);
     w->chunks = w->known_chunks + (uint32_t)(((uint64_t)p->fresh_count + w->chunk - 1) / w->chunk);
-    w->scratch_each = w->chunk > 1u << w->slot_bits ? w->chunk : 1u << w->slot_bits;
+    const uint64_t hashes = w->chunk < all ? w->chunk : all, slots = (uint64_t)1 << w->slot_bits;
+    w->scratch_each = hashes > slots ? hashes : slots;
 }
 
 froe_status match_begin(match_work *w, const match_points *points, const match_plan *plan, base_task *task,
@@ -222,7 +223,7 @@ froe_status match_begin(match_work *w, const match_points *points, const match_p
     w->equal = support_calloc(alloc, w->chunks * parts, sizeof *w->equal);
     w->wrong = support_calloc(alloc, (size_t)w->chunks * WRONG, sizeof *w->wrong);
     w->counts = support_calloc(alloc, 2 * (size_t)w->chunks, sizeof *w->counts);
-    w->scratch = support_calloc(alloc, w->scratch_each * task->threads, sizeof *w->scratch);
+    w->scratch = support_realloc(alloc, NULL, 0, w->scratch_each * task->threads * sizeof *w->scratch);
     if (!w->begins || !w->equal || !w->wrong || !w->counts || !w->scratch) return FROE_E_MEMORY;
     froe_status status = base_run(task, 0.2, w->chunks, deal_chunk, w);
     if (status || atomic_load(&w->lost)) return status;
