@@ -1,14 +1,10 @@
-/* plane.c: one grid over all objects, the subtrees of its parts as jobs, joined in their order.
- *
- *          *            The nodes above the parts are cut first, without looking at objects. What is left are subtrees
- *        /   \          that have nothing in common, about as many as a part has cells: jobs. One thread writes each at
- *       *     *         once to where it belongs. Several write them apart; then it is known where each belongs, and
- *      / \   / \        they are copied there, on all threads.
- *     j0 j1 j2 j3
+/* plane.c: one grid over all objects; the subtrees of its parts (build/index/grid.h) are jobs (build/index/join.h). A
+ * node above the parts that has few objects is a subtree, too.
  *
  * The root box is the bounds of the scene, widened by odd shares of its size, so that cuts do not fall on the round
  * numbers of which maps are made; a cut that meets a corner all the same is moved to the next double. */
 #include "build/index/plane.h"
+#include "build/index/join.h"
 #include "geom/selftest.h"
 #include <float.h>
 #include <math.h>
@@ -16,31 +12,14 @@
 
 enum { CHUNK = 1 << 15, LEAF_MOST = 64, FEW = 1 << 15, LEAST = 28, LEAST_OF_FEW = 9 };
 
-/* A node above the parts that is to be cut, or a subtree: its place in the tree is found when all before are there. */
-typedef struct plane_step {
-    index_cell cell;
-    bool cut;
-    int axis;
-    double value;
-} plane_step;
-
-typedef struct plane_job {
-    size_t step;
-    tree_packer packer; /* of several threads: the subtree */
-    packer_place place;
-} plane_job;
-
 typedef struct plane_build {
     index_plan *plan;
     index_work *works;       /* of threads */
     axis_work *axes;         /* theirs */
     axis_ends *ends;         /* a copy, where they do not lie so in the scene */
     double *lengths;         /* chunk -> sums of the extents of its objects; in the end [0] has those of all */
-    ARRAY(plane_step) steps; /* depth first */
-    ARRAY(plane_job) jobs;
-    ARRAY(uint32_t) open; /* nodes of the tree that wait for a step, the next on top */
-    size_t next;          /* step */
-    tree_packer tree;
+    ARRAY(index_cell) roots; /* of subtrees */
+    tree_join join;
 } plane_build;
 
 /* -------------------------------------------------------------------- start -- */
@@ -114,7 +93,6 @@ static froe_status begin_plane(plane_build *p) {
 static void end_plane(plane_build *p) {
     const froe_allocator *alloc = &p->plan->job->alloc;
     const unsigned threads = p->plan->job->task->threads;
-    for (size_t i = 0; i < p->jobs.count; i++) packer_free(&p->jobs.data[i].packer);
     for (unsigned i = 0; p->works && p->axes && i < threads && p->works[i].plan; i++) {
         subtree_work_free(p->works + i);
         num_context_free(&p->axes[i].context);
@@ -125,10 +103,8 @@ static void end_plane(plane_build *p) {
     const size_t objects = p->plan->job->scene->object_count;
     support_free(alloc, p->ends, (objects + 1) * sizeof *p->ends);
     support_free(alloc, p->lengths, (objects + CHUNK - 1) / CHUNK * 2 * sizeof *p->lengths);
-    array_free(alloc, &p->steps);
-    array_free(alloc, &p->jobs);
-    array_free(alloc, &p->open);
-    packer_free(&p->tree);
+    array_free(alloc, &p->roots);
+    join_free(&p->join);
 }
 
 /* ----------------------------------------------------------------- capacity -- */
@@ -143,114 +119,40 @@ static uint32_t own_capacity(const split_grid *g) {
     return leaf < LEAF_MOST ? (uint32_t)leaf : LEAF_MOST;
 }
 
-/* ---------------------------------------------------------------- the steps -- */
+/* ------------------------------------------------------------- the subtrees -- */
 
-static froe_status plan_steps(plane_build *p, const index_cell *root) {
-    const froe_allocator *alloc = &p->plan->job->alloc;
+/* Cuts the nodes above the parts of the grid; what is left are subtrees. */
+static froe_status plan_subtrees(plane_build *p, const index_cell *root) {
+    const build_job *job = p->plan->job;
+    const froe_allocator *alloc = &job->alloc;
     const split_grid *g = p->plan->whole;
     ARRAY(index_cell) waiting = {0};
     bool room = array_push(alloc, &waiting, *root);
     while (room && waiting.count) {
-        plane_step step = {.cell = waiting.data[--waiting.count]};
-        const index_cell *cell = &step.cell;
-        const uint32_t level = g ? grid_level(cell->heap) : 0;
-        step.cut = g && level < g->upper && cell->growth < p->plan->growth && g->count[cell->heap] > p->plan->job->leaf;
-        if (step.cut) {
+        const index_cell cell = waiting.data[--waiting.count];
+        const uint32_t level = g ? grid_level(cell.heap) : 0;
+        const uint64_t objects = g ? g->count[cell.heap] : job->scene->object_count, fragments = objects + objects / 4;
+        if (g && level < g->upper && cell.growth < p->plan->growth && objects > job->leaf) {
             index_cell side[2];
-            step.axis = g->axis[level];
-            step.value = subtree_halve(g, cell, level, g->count, side);
-            room = array_push(alloc, &waiting, side[1]) && array_push(alloc, &waiting, side[0]);
+            const double value = subtree_halve(g, &cell, level, g->count, side);
+            room = array_push(alloc, &waiting, side[1]) && array_push(alloc, &waiting, side[0]) &&
+                   join_cut(&p->join, g->axis[level], value);
         } else {
-            room = array_push(alloc, &p->jobs, (plane_job){.step = p->steps.count});
+            const uint64_t leaves = fragments / (job->leaf / 2 + 1) + 1;
+            const join_room about = {2 * leaves + 1, leaves + fragments / 5, objects};
+            room = join_subtree(&p->join, &about) && array_push(alloc, &p->roots, cell);
         }
-        room = room && array_push(alloc, &p->steps, step);
     }
     array_free(alloc, &waiting);
     return room ? FROE_OK : FROE_E_MEMORY;
 }
 
-/* Cuts the nodes before a step, which is a subtree; the node that it has. */
-static froe_status walk_to(plane_build *p, size_t step, uint32_t *node) {
-    for (; p->next <= step; p->next++) {
-        const plane_step *s = p->steps.data + p->next;
-        *node = p->open.data[--p->open.count];
-        if (!s->cut) continue;
-        uint32_t child;
-        froe_status status = packer_split(&p->tree, *node, s->axis, s->value, &child);
-        if (status) return status;
-        p->open.data[p->open.count++] = child + 1;
-        p->open.data[p->open.count++] = child;
-    }
-    return FROE_OK;
-}
-
-/* Room for a subtree or tree, about. Array pages that stay untouched cost nothing. */
-static froe_status new_packer(const build_job *job, uint64_t fragments, uint64_t objects, tree_packer *out) {
-    const uint64_t leaves = fragments / (job->leaf / 2 + 1) + 1;
-    return packer_new(&job->alloc, 2 * leaves + 1, leaves + fragments / 5, objects, out);
-}
-
-static froe_status build_directly(void *user, unsigned worker, size_t job) {
+static froe_status build_part(void *user, unsigned worker, size_t part, tree_packer *packer, uint32_t node) {
     plane_build *p = user;
-    const size_t step = p->jobs.data[job].step;
-    index_cell cell = p->steps.data[step].cell;
-    froe_status status = walk_to(p, step, &cell.node);
-    p->works[worker].packer = &p->tree;
-    return status ? status : subtree_build(p->works + worker, &cell);
-}
-
-static froe_status build_apart(void *user, unsigned worker, size_t job) {
-    plane_build *p = user;
-    plane_job *j = p->jobs.data + job;
-    index_cell cell = p->steps.data[j->step].cell;
-    const uint32_t count = p->plan->whole->count[cell.heap];
-    cell.node = 0;
-    froe_status status = new_packer(p->plan->job, count, count, &j->packer);
-    p->works[worker].packer = &j->packer;
-    return status ? status : subtree_build(p->works + worker, &cell);
-}
-
-static froe_status copy_subtree(void *user, unsigned worker, size_t job) {
-    plane_build *p = user;
-    plane_job *j = p->jobs.data + job;
-    (void)worker;
-    packer_put(&p->tree, &j->packer, &j->place);
-    packer_free(&j->packer);
-    return FROE_OK;
-}
-
-/* Takes exactly the room that all subtrees need, and gives each its place. */
-static froe_status place_subtrees(plane_build *p) {
-    const build_job *job = p->plan->job;
-    uint64_t nodes = p->steps.count, blocks = 0, owners = 0;
-    for (size_t i = 0; i < p->jobs.count; i++) {
-        const tree_packer *part = &p->jobs.data[i].packer;
-        nodes += part->nodes.count, blocks += part->block_count, owners += part->owners.count;
-    }
-    froe_status status = packer_new(&job->alloc, nodes, blocks, owners, &p->tree);
-    for (size_t i = 0; i < p->jobs.count && !status; i++) {
-        plane_job *j = p->jobs.data + i;
-        uint32_t node;
-        status = walk_to(p, j->step, &node);
-        if (!status) status = packer_place_for(&p->tree, node, &j->packer, &j->place);
-        if (!status && job->max_fragments && p->tree.piece_count > job->max_fragments) status = FROE_E_BUDGET;
-    }
-    return status;
-}
-
-static froe_status build_subtrees(plane_build *p) {
-    build_job *job = p->plan->job;
-    const split_grid *g = p->plan->whole;
-    const uint64_t objects = job->scene->object_count;
-    if (!array_reserve(&job->alloc, &p->open, GRID_LEVELS + 2)) return FROE_E_MEMORY;
-    p->open.data[p->open.count++] = 0;
-    if (job->task->threads == 1 || p->jobs.count == 1) {
-        froe_status status = new_packer(job, g ? g->fragments[g->levels] : objects + objects / 4, objects, &p->tree);
-        return status ? status : base_run(job->task, 0.75, p->jobs.count, build_directly, p);
-    }
-    froe_status status = base_run(job->task, 0.65, p->jobs.count, build_apart, p);
-    if (!status) status = place_subtrees(p);
-    return status ? status : base_run(job->task, 0.1, p->jobs.count, copy_subtree, p);
+    index_cell cell = p->roots.data[part];
+    cell.node = node;
+    p->works[worker].packer = packer;
+    return subtree_build(p->works + worker, &cell);
 }
 
 /* -------------------------------------------------------------------- whole -- */
@@ -258,6 +160,7 @@ static froe_status build_subtrees(plane_build *p) {
 froe_status build_in_plane(index_plan *plan, froe_tree **out) {
     build_job *job = plan->job;
     plane_build p = {.plan = plan};
+    p.join = (tree_join){.job = job, .fn = build_part, .user = &p};
     index_cell root = {.box = root_box(job->scene), .growth = 1, .heap = 1};
     memcpy(job->meta.root_lo, root.box.lo, sizeof root.box.lo);
     memcpy(job->meta.root_hi, root.box.hi, sizeof root.box.hi);
@@ -274,9 +177,9 @@ froe_status build_in_plane(index_plan *plan, froe_tree **out) {
         status = grid_new(&job->alloc, &source, &plan->whole);
     }
     if (!status && plan->whole && job->own_leaf) job->meta.leaf = job->leaf = own_capacity(plan->whole);
-    if (!status) status = plan_steps(&p, &root);
-    if (!status) status = build_subtrees(&p);
-    if (!status) status = packer_seal(&p.tree, job->scene, &job->meta, out);
+    if (!status) status = plan_subtrees(&p, &root);
+    if (!status) status = join_run(&p.join, 0.7);
+    if (!status) status = packer_seal(&p.join.tree, job->scene, &job->meta, out);
     froe_predicate_stats stats = {0};
     for (unsigned i = 0; !status && i < job->task->threads; i++) num_stats_add(&stats, &p.axes[i].context.stats);
     if (!status) (*out)->predicates = (*out)->report.predicates = stats;
