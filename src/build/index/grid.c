@@ -2,24 +2,22 @@
  *
  * A line that would run through a corner of an object or of a fragment is moved to the next double, and everything
  * is done once more: that is rare, for the box has no round numbers.
- *
- * Objects are dealt by chunks, whose number does not depend on that of threads: so the entries of a part are in the
- * order of their objects. */
+ */
 #include "build/index/trace.h"
 #include <math.h>
 #include <string.h>
 
-enum { NUDGES = 8, CHUNK = 1 << 15 };
+enum { NUDGES = 8 };
 
-typedef struct dealing {
+typedef struct grid_laying {
     const froe_allocator *alloc;
     const grid_source *source;
     split_grid *grid;
-    trace_chunk *chunks;
-    size_t chunk_count;
-    trace_counts *counts; /* of workers */
-    uint32_t *offsets;    /* [chunk][part]: entries, then where they go */
-} dealing;
+    unsigned threads;
+    dealing deal;
+    trace_bad *bad;       /* of chunks */
+    trace_counts *counts; /* of threads */
+} grid_laying;
 
 /* ------------------------------------------------------------------- lines -- */
 
@@ -77,94 +75,60 @@ static froe_status lay_lines(const froe_allocator *alloc, split_grid *g, bool *m
 
 /* ------------------------------------------------------------------ dealing -- */
 
-static unsigned worker_count(const grid_source *source) {
-    return source->task ? source->task->threads : 1;
-}
-
-/* One job for each chunk, on all threads there are. */
-static froe_status for_each_chunk(dealing *d, double span, base_job_fn *fn) {
-    froe_status status = FROE_OK;
-    if (d->source->task) return base_run(d->source->task, span, d->chunk_count, fn, d);
-    for (size_t i = 0; i < d->chunk_count && !status; i++) status = fn(d, 0, i);
-    return status;
-}
-
 static froe_status trace_job(void *user, unsigned worker, size_t job) {
-    dealing *d = user;
-    return trace_run(d->alloc, d->source, d->grid, d->source->workers + worker, d->counts + worker, d->chunks + job);
+    grid_laying *l = user;
+    return trace_run(l->alloc, l->source, l->grid, l->source->workers + worker, l->counts + worker,
+                     l->deal.chunks + job, l->bad + job);
 }
 
-static froe_status deal_job(void *user, unsigned worker, size_t job) {
-    dealing *d = user;
-    split_grid *g = d->grid;
-    trace_chunk *chunk = d->chunks + job;
-    const uint32_t lower = grid_lower(g), mask = (1u << (lower + 1 + GRID_BITS)) - 1;
-    (void)worker;
-    for (size_t i = 0; i < chunk->entries.count; i++) {
-        const trace_entry entry = chunk->entries.data[i];
-        const uint32_t to = chunk->parts[entry.place >> (lower + 1 + GRID_BITS)]++;
-        g->ids[to] = entry.id;
-        g->places[to] = (uint16_t)(entry.place & mask);
-    }
-    array_free(d->alloc, &chunk->entries);
-    return FROE_OK;
-}
-
-static froe_status take_room(dealing *d) {
-    const split_grid *g = d->grid;
-    const size_t parts = (size_t)1 << g->upper, count = d->source->count;
-    d->chunk_count = (count + CHUNK - 1) / CHUNK;
-    d->chunks = support_calloc(d->alloc, d->chunk_count, sizeof *d->chunks);
-    d->offsets = support_calloc(d->alloc, d->chunk_count * parts, sizeof *d->offsets);
-    d->counts = support_calloc(d->alloc, worker_count(d->source), sizeof *d->counts);
-    bool room = d->chunks && d->offsets && d->counts;
-    for (size_t i = 0; room && i < d->chunk_count; i++) {
-        const size_t from = i * CHUNK, to = count - from < CHUNK ? count : from + CHUNK;
-        d->chunks[i].from = (uint32_t)from, d->chunks[i].to = (uint32_t)to;
-        d->chunks[i].parts = d->offsets + i * parts;
-    }
-    for (unsigned i = 0; room && i < worker_count(d->source); i++) {
-        d->counts[i].crossings = support_calloc(d->alloc, 2 * parts, sizeof(uint32_t));
-        d->counts[i].met = support_calloc(d->alloc, (size_t)1 << g->levels, sizeof *d->counts->met);
-        room = d->counts[i].crossings && d->counts[i].met;
+static froe_status take_room(grid_laying *l) {
+    const size_t parts = (size_t)1 << l->grid->upper;
+    l->deal = (dealing){.alloc = *l->alloc,
+                        .task = l->source->task,
+                        .count = l->source->count,
+                        .shift = grid_lower(l->grid) + 1 + GRID_BITS,
+                        .parts = parts};
+    if (deal_new(&l->deal)) return FROE_E_MEMORY;
+    l->bad = support_calloc(l->alloc, l->deal.chunk_count, sizeof *l->bad);
+    l->counts = support_calloc(l->alloc, l->threads, sizeof *l->counts);
+    bool room = l->bad && l->counts;
+    for (unsigned i = 0; room && i < l->threads; i++) {
+        l->counts[i].crossings = support_calloc(l->alloc, 2 * parts, sizeof *l->counts->crossings);
+        l->counts[i].met = support_calloc(l->alloc, (size_t)1 << l->grid->levels, sizeof *l->counts->met);
+        room = l->counts[i].crossings && l->counts[i].met;
     }
     return room ? FROE_OK : FROE_E_MEMORY;
 }
 
-static void give_room_back(dealing *d) {
-    const split_grid *g = d->grid;
-    const size_t parts = (size_t)1 << g->upper;
-    for (size_t i = 0; d->chunks && i < d->chunk_count; i++) array_free(d->alloc, &d->chunks[i].entries);
-    for (unsigned i = 0; d->counts && i < worker_count(d->source); i++) {
-        support_free(d->alloc, d->counts[i].crossings, 2 * parts * sizeof(uint32_t));
-        support_free(d->alloc, d->counts[i].met, sizeof *d->counts->met << g->levels);
+static void give_room_back(grid_laying *l) {
+    for (unsigned i = 0; l->counts && i < l->threads; i++) {
+        support_free(l->alloc, l->counts[i].crossings, l->deal.parts * 2 * sizeof *l->counts->crossings);
+        support_free(l->alloc, l->counts[i].met, sizeof *l->counts->met << l->grid->levels);
     }
-    support_free(d->alloc, d->counts, worker_count(d->source) * sizeof *d->counts);
-    support_free(d->alloc, d->offsets, d->chunk_count * parts * sizeof *d->offsets);
-    support_free(d->alloc, d->chunks, d->chunk_count * sizeof *d->chunks);
+    support_free(l->alloc, l->counts, l->threads * sizeof *l->counts);
+    support_free(l->alloc, l->bad, l->deal.chunk_count * sizeof *l->bad);
+    deal_free(&l->deal);
 }
 
 /* Traces all chunks, until no line is bad. *made false: lines cannot be laid. */
-static froe_status trace_all(dealing *d, bool *made) {
-    split_grid *g = d->grid;
-    const size_t parts = (size_t)1 << g->upper;
+static froe_status trace_all(grid_laying *l, bool *made) {
+    const split_grid *g = l->grid;
     froe_status status = FROE_OK;
     *made = false;
     for (int i = 0; i <= NUDGES && !*made && !status; i++) {
-        for (size_t c = 0; c < d->chunk_count; c++) d->chunks[c].entries.count = 0, d->chunks[c].bad_axis = -1;
-        memset(d->offsets, 0, d->chunk_count * parts * sizeof *d->offsets);
-        for (unsigned w = 0; w < worker_count(d->source); w++) {
-            memset(d->counts[w].crossings, 0, 2 * parts * sizeof(uint32_t));
-            memset(d->counts[w].levels, 0, sizeof d->counts[w].levels);
-            memset(d->counts[w].met, 0, sizeof *d->counts->met << g->levels);
+        deal_clear(&l->deal);
+        for (unsigned w = 0; w < l->threads; w++) {
+            memset(l->counts[w].crossings, 0, l->deal.parts * 2 * sizeof *l->counts->crossings);
+            memset(l->counts[w].levels, 0, sizeof l->counts[w].levels);
+            memset(l->counts[w].met, 0, sizeof *l->counts->met << g->levels);
         }
-        status = for_each_chunk(d, 0.15, trace_job);
+        status = deal_each(&l->deal, 0.15, trace_job, l);
         size_t c = 0;
-        while (c < d->chunk_count && d->chunks[c].bad_axis < 0) c++;
-        *made = c == d->chunk_count;
+        while (!status && c < l->deal.chunk_count && l->bad[c].axis < 0) c++;
+        *made = !status && c == l->deal.chunk_count;
         if (*made || status) continue;
         /* moves the first bad line to the next double */
-        double *line = g->lines[d->chunks[c].bad_axis] + d->chunks[c].bad_line;
+        double *line = g->lines[l->bad[c].axis] + l->bad[c].line;
         *line = nextafter(*line, INFINITY);
         if (!(*line < line[1])) break;
     }
@@ -172,52 +136,43 @@ static froe_status trace_all(dealing *d, bool *made) {
 }
 
 /* Sums what the threads have counted, and finds how many objects nodes have, and where entries go. */
-static froe_status sum_up(dealing *d) {
-    split_grid *g = d->grid;
+static froe_status sum_up(grid_laying *l) {
+    split_grid *g = l->grid;
     const uint32_t parts = 1u << g->upper, cells = 1u << g->levels;
-    trace_counts *all = d->counts;
-    for (unsigned w = 1; w < worker_count(d->source); w++) {
-        for (uint32_t i = 0; i < 2 * parts; i++) all->crossings[i] += d->counts[w].crossings[i];
-        for (uint32_t l = 0; l < g->levels; l++) all->levels[l] += d->counts[w].levels[l];
-        for (uint32_t i = 0; i < cells; i++) all->met[i] |= d->counts[w].met[i];
+    trace_counts *all = l->counts;
+    for (unsigned w = 1; w < l->threads; w++) {
+        for (uint32_t i = 0; i < 2 * parts; i++) all->crossings[i] += l->counts[w].crossings[i];
+        for (uint32_t i = 0; i < g->levels; i++) all->levels[i] += l->counts[w].levels[i];
+        for (uint32_t i = 0; i < cells; i++) all->met[i] |= l->counts[w].met[i];
     }
-    g->fragments[0] = d->source->count;
-    for (uint32_t l = 0; l < g->levels; l++) g->fragments[l + 1] = g->fragments[l] + all->levels[l];
-    for (uint32_t l = g->levels + 1; l--;) { /* the marks of a level are made from those below */
-        for (uint32_t i = 0; i < 1u << l; i++) {
-            if (l < g->levels) all->met[i] = all->met[2 * i] | all->met[2 * i + 1];
-            g->cells[l] += all->met[i];
+    g->fragments[0] = l->source->count;
+    for (uint32_t i = 0; i < g->levels; i++) g->fragments[i + 1] = g->fragments[i] + all->levels[i];
+    for (uint32_t level = g->levels + 1; level--;) { /* the marks of a level are made from those below */
+        for (uint32_t i = 0; i < 1u << level; i++) {
+            if (level < g->levels) all->met[i] = all->met[2 * i] | all->met[2 * i + 1];
+            g->cells[level] += all->met[i];
         }
     }
-    if (g->fragments[g->levels] > INT32_MAX) return FROE_E_LIMIT;
-    for (uint32_t p = 0, next = 0; p < parts; p++) {
-        g->starts[p] = next;
-        for (size_t c = 0; c < d->chunk_count; c++) {
-            const uint32_t entries = d->chunks[c].parts[p];
-            d->chunks[c].parts[p] = next;
-            next += entries;
-        }
-        g->starts[p + 1] = next;
-        g->count[parts + p] = next - g->starts[p] - all->crossings[parts + p];
-    }
+    froe_status status = deal_starts(&l->deal, g->starts);
+    if (status) return status;
+    for (uint32_t p = 0; p < parts; p++)
+        g->count[parts + p] = g->starts[p + 1] - g->starts[p] - all->crossings[parts + p];
     for (uint32_t h = parts; --h;) g->count[h] = g->count[2 * h] + g->count[2 * h + 1] - all->crossings[h];
     return FROE_OK;
 }
 
-static froe_status deal_all(dealing *d, bool *made) {
-    split_grid *g = d->grid;
-    const froe_allocator *alloc = d->alloc;
-    const size_t parts = (size_t)1 << g->upper;
-    froe_status status = take_room(d);
-    if (!status) status = trace_all(d, made);
+static froe_status deal_all(grid_laying *l, bool *made) {
+    split_grid *g = l->grid;
+    froe_status status = take_room(l);
+    if (!status) status = trace_all(l, made);
     if (status || !*made) return status;
-    g->count = support_calloc(alloc, 2 * parts, sizeof *g->count);
-    g->starts = support_calloc(alloc, parts + 1, sizeof *g->starts);
-    status = g->count && g->starts ? sum_up(d) : FROE_E_MEMORY;
+    g->count = support_calloc(l->alloc, l->deal.parts * 2, sizeof *g->count);
+    g->starts = support_calloc(l->alloc, l->deal.parts + 1, sizeof *g->starts);
+    status = g->count && g->starts ? sum_up(l) : FROE_E_MEMORY;
     if (status) return status;
-    g->ids = support_realloc(alloc, NULL, 0, g->fragments[g->levels] * sizeof *g->ids);
-    g->places = support_realloc(alloc, NULL, 0, g->fragments[g->levels] * sizeof *g->places);
-    return g->ids && g->places ? for_each_chunk(d, 0.05, deal_job) : FROE_E_MEMORY;
+    g->ids = support_realloc(l->alloc, NULL, 0, g->fragments[g->levels] * sizeof *g->ids);
+    g->places = support_realloc(l->alloc, NULL, 0, g->fragments[g->levels] * sizeof *g->places);
+    return g->ids && g->places ? deal_out(&l->deal, 0.05, g->ids, g->places) : FROE_E_MEMORY;
 }
 
 /* ------------------------------------------------------------------- whole -- */
@@ -228,13 +183,13 @@ froe_status grid_new(const froe_allocator *alloc, const grid_source *source, spl
     if (!g) return FROE_E_MEMORY;
     g->box = source->box;
     choose_levels(source, g);
-    dealing d = {.alloc = alloc, .source = source, .grid = g};
+    grid_laying l = {.alloc = alloc, .source = source, .grid = g, .threads = source->task ? source->task->threads : 1};
     bool made = false;
     froe_status status = FROE_OK;
     if (g->levels >= 2) status = lay_lines(alloc, g, &made);
     if (!status && made) {
-        status = deal_all(&d, &made);
-        give_room_back(&d);
+        status = deal_all(&l, &made);
+        give_room_back(&l);
     }
     if (status || !made)
         grid_free(alloc, g);

@@ -5,13 +5,13 @@ typedef struct tracing {
     const split_grid *grid;
     axis_work *work;
     trace_counts *counts;
-    trace_chunk *chunk;
+    deal_chunk *chunk;
+    trace_bad *bad;
     uint32_t lower;
 } tracing;
 
 static void note_bad(tracing *t, int axis, uint32_t line) {
-    t->chunk->bad_axis = axis;
-    t->chunk->bad_line = line;
+    *t->bad = (trace_bad){axis, line};
 }
 
 /* Column and row of an end of an object. False: it needs a closer look. */
@@ -67,8 +67,8 @@ static bool row_first(tracing *t, const axis_ends *ends, const uint32_t at[2], b
 }
 
 static inline void trace_cell(tracing *t, uint32_t cell, uint32_t since, uint32_t id) {
-    trace_chunk *c = t->chunk;
-    c->entries.data[c->entries.count++] = (trace_entry){grid_place(cell, since, id), id};
+    deal_chunk *c = t->chunk;
+    c->entries.data[c->entries.count++] = (deal_entry){grid_place(cell, since, id), id};
     c->parts[cell >> t->lower]++;
     t->counts->met[cell] = 1;
 }
@@ -95,16 +95,17 @@ static void walk_on(tracing *t, const packed_fragment *f, const uint32_t from[2]
 }
 
 froe_status trace_run(const froe_allocator *alloc, const grid_source *source, const split_grid *grid, axis_work *work,
-                      trace_counts *counts, trace_chunk *chunk) {
-    tracing t = {.grid = grid, .work = work, .counts = counts, .chunk = chunk, .lower = grid_lower(grid)};
+                      trace_counts *counts, deal_chunk *chunk, trace_bad *bad) {
+    tracing t = {.grid = grid, .work = work, .counts = counts, .chunk = chunk, .bad = bad, .lower = grid_lower(grid)};
+    bad->axis = -1;
     if (!array_reserve(alloc, &chunk->entries, (chunk->to - chunk->from) / 4 * 5)) return FROE_E_MEMORY;
-    for (uint32_t i = chunk->from; i < chunk->to && chunk->bad_axis < 0; i++) {
+    for (uint32_t i = chunk->from; i < chunk->to && bad->axis < 0; i++) {
         const packed_fragment f = source->fragments ? source->fragments[i] : axis_whole(work, i);
         uint32_t from[2], to[2];
         if (source->fragments || !(place_own(grid, f.p, from) & place_own(grid, f.q, to))) {
             place_end(&t, &f, false, from);
             place_end(&t, &f, true, to);
-            if (chunk->bad_axis >= 0) break;
+            if (bad->axis >= 0) break;
         }
         const uint32_t rows = to[1] > from[1] ? to[1] - from[1] : from[1] - to[1], steps = to[0] - from[0] + rows;
         if (!array_reserve(alloc, &chunk->entries, (size_t)steps + 1)) return FROE_E_MEMORY;

@@ -6,6 +6,7 @@
  *        +---+---+---+     line, the line is bad, and the grid has to move it. */
 #ifndef FROE_BUILD_INDEX_TRACE_H
 #define FROE_BUILD_INDEX_TRACE_H
+#include "build/index/deal.h"
 #include "build/index/grid.h"
 
 /** What one thread counts. */
@@ -15,20 +16,14 @@ typedef struct trace_counts {
     uint16_t *met;                /**< cell -> is anything there? No bytes: those could be part of any variable */
 } trace_counts;
 
-/** The place is as in the grid, but with all bits of the cell. */
-typedef struct trace_entry {
-    uint32_t place, id;
-} trace_entry;
+/** A line that a corner or an end lies in; axis -1: there is none. */
+typedef struct trace_bad {
+    int axis;
+    uint32_t line;
+} trace_bad;
 
-typedef struct trace_chunk {
-    uint32_t from, to; /**< objects, or fragments */
-    uint32_t *parts;   /**< part -> entries */
-    ARRAY(trace_entry) entries;
-    int bad_axis; /**< of a bad line; -1: none */
-    uint32_t bad_line;
-} trace_chunk;
-
-/** Appends the entries of a chunk, up to the first bad line. FROE_E_MEMORY. */
+/** Appends the entries of a chunk, up to the first bad line: places are as in the grid, but with all bits of the cell.
+ * FROE_E_MEMORY. */
 froe_status trace_run(const froe_allocator *alloc, const grid_source *source, const split_grid *grid, axis_work *work,
-                      trace_counts *counts, trace_chunk *chunk);
+                      trace_counts *counts, deal_chunk *chunk, trace_bad *bad);
 #endif
