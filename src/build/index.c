@@ -34,7 +34,8 @@ static froe_status build_index(build_job *job, froe_tree **out) {
                        .load = (uint32_t)option[LOAD],
                        .grid = (uint32_t)option[LEAST],
                        .parts = (uint32_t)option[PARTS]};
-    froe_status status = s->dim == 3 ? build_in_space(job, option[GROWTH], out) : build_in_plane(&plan, out);
+    froe_status status =
+        s->dim == 3 ? build_in_space(job, option[GROWTH], plan.parts, out) : build_in_plane(&plan, out);
     return split_explain(job->diag, job->max_fragments, status);
 }
 

@@ -1,5 +1,5 @@
-/* test_index.c: packed trees of the plane: the same for any number of threads and any allocation that fails, with the
- * same answers for any capacity of leaves; and the capacity that is taken where none is named. */
+/* test_index.c: packed trees: the same for any number of threads, right when any allocation fails, with the same answers
+ * for any capacity of leaves; and the capacity that is taken in the plane where none is named. */
 #include "tree/trees.h"
 #include <float.h>
 #include <froe/io.h>
@@ -98,20 +98,61 @@ static void a_tree_is_the_same_for_any_number_of_threads(void **state) {
         }
         froe_scene_free(scene);
     }
-    for (size_t i = 0; froe_generator_at(i); i++) {
-        froe_scene *scene;
-        assert_int_equal(froe_generate(froe_generator_at(i)->name, 300, 7, NULL, &scene, NULL), FROE_OK);
-        froe_tree *tree = NULL;
-        const froe_build_options o = options(3, JOBS, 1);
-        if (froe_scene_dim(scene) == 2 && !build_tuned(scene, &o, &tree, NULL)) /* it may not serve the kind */
-            check_threads(scene, froe_generator_at(i)->name, 3, JOBS);
-        froe_tree_free(tree);
-        froe_scene_free(scene);
-    }
     const kind_of_scene large = {"large", 30000, 0, 0.01, 1, 0, false};
     froe_scene *scene = scene_of(&large);
     check_threads(scene, large.name, FROE_LEAF_OWN, NULL);
     froe_scene_free(scene);
+}
+
+static void trees_of_all_kinds_of_scenes_are_the_same_for_any_number_of_threads(void **state) {
+    size_t space = 0, jobs = 0;
+    (void)state;
+    for (size_t i = 0; froe_generator_at(i); i++) {
+        const char *name = froe_generator_at(i)->name;
+        const froe_build_options o = options(3, JOBS, 1);
+        froe_scene *scene;
+        froe_tree *tree = NULL, *whole;
+        assert_int_equal(froe_generate(name, 300, 7, NULL, &scene, NULL), FROE_OK);
+        if (!build_tuned(scene, &o, &tree, NULL)) { /* it may not serve the kind */
+            check_threads(scene, name, 3, JOBS);
+            whole = build(scene, 3, NULL, 3);
+            space += froe_scene_dim(scene) == 3;
+            jobs += froe_scene_dim(scene) == 3 && tree->node_count != whole->node_count;
+            froe_tree_free(whole);
+        }
+        froe_tree_free(tree);
+        froe_scene_free(scene);
+    }
+    assert_true(space > 10 && jobs > 5); /* the sample cuts otherwise than all objects */
+}
+
+/* Objects that lie in cuts, and samples that mislead: of sixteen objects in a row one is seen, and the others are
+ * elsewhere, and large. */
+static void samples_that_mislead_make_right_trees_of_space(void **state) {
+    (void)state;
+    for (uint32_t seed = 0; seed < 20; seed++) {
+        enum { COUNT = 400 };
+        double c[9 * COUNT];
+        froe_scene *scene;
+        froe_objects o = froe_objects_defaults();
+        for (uint32_t i = 0; i < COUNT; i++)
+            for (uint32_t j = 0; j < 9; j++) {
+                const bool odd = i % 16 == seed % 16;
+                const double at = trees_unit(seed, 3 * i + j % 3),
+                             size = (odd ? 0.05 : 1.5) * trees_unit(seed + 50, 9 * i + j);
+                c[9 * i + j] = seed % 2 ? floor(8 * (at + size)) / 8 : at + size;
+                if (i % 3 == 0 && j % 3 == seed % 3) c[9 * i + j] = floor(8 * at) / 8; /* across an axis */
+            }
+        o.kind = FROE_POLYGON, o.count = COUNT, o.coords = c;
+        assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+        assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
+        check_threads(scene, "misleading", 4, "parts=64");
+        check_threads(scene, "misleading", 4, "parts=64 growth=1.5");
+        froe_tree *tree = build(scene, 4, "parts=64 growth=1.5", 2);
+        assert_true((double)tree->piece_count <= 2 * 1.5 * COUNT);
+        froe_tree_free(tree);
+        froe_scene_free(scene);
+    }
 }
 
 /* ----------------------------------------------------------------- capacity -- */
@@ -231,8 +272,9 @@ static froe_status build_in(void *user, const froe_allocator *alloc) {
     const froe_build_options o = options(3, JOBS, k->shared ? 3 : 1);
     froe_scene *scene = NULL;
     froe_tree *tree = NULL;
-    froe_status status = froe_scene_new(2, alloc, &scene);
-    if (!status) status = trees_scatter(scene, FROE_SEGMENT, k->count, k->grid, k->size, 1);
+    const int dim = k->scale > 1 ? 3 : 2;
+    froe_status status = froe_scene_new(dim, alloc, &scene);
+    if (!status) status = trees_scatter(scene, dim == 3 ? FROE_POLYGON : FROE_SEGMENT, k->count, k->grid, k->size, 1);
     if (!status) status = build_tuned(scene, &o, &tree, NULL);
     froe_tree_free(tree);
     froe_scene_free(scene);
@@ -241,9 +283,11 @@ static froe_status build_in(void *user, const froe_allocator *alloc) {
 
 static void jobs_survive_every_failing_allocation(void **state) {
     static const kind_of_scene scenes[] = {{"one thread", 40, 0, 0.3, 1, 0, false},
-                                           {"three threads", 40, 0, 0.3, 1, 0, true}};
+                                           {"three threads", 40, 0, 0.3, 1, 0, true},
+                                           {"space", 60, 0, 0.3, 2, 0, false},
+                                           {"space, three threads", 60, 0, 0.3, 2, 0, true}};
     (void)state;
-    for (size_t i = 0; i < 2; i++) test_memory_each(build_in, (void *)(uintptr_t)(scenes + i));
+    for (size_t i = 0; i < 4; i++) test_memory_each(build_in, (void *)(uintptr_t)(scenes + i));
 }
 
 static bool count_down(void *user, double done) {
@@ -253,8 +297,8 @@ static bool count_down(void *user, double done) {
 
 static void jobs_keep_a_budget_to_the_piece_and_can_be_cancelled(void **state) {
     (void)state;
-    for (unsigned threads = 1; threads <= 3; threads += 2) {
-        froe_scene *scene = scene_of(kinds);
+    for (unsigned threads = 1; threads <= 7; threads += 2) {
+        froe_scene *scene = threads < 4 ? scene_of(kinds) : trees_scene(3, FROE_POLYGON, 300, 0, 0.2, 1);
         froe_tree *tree = build(scene, 5, JOBS, threads), *again = NULL;
         froe_build_options o = options(5, JOBS, threads);
         o.max_fragments = froe_tree_report(tree).fragments;
@@ -281,6 +325,8 @@ static void jobs_keep_a_budget_to_the_piece_and_can_be_cancelled(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_tree_is_the_same_for_any_number_of_threads),
+        cmocka_unit_test(trees_of_all_kinds_of_scenes_are_the_same_for_any_number_of_threads),
+        cmocka_unit_test(samples_that_mislead_make_right_trees_of_space),
         cmocka_unit_test(answers_do_not_depend_on_the_capacity),
         cmocka_unit_test(leaves_of_an_even_scene_are_full_and_of_one_depth),
         cmocka_unit_test(jobs_survive_every_failing_allocation),

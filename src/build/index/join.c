@@ -10,6 +10,10 @@ bool join_subtree(tree_join *j, const join_room *room) {
     return array_push(&j->job->alloc, &j->parts, part) && array_push(&j->job->alloc, &j->steps, (join_step){-1, 0});
 }
 
+void join_clear(tree_join *j) {
+    j->steps.count = j->parts.count = 0;
+}
+
 /* Cuts the nodes before a step, which is a subtree; the node that it has. */
 static froe_status walk_to(tree_join *j, size_t step, uint32_t *node) {
     const froe_allocator *alloc = &j->job->alloc;

@@ -45,6 +45,8 @@ typedef struct tree_join {
 /** The next step. False: no memory. */
 bool join_cut(tree_join *join, int axis, double value);
 bool join_subtree(tree_join *join, const join_room *room);
+/** Forgets all steps. */
+void join_clear(tree_join *join);
 /** Builds all subtrees, and puts them together in join->tree. FROE_E_MEMORY, FROE_E_LIMIT, FROE_E_BUDGET,
  * FROE_E_CANCELLED, or what fn returns. */
 froe_status join_run(tree_join *join, double span);

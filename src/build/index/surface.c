@@ -169,23 +169,35 @@ static void clip_listed(const froe_scene *s, const surface_cut *cut, bool thorou
     for (int i = 0; i < 2; i++) left[i] = left[i] && !misses(&a, out[i]);
 }
 
-void surface_deal(const froe_scene *s, const space_item *items, uint32_t count, surface_cut *cut,
-                  const uint8_t *classes, bool thorough, space_item *negative, space_item *positive) {
-    uint32_t below = 0, above = 0;
+bool surface_is_tame(const froe_scene *s) {
     double most = 0;
     for (int k = 0; k < 3; k++) most = fmax(most, fmax(fabs(s->lo[k]), fabs(s->hi[k])));
-    /* differences of coordinates do not overflow: only then parts can be told */
-    const bool tame = most <= 0x1p1000;
+    return most <= 0x1p1000;
+}
+
+void surface_divide(const froe_scene *s, bool tame, const surface_cut *cut, bool thorough, const space_item *item,
+                    space_item *const out[2], bool left[2]) {
+    const bool triangle = item->corner != FROE_NONE && tame;
+    *out[0] = *out[1] = *item;
+    out[0]->hi[cut->axis] = out[1]->lo[cut->axis] = cut->value;
+    left[0] = left[1] = true;
+    if (triangle) clip_listed(s, cut, thorough, out, left);
+}
+
+void surface_deal(const froe_scene *s, const space_item *items, uint32_t count, surface_cut *cut,
+                  const uint8_t *classes, bool thorough, space_item *negative, space_item *positive) {
+    const bool tame = surface_is_tame(s);
+    uint32_t below = 0, above = 0;
     for (uint32_t i = 0; i < count; i++) {
         const space_item item = items[i]; /* positive may be items */
         space_item *const out[2] = {negative + below, positive + above};
         bool left[2] = {classes[i] & 1, classes[i] & 2};
         if (i + 2 * AHEAD < count && classes[i + 2 * AHEAD] == 3) space_ask(s, items + i + 2 * AHEAD);
         if (i + AHEAD < count && classes[i + AHEAD] == 3) space_ask_corners(s, items + i + AHEAD);
-        if (left[0]) *out[0] = item;
-        if (left[1]) *out[1] = item;
-        if (classes[i] == 3) out[0]->hi[cut->axis] = out[1]->lo[cut->axis] = cut->value;
-        if (classes[i] == 3 && item.corner != FROE_NONE && tame) clip_listed(s, cut, thorough, out, left);
+        if (classes[i] == 3)
+            surface_divide(s, tame, cut, thorough, &item, out, left);
+        else
+            *out[classes[i] - 1] = item;
         below += left[0];
         above += left[1];
     }

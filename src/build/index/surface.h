@@ -18,8 +18,14 @@ bool surface_choose(const space_item *items, uint32_t count, surface_cut *cut);
 /** Counts the items beside the cut, and leaves their classes in `classes`: 1 negative, 2 positive, 3 both. A value at
  * which an item is flat is moved to the next double. False: no value will do. */
 bool surface_count(const space_item *items, uint32_t count, surface_cut *cut, uint8_t *classes);
-/** Deals items to two runs, by their classes; those on both sides are clipped, and left out where nothing of them
- * remains. thorough: triangles are compared with boxes by their planes, too. Updates the counts of the cut. */
+/** Do differences of coordinates not overflow? Only then parts of triangles can be told. */
+bool surface_is_tame(const froe_scene *s);
+/** Divides an item that is on both sides of a cut: the bounds of its parts, and on which sides anything of it is.
+ * thorough: triangles are compared with boxes by their planes, too. */
+void surface_divide(const froe_scene *s, bool tame, const surface_cut *cut, bool thorough, const space_item *item,
+                    space_item *const out[2], bool left[2]);
+/** Deals items to two runs, by their classes; those on both sides are divided, and left out where nothing of them
+ * remains. Updates the counts of the cut. */
 void surface_deal(const froe_scene *s, const space_item *items, uint32_t count, surface_cut *cut,
                   const uint8_t *classes, bool thorough, space_item *negative, space_item *positive);
 #endif

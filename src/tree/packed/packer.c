@@ -130,7 +130,7 @@ void packer_put(const tree_packer *p, const tree_packer *subtree, const packer_p
             packed_header *block = (packed_header *)(void *)block_at(p, place->blocks + node.child);
             node.u.list.first += place->pieces;
             node.child += place->blocks;
-            block->owner += place->owners;
+            block->owner += place->owners; /* in space that is 0, and another field */
         } else {
             node.child += place->nodes - 1;
         }

@@ -42,7 +42,7 @@ froe_status packer_space_leaf(tree_packer *packer, uint32_t node, const froe_sce
 /** A subtree that was packed apart is to begin at `node`, which is open: where all of it goes, which is taken. So
  * several can be put at once. FROE_E_MEMORY, FROE_E_LIMIT. */
 froe_status packer_place_for(tree_packer *packer, uint32_t node, const tree_packer *subtree, packer_place *out);
-/** Copies a subtree of the plane to its place. */
+/** Copies a subtree to its place. */
 void packer_put(const tree_packer *packer, const tree_packer *subtree, const packer_place *place);
 /** The finished tree, which takes the packer's arrays and holds the scene. FROE_E_MEMORY. */
 froe_status packer_seal(tree_packer *packer, froe_scene *scene, const tree_meta *meta, froe_tree **out);
