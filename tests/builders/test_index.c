@@ -1,5 +1,5 @@
-/* test_index.c: packed trees: the same for any number of threads, right when any allocation fails, with the same answers
- * for any capacity of leaves; and the capacity that is taken in the plane where none is named. */
+/* test_index.c: packed trees: the same for any number of threads, whole or not at all when allocations fail, with the
+ * same answers for any capacity of leaves; and the capacity that is taken in the plane where none is named. */
 #include "tree/trees.h"
 #include <float.h>
 #include <froe/io.h>

@@ -1,9 +1,9 @@
 /* deal.h: objects dealt to parts, in chunks, by any number of threads.
  *
- *     chunk 0  ---->  entries ----.          Each chunk of objects makes a list of entries, in the order of its objects,
- *     chunk 1  ---->  entries ----+--->      and counts how many go to each part. Then it is known where each entry goes:
- *     chunk 2  ---->  entries ----'          to its part, behind those of the chunks before. Chunks do not depend on the
- *                                            number of threads, so neither does the order of entries in a part. */
+ *     chunk 0  --->  entries ---.      Each chunk of objects makes a list of entries, in the order of its objects, and
+ *     chunk 1  --->  entries ---+-->   counts how many go to each part. Then it is known where each entry goes: to its
+ *     chunk 2  --->  entries ---'      part, behind those of the chunks before. Chunks do not depend on the number of
+ *                                      threads, so neither does the order of entries in a part. */
 #ifndef FROE_BUILD_INDEX_DEAL_H
 #define FROE_BUILD_INDEX_DEAL_H
 #include "base/task.h"

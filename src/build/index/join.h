@@ -1,9 +1,9 @@
 /* join.h: a tree whose upper nodes are known before, and whose subtrees are jobs.
  *
- *          *            The steps name the nodes above, depth first, negative child first: a cut, or a subtree. Subtrees
- *        /   \          have nothing in common. One thread writes each at once to where it belongs. Several write them
- *       *     *         apart; when all are there, it is known where each belongs, and they are copied there, on all
- *      / \   / \        threads. So the tree is the same, byte for byte, for any number of threads.
+ *          *            The steps name the nodes above, depth first, negative child first: a cut, or a subtree. One
+ *        /   \          thread writes each subtree at once to where it belongs. Several write them apart; when all
+ *       *     *         are there, it is known where each belongs, and they are copied there, on all threads. So the
+ *      / \   / \        tree is the same, byte for byte, for any number of threads.
  *     j0 j1 j2 j3
  */
 #ifndef FROE_BUILD_INDEX_JOIN_H

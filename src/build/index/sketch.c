@@ -5,6 +5,8 @@
 #define SKETCH_DIVIDED 0x80000000u /* of an id: cuts above divide the object */
 
 enum { AHEAD = 8 };
+/* gcc drops calls of functions that only prefetch, as if they had no effect */
+#define INLINED __attribute__((always_inline)) static inline
 
 typedef struct sketch_fall {
     space_item item;
@@ -22,9 +24,8 @@ typedef struct sketching {
     bool tame;
 } sketching;
 
-/* Prefetches what the bounds of an object further on are made from. Inlined always: gcc drops calls of what seems to
- * have no effect. */
-static inline __attribute__((always_inline)) void ask_ahead(const froe_scene *s, uint32_t object) {
+/* Prefetches what the bounds of an object further on are made from. */
+INLINED void ask_ahead(const froe_scene *s, uint32_t object) {
     const uint32_t start = scene_start(s, object), corners = scene_form(s, object) == FROE_POLYGON ? 3 : 1;
     for (uint32_t c = 0; c < corners; c++) {
         const double *x = scene_vertex(s, scene_corner_vertex(s, start + c));
@@ -34,7 +35,7 @@ static inline __attribute__((always_inline)) void ask_ahead(const froe_scene *s,
 }
 
 /* On which sides of a cut an item is: 1 negative, 2 positive, 3 both. What lies in the cut belongs to both. */
-static unsigned class_of(const space_item *item, const tree_node *n) {
+static unsigned sides_at(const space_item *item, const tree_node *n) {
     const unsigned class = (item->lo[n->axis] < n->u.value) | (unsigned)(item->hi[n->axis] > n->u.value) << 1;
     return class ? class : 3;
 }
@@ -59,7 +60,7 @@ static froe_status deal_object(sketching *k, deal_chunk *chunk, uint32_t object,
         sketch_fall at = stack[--top];
         bool there = true;
         for (const tree_node *n; n = k->sketch->nodes + at.node, there && n->child;) {
-            const unsigned class = class_of(&at.item, n);
+            const unsigned class = sides_at(&at.item, n);
             listed[at.node]++;
             at.node = n->child + (class == 2);
             if (class != 3) continue;
@@ -159,7 +160,7 @@ froe_status sketch_fill(const build_job *job, const space_sketch *s, uint32_t no
         space_item item = sketch_item(job->scene, object);
         for (size_t p = path.count; s->ids[i] & SKETCH_DIVIDED && p--;) {
             const tree_node *n = s->nodes + s->parents[path.data[p]];
-            if (class_of(&item, n) != 3) continue;
+            if (sides_at(&item, n) != 3) continue;
             space_item part[2];
             bool left[2];
             divide_at(job->scene, tame, n, &item, (space_item *[2]){part, part + 1}, left);

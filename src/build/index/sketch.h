@@ -1,11 +1,10 @@
 /* sketch.h: the upper nodes of a tree of space, by a sample of the objects; and all objects dealt to them at once.
  *
- *             *           Cutting one cell after the other reads all objects at each level, from memory. The choice of a
- *           /   \         cut needs few of them. So the upper cuts are found with a sample (build/index/space.c). Each
- *          *     *        object then goes down to the nodes that are left without a cut, and is listed there by its id;
- *         / \   / \       who fills such a node clips those objects again that the cuts on its way divided.
- *        ids   ...
- */
+ *             *           Cutting one cell after the other reads all objects at each level. The choice of a cut needs
+ *           /   \         few of them. So the upper cuts are found with a sample (build/index/space.c). Each object
+ *          *     *        then goes down to the nodes that are left without a cut, and is listed there by its id.
+ *         / \   / \       Where such a node is filled, those objects are clipped again that the cuts on its way
+ *        ids   ...        divided. */
 #ifndef FROE_BUILD_INDEX_SKETCH_H
 #define FROE_BUILD_INDEX_SKETCH_H
 #include "build/index/deal.h"
