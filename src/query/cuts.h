@@ -19,11 +19,13 @@ typedef struct query_plane {
     double c, n_err;
 } query_plane;
 
-/** Planes of the tabled cuts that are not axis-parallel. */
+/** Planes of the tabled cuts that are not axis-parallel. In trees that cut along the same object or through the same
+ * vertex again and again, such cuts share a plane. */
 typedef struct query_planes {
     query_part part;
-    uint32_t count;
-    query_plane *planes; /**< [cut] */
+    uint32_t count, cut_count;
+    query_plane *planes; /**< [number], or [cut] */
+    uint32_t *numbers;   /**< [cut]; NULL: few cuts would share a plane, and each has its own */
 } query_planes;
 
 /** A node's cut: x[axis] = value, or axis -1 and a plane. */
@@ -41,7 +43,7 @@ static inline query_cut query_cut_at(const froe_tree *t, const query_planes *pla
     if (node->type == TREE_PLAIN) return (query_cut){node->axis, node->u.value, NULL};
     const tree_cut *cut = t->cuts + node->u.cut;
     if (cut->kind == FROE_CUT_AXIS) return (query_cut){(int)cut->a, cut->u.value, NULL};
-    return (query_cut){-1, 0, planes->planes + node->u.cut};
+    return (query_cut){-1, 0, planes->planes + (planes->numbers ? planes->numbers[node->u.cut] : node->u.cut)};
 }
 
 static inline const double *query_plane_normal(const query_plane *h, int dim) {

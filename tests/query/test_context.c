@@ -157,7 +157,27 @@ static void planes_of_cuts_are_sure_of_nothing_wrong(void **state) {
         tree = trees_grow(3, FROE_POLYGON, 100, (uint32_t)grid, 0.5, "density", 1);
         check_cuts(tree, 2);
         froe_tree_free(tree);
+        tree = trees_grow(2, FROE_SEGMENT, 200, (uint32_t)grid, 0.5, "cylindrical", 1);
+        check_cuts(tree, 3);
+        froe_tree_free(tree);
     }
+}
+
+/* A segment and a wall cut many cells of a cylindrical tree. */
+static void cuts_along_the_same_line_share_a_plane(void **state) {
+    froe_query *q;
+    const query_planes *planes;
+    uint32_t others = 0;
+    (void)state;
+    froe_tree *tree = trees_grow(2, FROE_SEGMENT, 200, 0, 0.5, "cylindrical", 1);
+    for (uint32_t i = 0; i < tree->cut_count; i++) others += tree->cuts[i].kind == FROE_CUT_CROSSING;
+    assert_int_equal(froe_query_new(tree, &q, NULL), FROE_OK);
+    assert_int_equal(query_planes_of(q, &planes, NULL), FROE_OK);
+    assert_non_null(planes->numbers);
+    assert_true(planes->count <= tree->scene->object_count + tree->scene->vertex_count + others);
+    assert_true(2 * planes->count <= tree->cut_count);
+    froe_query_free(q);
+    froe_tree_free(tree);
 }
 
 /* ------------------------------------------------------------------ faults -- */
@@ -187,6 +207,7 @@ static froe_status contexts(void *user, const froe_allocator *alloc) {
 static void every_failing_allocation_is_survived(void **state) {
     (void)state;
     assert_true(test_memory_each(contexts, "autopartition") > 5);
+    assert_true(test_memory_each(contexts, "cylindrical") > 5);
 }
 
 int main(void) {
@@ -198,6 +219,7 @@ int main(void) {
         cmocka_unit_test(statistics_begin_again_when_read),
         cmocka_unit_test(forks_share_what_is_prepared),
         cmocka_unit_test(planes_of_cuts_are_sure_of_nothing_wrong),
+        cmocka_unit_test(cuts_along_the_same_line_share_a_plane),
         cmocka_unit_test(every_failing_allocation_is_survived),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
