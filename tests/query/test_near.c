@@ -2,6 +2,7 @@
  * at equal distances from several objects, far outside. */
 #include "query/context.h"
 #include "query/tours.h"
+#include "support/rational.h"
 
 static uint64_t decisions, ties;
 
@@ -190,6 +191,42 @@ static void every_allocation_may_fail(void **state) {
     froe_tree_free(tree);
 }
 
+/* Two triangles in one plane along the axes: distances are often halfway between two doubles. */
+static void walls_in_one_plane_are_equally_near_without_exact_numbers(void **state) {
+    const double walls[18] = {-9, -9, 0.625, 9, -9, 0.625, 0, 9, 0.625, -7, -8, 0.625, 8, -7, 0.625, 0.5, 7, 0.625};
+    froe_build_options o = froe_build_defaults();
+    froe_scene *scene;
+    froe_tree *tree;
+    froe_query *q;
+    froe_neighbours found;
+    mpq_t exact, coordinate;
+    (void)state;
+    mpq_inits(exact, coordinate, NULL);
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    assert_int_equal(trees_add(scene, FROE_POLYGON, 2, walls, NULL, NULL), FROE_OK);
+    for (int packed = 0; packed < 2; packed++) {
+        o.method = packed ? "index" : "density";
+        assert_int_equal(froe_build(scene, &o, &tree, NULL), FROE_OK);
+        assert_int_equal(froe_query_new(tree, &q, NULL), FROE_OK);
+        for (uint64_t i = 0; i < 200; i++) {
+            const double x[3] = {trees_unit(51, i), trees_unit(52, i), 0.625 - 3 * trees_unit(53, i)};
+            assert_int_equal(froe_query_near(q, x, 2, INFINITY, &found, NULL), FROE_OK);
+            assert_int_equal(found.count, 2);
+            assert_true(found.items[0].object == 0 && found.items[1].object == 1);
+            mpq_set_d(exact, 0.625);
+            mpq_set_d(coordinate, x[2]);
+            mpq_sub(exact, exact, coordinate);
+            assert_true(rational_rounds_to(exact, found.items[0].distance));
+            assert_true(found.items[0].distance == found.items[1].distance);
+        }
+        assert_int_equal(q->numbers.stats.exact, 0);
+        froe_query_free(q);
+        froe_tree_free(tree);
+    }
+    froe_scene_free(scene);
+    mpq_clears(exact, coordinate, NULL);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(neighbours_in_generated_scenes),
@@ -199,6 +236,7 @@ int main(void) {
         cmocka_unit_test(neighbours_at_every_scale),
         cmocka_unit_test(neighbours_in_scenes_of_one_object_or_none),
         cmocka_unit_test(bad_questions_are_refused_and_change_nothing),
+        cmocka_unit_test(walls_in_one_plane_are_equally_near_without_exact_numbers),
         cmocka_unit_test(every_allocation_may_fail),
     };
     int failed = cmocka_run_group_tests_name("query/near", tests, NULL, NULL);

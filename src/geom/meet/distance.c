@@ -85,14 +85,37 @@ static int beyond_both(num_arena *arena, num_ratio s, double radius, num_dyadic 
     return num_dyadic_compare(s.top, num_dyadic_mul(arena, num_dyadic_mul(arena, sum, sum), s.bottom));
 }
 
+/* Are both distances from simplices of as many corners? */
+static bool same_kind(const geom_distance *a, const geom_distance *b) {
+    return !a->lo && !b->lo && a->count == b->count && a->radius == b->radius && !a->high.count && !b->high.count;
+}
+
 /* Do both come from the same corners? Objects of one scene share them. */
 static bool same_source(const geom_distance *a, const geom_distance *b) {
-    if (a->lo || b->lo || a->count != b->count || a->radius != b->radius || a->high.count || b->high.count)
-        return false;
+    if (!same_kind(a, b)) return false;
     int shared = 0;
     for (int i = 0; i < a->count; i++)
         for (int j = 0; j < b->count; j++) shared += a->corner[i] == b->corner[j];
     return shared == a->count;
+}
+
+/* Along how many axes all corners of both have one coordinate; *last is the last of them. */
+static int axes_shared(const geom_distance *a, const geom_distance *b, int *last) {
+    int shared = 0;
+    for (int k = 0; k < a->dim; k++) {
+        const double x = a->corner[0][k];
+        bool same = true;
+        for (int i = 0; i < a->count; i++) same = same && a->corner[i][k] == x && b->corner[i][k] == x;
+        if (same) shared++, *last = k;
+    }
+    return shared;
+}
+
+/* Do these coordinates say that both have one affine hull? Of walls, floors and their edges along the axes many are
+ * equally near. */
+static bool same_hull(const geom_distance *a, const geom_distance *b) {
+    int axis;
+    return same_kind(a, b) && a->count && axes_shared(a, b, &axis) == a->dim + 1 - a->count;
 }
 
 static int compare_images(const geom_distance *a, const geom_distance *b) {
@@ -116,8 +139,8 @@ int geom_distance_compare(num_context *context, const double *point, const geom_
     int sign;
     context->stats.calls++;
     if (same_source(a, b)) return num_by_id(context, 0);
-    return NUM_LADDER(context, sign, compare_images(a, b), NUM_UNSURE, NUM_UNSURE,
-                      compare_distances_exactly(context, point, a, b));
+    return NUM_LADDER(context, sign, compare_images(a, b), same_hull(a, b) ? num_by_id(context, 0) : NUM_UNSURE,
+                      NUM_UNSURE, compare_distances_exactly(context, point, a, b));
 }
 
 /* Sure of no zero distance: there the bound decides. */
@@ -194,6 +217,15 @@ static bool round_flat(const double *point, const geom_distance *a, double *out)
     return round_root(num_pair_div(num_pair_mul(cross, cross), square), 0x1p-94 * size, out);
 }
 
+/* The distance from a plane x[axis] = c: one difference, rounded once. Of numbers with few digits, such as those of
+ * models in single precision, it is often halfway between two doubles, where pairs of doubles cannot tell. */
+static bool round_wall(const double *point, const geom_distance *a, double *out) {
+    int axis;
+    if (a->count != 3 || axes_shared(a, a, &axis) != 1) return false;
+    *out = fabs(a->corner[0][axis] - point[axis]);
+    return *out < 0x1p1000;
+}
+
 /* The distance from a simplex, if pairs of doubles can tell how it is to be rounded: sqrt(S) errs by 2^-94 of
  * itself and by what the numerator of S errs. With sizes as sums of coordinates, |e|^2 at least a third of that: v x e
  * by less than 2^-96 |v| |e|, and n v by less than 2^-95 |e| |f| |v|, as n by 2^-96 |e| |f|. */
@@ -226,7 +258,8 @@ double geom_distance_round(num_context *context, const double *point, const geom
     double rounded;
     bool done = false; /* where pairs do not tell, exact numbers do */
     if (context->first != NUM_EXACT && !(a->radius > 0))
-        done = a->lo ? round_box(point, a, &rounded) : a->count && a->dim <= 3 && round_simplex(point, a, &rounded);
+        done = a->lo ? round_box(point, a, &rounded)
+                     : a->count && a->dim <= 3 && (round_wall(point, a, &rounded) || round_simplex(point, a, &rounded));
     if (done) return rounded;
     rounding r = {exact_square(context, point, a), a->radius};
     if (beyond_radius(arena, r.square, a->radius) <= 0) return 0;

@@ -15,10 +15,10 @@
 #include "query/packed/space_kernel.h"
 #include "tree/list.h"
 
-/** What a walk along a ray is for: all objects; the first; any. */
+/** What a walk is for: all objects; the first, or the nearest; any. */
 typedef enum space_wanted { SPACE_ALL, SPACE_FIRST, SPACE_ANY } space_wanted;
 
-/** An object that a ray certainly meets, and between which keys. */
+/** An object that is certainly met, or this near, and between which keys. */
 typedef struct space_hit {
     uint32_t object;
     float key, end;
@@ -26,7 +26,8 @@ typedef struct space_hit {
 
 /** A walk along a ray, or around a point. */
 typedef struct space_walk {
-    bool near; /**< by distance, not along a ray */
+    bool near;   /**< by distance, not along a ray */
+    bool walked; /**< near: the rest are hits */
     space_wanted wanted;
     space_ray ray;
     space_point point;
@@ -36,7 +37,7 @@ typedef struct space_walk {
     float within;    /**< a key up to this is certainly within the first limit */
     uint32_t object; /**< the one handed out */
     ARRAY(uint64_t) stack;
-    ARRAY(space_hit) hits; /**< SPACE_FIRST: met certainly, and perhaps first */
+    ARRAY(space_hit) hits; /**< SPACE_FIRST: what may be it, and lowered the limit */
 } space_walk;
 
 typedef struct space_ray_state space_ray_state; /* space_rays.c */

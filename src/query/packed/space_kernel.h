@@ -52,9 +52,8 @@ typedef struct space_window {
 typedef struct space_found {
     uint32_t *objects;
     float *keys;
-    float *ends; /**< rays: the object is certainly met, and no later than this; infinite: it may be */
+    float *ends; /**< the object is certainly met, and no later than this, or no further away; infinite: it may be */
     size_t count;
-    float least; /**< near: lowered to what one object's squared distance certainly does not exceed */
 } space_found;
 
 /** Objects that meet a window, and those that may. Room as above in both. */

@@ -33,6 +33,7 @@ void space_work_free(space_work *work, const froe_allocator *alloc) {
 
 static froe_status begin_space_walk(froe_query *q, space_walk *w, bool near, bool meets) {
     w->near = near;
+    w->walked = false;
     w->told = -1;
     w->limit = (float)INFINITY;
     w->stack.count = w->hits.count = 0;
@@ -97,6 +98,8 @@ froe_status space_walk_near(froe_query *q, space_walk *w, bool *begun) {
     }
     if (!*begun) return FROE_OK;
     w->per = (wide->scale / q->near.scale) * (wide->scale / q->near.scale);
+    w->wanted = q->near.one ? SPACE_FIRST : SPACE_ALL;
+    w->within = FLT_MAX;
     return begin_space_walk(q, w, true, true);
 }
 
@@ -150,7 +153,6 @@ static bool push_near_children(froe_query *q, space_walk *w, uint32_t index) {
     size_t count = 0, least = 0;
     for (uint32_t bits = q->space->kernels->near_node(n, &w->point, w->limit, keys); bits; bits &= bits - 1) {
         const uint32_t i = (uint32_t)__builtin_ctz(bits);
-        space_prefetch(q->tree, n->child[i]);
         e[count] = space_entry(keys[i], n->child[i]);
         least = e[count] < e[least] ? count : least;
         count++;
@@ -159,12 +161,13 @@ static bool push_near_children(froe_query *q, space_walk *w, uint32_t index) {
     w->stack.count += count;
     if (!count) return true;
     const uint64_t x = e[least];
+    space_prefetch(q->tree, (uint32_t)x);
     e[least] = e[count - 1];
     e[count - 1] = x;
     return true;
 }
 
-/* The object is certainly met, and no later than `end`. */
+/* The object is certainly met, or this near, by the key `end`. */
 static bool take_hit(froe_query *q, space_walk *w, uint32_t object, float key, float end) {
     lower_limit(w, end);
     const space_hit hit = {object, key, end};
@@ -179,17 +182,16 @@ static space_step push_objects(froe_query *q, space_walk *w, uint32_t block, flo
     if (!array_reserve(&q->alloc, &work->objects, room) || !array_reserve(&q->alloc, &work->keys, room) ||
         !array_reserve(&q->alloc, &work->ends, room) || !array_reserve(&q->alloc, &w->stack, room))
         return SPACE_NO_MEMORY;
-    space_found found = {work->objects.data, work->keys.data, work->ends.data, 0, (float)INFINITY};
+    space_found found = {work->objects.data, work->keys.data, work->ends.data, 0};
     if (w->near)
         work->kernels->near(h, &w->point, key, w->limit, &found);
     else
         work->kernels->ray(h, &w->ray, key, w->limit, &found);
     q->stats.leaves++;
-    if (w->near && q->near.one) lower_limit(w, found.least);
     for (size_t i = 0; i < found.count; i++) {
         w->object = found.objects[i];
         if (found.keys[i] > w->limit) continue;
-        const bool sure = !w->near && found.ends[i] <= w->within;
+        const bool sure = found.ends[i] <= w->within;
         if (sure && w->wanted == SPACE_ANY) return SPACE_MET;
         scene_ask(q->tree->scene, w->object);
         if (!sure || w->wanted == SPACE_ALL)
@@ -231,8 +233,24 @@ space_step space_walk_step(froe_query *q, space_walk *w, double limit, bool alon
     return step;
 }
 
+/* Hands out the hits of a walk around a point, once it is at its end. */
+static space_step take_near_hit(froe_query *q, space_walk *w, double limit) {
+    if (!w->walked) {
+        space_walk_settle(w, limit);
+        for (size_t i = 0; i < w->hits.count; i++) scene_ask_points(q->tree->scene, w->hits.data[i].object);
+        w->walked = true;
+    }
+    while (w->hits.count) {
+        const space_hit hit = w->hits.data[--w->hits.count];
+        w->object = hit.object;
+        if (hit.key <= w->limit) return SPACE_OBJECT;
+    }
+    return SPACE_END;
+}
+
 froe_status space_walk_next(froe_query *q, space_walk *w, double limit, tree_objects *list) {
-    const space_step step = space_walk_step(q, w, limit, true);
+    space_step step = space_walk_step(q, w, limit, true);
+    if (w->near && step == SPACE_END) step = take_near_hit(q, w, limit);
     *list = (tree_objects){.at = &w->object, .stride = 1, .mask = UINT32_MAX, .count = step == SPACE_OBJECT};
     return step == SPACE_NO_MEMORY ? FROE_E_MEMORY : FROE_OK;
 }
