@@ -12,7 +12,7 @@
 #include <string.h>
 
 enum { ALL_OPEN = 15, MOST_STARTS = 9 };
-enum { VISITS_AHEAD = 24 };                 /* visits whose blocks are on their way from memory */
+enum { VISITS_AHEAD = 24, OWNERS_AHEAD = 6 }; /* visits whose blocks are on their way from memory */
 enum { FLOCK = 8, FLOCK_VISITS = 48 };      /* windows of which all visits are found before the first is made; visits */
 enum { NODES_AHEAD = 8, TABLE_AHEAD = 16 }; /* windows */
 
@@ -241,10 +241,18 @@ static packed_window window_of(const double *lo, const double *hi) {
     return (packed_window){{lo[0], lo[1]}, {hi[0], hi[1]}};
 }
 
+/* The beginning of a slice, once the block that names it has come. */
+__attribute__((always_inline)) static inline void ask_owners(const froe_tree *t, const packed_visit *v) {
+    if (!v->end) return;
+    const uint32_t *owners = t->packed.owners + packed_block_at(t, v->block)->owner;
+    for (uint32_t i = 0; i < 4; i++) __builtin_prefetch(owners + 16 * i);
+}
+
 /* Visit i, whose blocks have been prefetched, while those of a later one are. */
 static inline const packed_visit *make_visit(froe_query *q, size_t i) {
     const packed_work *work = q->packed;
     if (i + VISITS_AHEAD < work->visits.count) ask_visit(q->tree, work->visits.data + i + VISITS_AHEAD);
+    if (i + OWNERS_AHEAD < work->visits.count) ask_owners(q->tree, work->visits.data + i + OWNERS_AHEAD);
     return work->visits.data + i;
 }
 

@@ -47,8 +47,19 @@ static bool has_radius(froe_range_shape shape) {
     return shape == FROE_SHAPE_BALL || shape == FROE_SHAPE_CAPSULE;
 }
 
+/* Most ranges are windows, which are seen to be good at a glance; NaN compares as false. */
+static bool is_good_window(const froe_range *r, size_t dim) {
+    bool good = r->shape == FROE_SHAPE_BOX && r->walk == FROE_WALK_AUTO && r->eps == 0 && r->points;
+    for (size_t k = 0; good && k < dim; k++) {
+        const double lo = r->points[k], hi = r->points[dim + k];
+        good = lo <= hi && lo < INFINITY && hi > -INFINITY;
+    }
+    return good;
+}
+
 froe_status query_range_check(const froe_range *r, int dim, froe_diagnostic *diag) {
     if (r->size != sizeof *r) return support_fail_defaults(diag, "froe_range_defaults");
+    if (is_good_window(r, (size_t)dim)) return FROE_OK;
     if ((unsigned)r->shape >= FROE_SHAPE_COUNT)
         return support_fail(diag, FROE_E_OPTIONS, "There is no shape of number %u.", (unsigned)r->shape);
     if ((unsigned)r->walk >= FROE_WALK_COUNT)
