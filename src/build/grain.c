@@ -42,7 +42,7 @@ static const froe_option_info options[] = {
 
 static const split_effort presets[] = {
     {.supports = 8, .starts = 4, .improved = 4, .turns = 6, .sample = 512},
-    {.supports = 20, .starts = 24, .improved = 4, .turns = 12, .sample = 2048},
+    {.supports = 20, .starts = 24, .improved = 6, .turns = 12, .sample = 2048},
     {.supports = 80, .starts = 160, .improved = 40, .turns = 20, .sample = 8192},
     {.supports = 80, .starts = 160, .improved = 40, .turns = 20, .sample = 8192, .again = true},
 };

@@ -118,13 +118,17 @@ static int image_sign(const split_set *set, const split_plane *plane, const spli
     return set->context.first == NUM_FILTER ? geom_side_image(&plane->plane, k->x, k->error) : NUM_UNSURE;
 }
 
-static int image_side(split_set *set, const split_plane *plane, const split_corner *k) {
+int split_image_side(split_set *set, const split_plane *plane, const split_corner *k) {
     return num_filtered_call(&set->context, image_sign(set, plane, k));
+}
+
+int split_vertex_side(split_set *set, const split_plane *plane, const double *x) {
+    return vertex_side(set, plane, x);
 }
 
 int split_corner_side(split_set *set, const split_plane *plane, uint32_t object, const split_corner *k) {
     if (k->type == SPLIT_VERTEX) return vertex_side(set, plane, k->x);
-    int side = image_side(set, plane, k);
+    int side = split_image_side(set, plane, k);
     /* by the sides of the corners of the object where these tell */
     if (side == NUM_UNSURE && k->type == SPLIT_CORNER) side = object_side(set, plane, object);
     return side == NUM_UNSURE ? corner_side(set, plane, object, k) : side;
@@ -217,8 +221,8 @@ int split_class(split_set *set, const split_plane *plane, const split_fragment *
         const split_corner *ring = set->corners.data + f->first;
         bool negative = false, positive = false, unsure = false;
         for (uint32_t i = 0; i < f->count && !(negative && positive); i++) {
-            int side =
-                ring[i].type == SPLIT_VERTEX ? vertex_side(set, plane, ring[i].x) : image_side(set, plane, ring + i);
+            int side = ring[i].type == SPLIT_VERTEX ? vertex_side(set, plane, ring[i].x)
+                                                    : split_image_side(set, plane, ring + i);
             unsure |= side == NUM_UNSURE;
             negative |= side == -1;
             positive |= side == 1;

@@ -83,6 +83,10 @@ int split_classify(split_set *set, const split_plane *plane, const split_fragmen
 int split_class(split_set *set, const split_plane *plane, const split_fragment *fragment);
 /** The i-th corner, made on the fly for whole objects. */
 split_corner split_corner_of(const split_set *set, const split_fragment *fragment, uint32_t i);
+/** Exact side of a vertex. */
+int split_vertex_side(split_set *set, const split_plane *plane, const double *x);
+/** Side of a corner that is no vertex, by its image; NUM_UNSURE where it is too near. */
+int split_image_side(split_set *set, const split_plane *plane, const split_corner *corner);
 /** Exact side of a corner of a fragment of `object`. */
 int split_corner_side(split_set *set, const split_plane *plane, uint32_t object, const split_corner *corner);
 /** Cuts a fragment of class SPLIT_BOTH in two by the cut of `node`; sides as split_classify gave them. */

@@ -1,6 +1,6 @@
 /* contest.c: see contest.h. */
 #include "split/score/contest.h"
-#include "split/cell.h"
+#include "split/score/exact.h"
 #include "split/score/mark.h"
 #include <string.h>
 
@@ -32,11 +32,27 @@ bool split_contest_score(split_contest *c, split_candidate *k, split_view_plane 
 
 /* ------------------------------------------------------------------ checks -- */
 
-static bool is_checked(const split_contest *c, const froe_cut *cut) {
-    const split_view *v = c->view;
+/** The entry of a cut; where there is none yet, *known is false, and the entry NULL if there is no room. */
+static split_checked *find_checked(const split_contest *c, const froe_cut *cut, bool *known) {
+    split_view *v = c->view;
+    split_checked new = {cut->kind, {cut->id[0]}, false};
+    const int n = cut->kind == FROE_CUT_VERTICES ? v->dim : 1;
+    for (int i = 1; i < n; i++) {
+        int at = i;
+        for (; at && new.id[at - 1] > cut->id[i]; at--) new.id[at] = new.id[at - 1];
+        new.id[at] = cut->id[i];
+    }
+    *known = true;
     for (uint32_t i = 0; i < v->checked_count; i++)
-        if (v->checked[i].kind == cut->kind && !memcmp(v->checked[i].id, cut->id, sizeof cut->id)) return true;
-    return false;
+        if (v->checked[i].kind == new.kind && !memcmp(v->checked[i].id, new.id, sizeof new.id)) return v->checked + i;
+    *known = false;
+    if (v->checked_count == SPLIT_CHECKED) return NULL;
+    v->checked[v->checked_count] = new;
+    return v->checked + v->checked_count++;
+}
+
+static bool is_plane_of_vertices(const froe_cut *cut) {
+    return cut->kind == FROE_CUT_OBJECT || cut->kind == FROE_CUT_VERTICES;
 }
 
 /** Checks the fragments that seem to lie in the plane of a candidate that would be the best, and prices it again if
@@ -60,30 +76,40 @@ static bool check_flat(split_contest *c, split_candidate *k, const uint8_t *clas
 
 /** Of candidates that are not counted exactly. */
 static bool doubt(split_contest *c, split_candidate *k) {
-    const bool plane = k->cut.kind == FROE_CUT_OBJECT || k->cut.kind == FROE_CUT_VERTICES;
-    if (!plane || !c->checks || k->tally.on < 2 || (c->count && c->best->cost <= k->cost)) return true;
-    if (is_checked(c, &k->cut)) return true;
+    bool known;
+    if (!is_plane_of_vertices(&k->cut) || !c->checks || k->tally.on < 2) return true;
+    if (c->count && c->best->cost <= k->cost) return true;
+    (void)find_checked(c, &k->cut, &known);
+    if (known) return true;
     c->checks--;
-    c->view->checked[c->view->checked_count++] = k->cut;
     return check_flat(c, k, NULL);
 }
 
-/** Counts again, exactly. False: it is no plane, for three vertices may lie on a line, or it separates nothing. */
+/** Counts again, exactly. False: it is no plane, for three vertices may lie on a line, or it separates nothing, or it
+ * was counted before: then it is no better than the best. */
 static bool verify(split_contest *c, split_candidate *k) {
     num_context *context = &c->work->set.context;
+    split_checked *checked = NULL;
+    bool known = false;
+    if (c->exact && is_plane_of_vertices(&k->cut)) checked = find_checked(c, &k->cut, &known);
+    if (known) {
+        c->refuted += checked->refuted;
+        return false;
+    }
     if (k->cut.kind == FROE_CUT_VERTICES) {
         geom_plane plane = scene_cut_plane(c->work->set.scene, &k->cut);
         if (!geom_plane_valid(context, &plane)) return false;
     }
     if (!c->exact) return true;
     const uint32_t flat = k->tally.on;
-    if (cell_tally(c->work, c->cell, &k->cut, &k->tally)) c->failed = true;
+    c->failed |= !split_exact_tally(c->view, c->work, c->cell, &k->cut, &k->tally);
     if (c->failed) return false;
     if (flat > 1 && k->tally.on < flat && !c->deceived && !check_flat(c, k, c->work->set.classes.data)) return false;
     if (!split_tally_useful(k->tally)) return false;
     const double seemed = k->cost;
     k->cost = split_price_of(c->price, &c->terms, k->tally, 1) - k->due;
     c->refuted += k->cost > seemed;
+    if (checked) checked->refuted = k->cost > seemed;
     return true;
 }
 

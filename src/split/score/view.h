@@ -19,7 +19,14 @@
 #include "split/grow.h"
 #include "split/score/price.h"
 
-enum { SPLIT_VIEW_FEW = 256, SPLIT_CHECKS = 64 };
+enum { SPLIT_VIEW_FEW = 256, SPLIT_CHECKS = 64, SPLIT_CHECKED = 256 };
+
+/** A plane, by its vertices in ascending order, or its object. */
+typedef struct split_checked {
+    froe_cut_kind kind;
+    uint32_t id[3];
+    bool refuted; /**< its exact price was higher than it had seemed */
+} split_checked;
 
 typedef struct split_view {
     int dim;
@@ -33,17 +40,17 @@ typedef struct split_view {
     ARRAY(uint32_t) start;    /**< count + 1 offsets into corner */
     ARRAY(uint32_t) corner;   /**< corners of the fragments, one after the other */
     ARRAY(uint32_t)
-    fours;                          /**< the same for loops without branches: per fragment four, 1 + corner, the last
+    fours;                  /**< the same for loops without branches: per fragment four, 1 + corner, the last
                                          repeated; 0 of those that have more */
-    ARRAY(uint32_t) many;           /**< fragments that have more than four corners */
-    ARRAY(uint32_t) item;           /**< per fragment: its place in the cell; of pairs that is their own number */
-    ARRAY(uint8_t) marked;          /**< per fragment: 3, if it only seems to lie in planes (mark.h), or 0 */
-    uint32_t marks;                 /**< how many are marked */
-    uint32_t checked_count;         /**< of the following */
-    froe_cut checked[SPLIT_CHECKS]; /**< planes whose flat fragments are known to be in them, or marked */
-    ARRAY(double) values;           /**< ends of extents, for axis candidates */
-    ARRAY(double) low, high;        /**< extents of the fragments on the current axis */
-    uint32_t *place;                /**< per vertex of the scene: where it is here, or FROE_NONE */
+    ARRAY(uint32_t) many;   /**< fragments that have more than four corners */
+    ARRAY(uint32_t) item;   /**< per fragment: its place in the cell; of pairs that is their own number */
+    ARRAY(uint8_t) marked;  /**< per fragment: 3, if it only seems to lie in planes (mark.h), or 0 */
+    uint32_t marks;         /**< how many are marked */
+    uint32_t checked_count; /**< of the following */
+    split_checked checked[SPLIT_CHECKED]; /**< planes that exact numbers have been asked about */
+    ARRAY(double) values;                 /**< ends of extents, for axis candidates */
+    ARRAY(double) low, high;              /**< extents of the fragments on the current axis */
+    uint32_t *place;                      /**< per vertex of the scene: where it is here, or FROE_NONE */
     uint32_t place_count;
     bool pairs;           /**< segments of the plane, two corners each, none shared: no vertex, start, corner, side */
     bool swept;           /**< for sweeps */
