@@ -35,7 +35,7 @@ static void choose_levels(const grid_source *source, split_grid *g) {
         const double steps =
             source->length[0] / side[0] * (cells[0] - 1) + source->length[1] / side[1] * (cells[1] - 1);
         fits = steps <= most;
-        if (fits) g->axis[g->levels++] = (uint8_t)axis;
+        if (fits) g->steps = steps / source->count, g->axis[g->levels++] = (uint8_t)axis;
     }
     g->upper = source->parts ? g->levels / 2 : 0;
     for (uint32_t l = g->levels; l--;) {
@@ -81,8 +81,12 @@ static froe_status trace_job(void *user, unsigned worker, size_t job) {
                      l->deal.chunks + job, l->bad + job);
 }
 
+/* What stays is taken first: what is given back then lies behind it, where the system gets it. */
 static froe_status take_room(grid_laying *l) {
     const size_t parts = (size_t)1 << l->grid->upper;
+    l->grid->count = support_calloc(l->alloc, parts * 2, sizeof *l->grid->count);
+    l->grid->starts = support_calloc(l->alloc, parts + 1, sizeof *l->grid->starts);
+    if (!l->grid->count || !l->grid->starts) return FROE_E_MEMORY;
     l->deal = (dealing){.alloc = *l->alloc,
                         .task = l->source->task,
                         .count = l->source->count,
@@ -166,9 +170,7 @@ static froe_status deal_all(grid_laying *l, bool *made) {
     froe_status status = take_room(l);
     if (!status) status = trace_all(l, made);
     if (status || !*made) return status;
-    g->count = support_calloc(l->alloc, l->deal.parts * 2, sizeof *g->count);
-    g->starts = support_calloc(l->alloc, l->deal.parts + 1, sizeof *g->starts);
-    status = g->count && g->starts ? sum_up(l) : FROE_E_MEMORY;
+    status = sum_up(l);
     if (status) return status;
     g->ids = support_realloc(l->alloc, NULL, 0, g->fragments[g->levels] * sizeof *g->ids);
     g->places = support_realloc(l->alloc, NULL, 0, g->fragments[g->levels] * sizeof *g->places);

@@ -40,6 +40,7 @@ static inline uint32_t grid_since(uint32_t place) {
 typedef struct split_grid {
     packed_box box;
     uint32_t levels, upper;
+    double steps;                        /**< from cell to cell, of an object, on average, about */
     uint8_t axis[GRID_LEVELS];           /**< of the cuts of a level, the root's first */
     uint8_t rest[GRID_LEVELS + 1][2];    /**< how often cells of a level are still halved on each axis */
     double *lines[2];                    /**< lines of an axis, the borders of the box included */

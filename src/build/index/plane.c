@@ -131,14 +131,16 @@ static froe_status plan_subtrees(plane_build *p, const index_cell *root) {
     while (room && waiting.count) {
         const index_cell cell = waiting.data[--waiting.count];
         const uint32_t level = g ? grid_level(cell.heap) : 0;
-        const uint64_t objects = g ? g->count[cell.heap] : job->scene->object_count, fragments = objects + objects / 4;
+        const uint64_t objects = g ? g->count[cell.heap] : job->scene->object_count;
         if (g && level < g->upper && cell.growth < p->plan->growth && objects > job->leaf) {
             index_cell side[2];
             const double value = subtree_halve(g, &cell, level, g->count, side);
             room = array_push(alloc, &waiting, side[1]) && array_push(alloc, &waiting, side[0]) &&
                    join_cut(&p->join, g->axis[level], value);
         } else {
-            const uint64_t leaves = fragments / (job->leaf / 2 + 1) + 1;
+            const uint32_t below = g ? g->upper - level : 0, first = g ? (cell.heap - (1u << level)) << below : 0;
+            const uint64_t entries = g ? g->starts[first + (1u << below)] - g->starts[first] : objects;
+            const uint64_t fragments = entries + entries / 8, leaves = fragments / (job->leaf / 2 + 1) + 1;
             const join_room about = {2 * leaves + 1, leaves + fragments / 5, objects};
             room = join_subtree(&p->join, &about) && array_push(alloc, &p->roots, cell);
         }

@@ -98,11 +98,12 @@ froe_status trace_run(const froe_allocator *alloc, const grid_source *source, co
                       trace_counts *counts, deal_chunk *chunk, trace_bad *bad) {
     tracing t = {.grid = grid, .work = work, .counts = counts, .chunk = chunk, .bad = bad, .lower = grid_lower(grid)};
     bad->axis = -1;
-    if (!array_reserve(alloc, &chunk->entries, (chunk->to - chunk->from) / 4 * 5)) return FROE_E_MEMORY;
+    const double most = (chunk->to - chunk->from) * (1 + 1.05 * grid->steps) + 256; /* nearly always */
+    if (!array_reserve(alloc, &chunk->entries, (size_t)most)) return FROE_E_MEMORY;
     for (uint32_t i = chunk->from; i < chunk->to && bad->axis < 0; i++) {
         const packed_fragment f = source->fragments ? source->fragments[i] : axis_whole(work, i);
         uint32_t from[2], to[2];
-        if (source->fragments || !(place_own(grid, f.p, from) & place_own(grid, f.q, to))) {
+        if (source->fragments || !place_own(grid, f.p, from) || !place_own(grid, f.q, to)) {
             place_end(&t, &f, false, from);
             place_end(&t, &f, true, to);
             if (bad->axis >= 0) break;
