@@ -203,7 +203,7 @@ static void choose_sizes(match_work *w) {
     while (w->part_bits < PART_BITS_MOST && all >> w->part_bits > w->plan.part) w->part_bits++;
     w->number_bits = 32 - (uint32_t)__builtin_clz((uint32_t)all); /* for all + 1, too */
     w->slot_bits = 4;
-    while (all >> w->part_bits >= (uint64_t)1 << (w->slot_bits - 1)) w->slot_bits++; /* half full at most, about */
+    while (all >> w->part_bits >= (uint64_t)1 << (w->slot_bits - 2)) w->slot_bits++; /* a quarter full at most, about */
     w->chunk = w->plan.chunk;
     while (w->chunk < (uint32_t)RUN << w->part_bits && w->chunk < all) w->chunk *= 2;
     w->known_chunks = (uint32_t)(((uint64_t)p->known_count + w->chunk - 1) / w->chunk);
