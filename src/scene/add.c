@@ -6,7 +6,6 @@
  *     forms        the corners of each object's form, where any object differs from what was given (forms.c)
  *     commit       the new counts are published, the only step that readers see; or the new vertices are dropped */
 #include "base/floats.h"
-#include "geom/selftest.h"
 #include "scene/forms.h"
 #include "support/fail.h"
 #include <math.h>
@@ -100,15 +99,6 @@ froe_status scene_adding_progress(scene_adding *a, double share) {
     return base_progress(&a->task, share) ? FROE_OK : support_fail_cancelled(a->diag);
 }
 
-/** A context for exact numbers, which the first polygons need. */
-static froe_status take_context(const scene_adding *a) {
-    struct scene_store *store = a->scene->store;
-    if (a->batch->kind != FROE_POLYGON || store->context_ready) return FROE_OK;
-    if (geom_context_new(&a->scene->alloc, &store->context)) return support_fail_memory(a->diag);
-    store->context_ready = true;
-    return FROE_OK;
-}
-
 static froe_status take_forms(scene_adding *a) {
     struct scene_store *store = a->scene->store;
     uint32_t *corners = store->vertex_of.data + store->vertex_of.count;
@@ -133,11 +123,11 @@ static froe_status take_forms(scene_adding *a) {
 
 static froe_status take_batch(scene_adding *a) {
     bool done;
-    froe_status status = take_context(a);
-    if (!status) status = scene_take_corners_at_once(a, &done);
+    froe_status status = scene_take_corners_at_once(a, &done);
     if (!status && !done) status = scene_take_corners(a);
     if (!status) status = scene_look_at_forms(a);
     if (!status && scene_adding_settle(a)) status = support_fail_memory(a->diag);
+    if (!status && !a->plain) status = scene_adding_context(a);
     if (!status && !a->plain) status = take_forms(a);
     return status ? status : scene_adding_progress(a, 1);
 }

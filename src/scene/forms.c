@@ -1,6 +1,7 @@
 /* forms.c: what an object really is: a zero-length segment is a point, a hull is a set of vertices. Above dimension
  * 3 no cut runs along a segment, so that it is a hull as well: it is listed, and never cut. */
 #include "scene/forms.h"
+#include "geom/selftest.h"
 #include "geom/turn.h"
 #include "scene/polygon.h"
 #include "support/fail.h"
@@ -134,6 +135,14 @@ static bool are_boxes(const scene_adding *a, size_t from, size_t to) {
     return !inside_out;
 }
 
+froe_status scene_adding_context(const scene_adding *a) {
+    struct scene_store *store = a->scene->store;
+    if (a->batch->kind != FROE_POLYGON || store->context_ready) return FROE_OK;
+    if (geom_context_new(&a->scene->alloc, &store->context)) return support_fail_memory(a->diag);
+    store->context_ready = true;
+    return FROE_OK;
+}
+
 /** Polygons that are exactly what a scene keeps. */
 static bool are_rings(const scene_adding *a, size_t from, size_t to) {
     if (a->batch->kind != FROE_POLYGON) return false;
@@ -154,7 +163,7 @@ static bool are_rings(const scene_adding *a, size_t from, size_t to) {
 
 /** Triangles for certain: then their corners differ, and no other order of them is better. */
 static bool are_triangles(const scene_adding *a, size_t from, size_t to) {
-    bool sure = a->scene->store->context.first == NUM_FILTER && a->each == 3 && num_rounding_trusted();
+    bool sure = a->each == 3 && a->scene->store->trusted && num_rounding_trusted();
     for (size_t j = from; sure && j < to; j++) {
         const size_t corner = a->first + 3 * j;
         sure = geom_surely_turns(scene_adding_point(a, corner), scene_adding_point(a, corner + 1),
@@ -209,6 +218,7 @@ static froe_status look_by_jobs(scene_adding *a, size_t jobs, uint8_t *doubt) {
     for (size_t job = 0; !status && a->plain && job < jobs; job++) {
         size_t from, to;
         if (!doubt[job]) continue;
+        if (scene_adding_context(a)) return FROE_E_MEMORY;
         job_objects(a, job, &from, &to);
         a->plain = are_rings(a, from, to);
         if (!base_progress(&a->task, 0.8 + 0.1 * (double)job / (double)jobs)) status = FROE_E_CANCELLED;
@@ -224,12 +234,16 @@ froe_status scene_look_at_forms(scene_adding *a) {
     a->used = a->corners;
     if (!a->plain) return FROE_OK;
     if (jobs == 1) {
-        a->plain = are_plain(a, 0, count) || are_rings(a, 0, count);
+        a->plain = are_plain(a, 0, count);
+        const froe_status status = a->plain ? FROE_OK : scene_adding_context(a);
+        if (status) return status;
+        a->plain = a->plain || are_rings(a, 0, count);
         return scene_adding_progress(a, 0.8);
     }
     uint8_t *doubt = support_calloc(alloc, jobs, 1);
     if (!doubt) return support_fail_memory(a->diag);
     const froe_status status = look_by_jobs(a, jobs, doubt);
     support_free(alloc, doubt, jobs);
+    if (status == FROE_E_MEMORY) return support_fail_memory(a->diag);
     return status ? support_fail_cancelled(a->diag) : FROE_OK;
 }

@@ -49,7 +49,9 @@ froe_status scene_take_corners(scene_adding *a);
  * FROE_E_MEMORY, FROE_E_CANCELLED. */
 froe_status scene_take_corners_at_once(scene_adding *a, bool *done);
 
-/** Finds out whether the batch is plain. FROE_E_CANCELLED. */
+/** Takes the context for exact numbers that polygons need, unless doubles settle their forms. FROE_E_MEMORY. */
+froe_status scene_adding_context(const scene_adding *a);
+/** Finds out whether the batch is plain. FROE_E_MEMORY, FROE_E_CANCELLED. */
 froe_status scene_look_at_forms(scene_adding *a);
 /** Turns the vertices of object j of the batch into the corners of its form, in place;
  * *count grows for balls only. FROE_E_INPUT names object, corner, axis and reason. */

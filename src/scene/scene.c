@@ -56,6 +56,7 @@ froe_status froe_scene_new(int dim, const froe_allocator *caller, froe_scene **o
         return FROE_E_MEMORY;
     }
     s->store->plan = match_usual;
+    s->store->trusted = num_machine_trusted();
     scene_publish(s);
     *out = s;
     return FROE_OK;

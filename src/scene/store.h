@@ -31,6 +31,7 @@ struct scene_store {
     ARRAY(char) text;
     num_context context; /**< for polygons; arena taken by the first of them */
     bool context_ready;
+    bool trusted; /**< num_machine_trusted() */
     match_plan plan;
 };
 
