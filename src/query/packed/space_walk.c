@@ -143,8 +143,8 @@ static bool descend_along_ray(froe_query *q, space_walk *w, bool once) {
     return true;
 }
 
-/* Replaces a node by its children within the limit. The least comes on top; of few that wait the others need no order,
- * as the first leaf lowers the limit. False without memory. */
+/* Replaces a node by its children within the limit. The least comes on top, and is prefetched; of few that wait the
+ * others need no order, as the first leaf lowers the limit, and most are never read. False without memory. */
 static bool push_near_children(froe_query *q, space_walk *w, uint32_t index) {
     const wide_node *n = q->tree->packed.wide->nodes + index;
     float keys[PACKED_LANES];
@@ -183,6 +183,7 @@ static space_step push_objects(froe_query *q, space_walk *w, uint32_t block, flo
         !array_reserve(&q->alloc, &work->ends, room) || !array_reserve(&q->alloc, &w->stack, room))
         return SPACE_NO_MEMORY;
     space_found found = {work->objects.data, work->keys.data, work->ends.data, 0};
+    if (w->near && w->stack.count) space_prefetch(q->tree, (uint32_t)w->stack.data[w->stack.count - 1]); /* next */
     if (w->near)
         work->kernels->near(h, &w->point, key, w->limit, &found);
     else
