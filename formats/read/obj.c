@@ -116,12 +116,32 @@ static void copy_rest(char *to, size_t room, const char *from) {
 
 /* -------------------------------------------------------------- elements -- */
 
+static bool is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\r';
+}
+
+static const char *pass_blanks(const char *at) {
+    while (is_blank(*at)) at++;
+    return at;
+}
+
+/* As strtoll(), which is slower. */
+static int64_t read_index(const char *at, char **end) {
+    enum { MOST_DIGITS = 18 };
+    const char *first = at + (*at == '-'), *c = first;
+    int64_t index = 0;
+    for (; *c >= '0' && *c <= '9' && c - first < MOST_DIGITS; c++) index = 10 * index + (*c - '0');
+    if (c == first || (*c >= '0' && *c <= '9')) return strtoll(at, end, 10);
+    *end = (char *)c;
+    return *at == '-' ? -index : index;
+}
+
 /* The place in textures that follows the vertex of a corner: "/7", perhaps with a normal. */
 static froe_status read_place(obj *o, const char *at) {
     const int64_t places = (int64_t)(o->places.count / 2);
     char *end;
     if (*at != '/' || at[1] == '/') return FROE_OK;
-    int64_t index = strtoll(at + 1, &end, 10);
+    int64_t index = read_index(at + 1, &end);
     if (index < 0) index += places + 1;
     if (end == at + 1 || index < 1 || index > places) return FROE_OK; /* no geometry: it has no colour by that */
     return array_append(&o->sink->alloc, &o->corner_places, o->places.data + 2 * (index - 1), 2) ? FROE_OK
@@ -133,9 +153,9 @@ static froe_status read_corners(obj *o, const char *at, size_t *count) {
     const froe_allocator *alloc = &o->sink->alloc;
     int64_t vertices = (int64_t)(o->points.count / 3);
     o->corners.count = o->own_shades.count = o->corner_places.count = 0;
-    for (*count = 0; at += strspn(at, " \t\r"), *at; ++*count) {
+    for (*count = 0; at = pass_blanks(at), *at; ++*count) {
         char *end;
-        int64_t index = strtoll(at, &end, 10);
+        int64_t index = read_index(at, &end);
         if (end == at) return broken_obj(o, "An index is not a number.");
         if (index < 0) index += vertices + 1;
         if (index < 1 || index > vertices) return broken_obj(o, "An index names a vertex that does not exist.");
@@ -145,7 +165,7 @@ static froe_status read_corners(obj *o, const char *at, size_t *count) {
             return out_of_memory(o);
         const froe_status status = read_place(o, end);
         if (status) return status;
-        at = end + strcspn(end, " \t\r"); /* texture and normal */
+        for (at = end; *at && !is_blank(*at);) at++; /* texture and normal */
     }
     return FROE_OK;
 }
@@ -168,9 +188,10 @@ static froe_status read_element(obj *o, char kind, const char *at) {
     return status;
 }
 
-static bool starts(const char *line, const char *word) {
-    size_t length = strlen(word);
-    return !strncmp(line, word, length) && (strchr(" \t\r", line[length]) != NULL);
+static inline bool starts(const char *line, const char *word) {
+    for (; *word; line++, word++)
+        if (*line != *word) return false;
+    return !*line || is_blank(*line);
 }
 
 /* The colour behind the coordinates of a vertex: three shares. A single number there is a weight. */
@@ -179,7 +200,7 @@ static froe_status read_shade(obj *o, const char *at) {
     const size_t points = o->points.count / 3;
     for (int k = 0; k < 3; ++k) {
         char *end;
-        rgba[k] = strtod(at, &end);
+        rgba[k] = support_decimal_ahead(at, &end);
         if (end == at) return FROE_OK;
         at = end;
     }
@@ -204,7 +225,7 @@ static froe_status read_line(obj *o) {
     if (starts(line, "vt")) {
         double place[2] = {0, 0};
         char *end = line + 2;
-        for (int k = 0; k < 2; ++k) place[k] = strtod(end, &end);
+        for (int k = 0; k < 2; ++k) place[k] = support_decimal_ahead(end, &end);
         return array_append(&o->sink->alloc, &o->places, place, 2) ? FROE_OK : out_of_memory(o);
     }
     if (starts(line, "f") || starts(line, "l") || starts(line, "p")) return read_element(o, *line, line + 1);

@@ -39,7 +39,7 @@ static froe_status broken_off(off *o, const char *sentence) {
 
 static void skip_blanks(off *o) {
     for (;;) {
-        o->at += strspn(o->at, " \t\r\n");
+        while (*o->at == ' ' || *o->at == '\n' || *o->at == '\t' || *o->at == '\r') o->at++;
         if (*o->at != '#') return;
         o->at += strcspn(o->at, "\n");
     }
@@ -59,12 +59,13 @@ static bool number(off *o, double *value) {
 }
 
 static bool whole(off *o, uint64_t *value) {
-    char *end;
+    enum { MOST_DIGITS = 18 };
     skip_blanks(o);
-    if (*o->at < '0' || *o->at > '9') return false;
-    *value = strtoull(o->at, &end, 10);
-    o->at = end;
-    return true;
+    const char *first = o->at;
+    char *end;
+    for (*value = 0; *o->at >= '0' && *o->at <= '9'; o->at++) *value = 10 * *value + (uint64_t)(*o->at - '0');
+    if (o->at - first > MOST_DIGITS) *value = strtoull(first, &end, 10); /* the greatest where it is too great */
+    return o->at > first;
 }
 
 /* Up to four shares on the rest of the line, as a colour; 0: there are not three. */
@@ -74,12 +75,11 @@ static uint32_t rest_colour(off *o) {
     int count = 0;
     while (count < 4) {
         char *end;
-        o->at += strspn(o->at, " \t\r");
+        while (*o->at == ' ' || *o->at == '\t' || *o->at == '\r') o->at++;
         if (!*o->at || !strchr("+-.0123456789", *o->at)) break;
         shares[count] = support_decimal_ahead(o->at, &end);
         if (end == o->at) break;
-        whole_numbers = whole_numbers && strcspn(o->at, ".eE") >= (size_t)(end - o->at);
-        o->at = end;
+        for (; o->at < end; o->at++) whole_numbers = whole_numbers && *o->at != '.' && (*o->at | 0x20) != 'e';
         count++;
     }
     if (count < 3) return 0;

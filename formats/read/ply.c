@@ -66,7 +66,7 @@ static const char *next_word(ply *p, char *word) {
 
 /* To the next line; false at the end of the file, or of its text: a zero byte. */
 static bool skip_line(ply *p) {
-    p->at += strcspn(p->at, "\r\n");
+    while (*p->at && *p->at != '\n' && *p->at != '\r') ++p->at;
     if (!*p->at) return false;
     if (*p->at == '\r') ++p->at;
     if (*p->at == '\n') ++p->at;
@@ -166,7 +166,10 @@ static bool read_number(ply *p, ply_type type, double *value) {
     const size_t size = sizes[type];
     if ((size_t)(p->end - p->at) < size) return false;
     uint64_t bits = 0;
-    for (size_t i = 0; i < size; ++i) bits = bits << 8 | (unsigned char)p->at[p->big ? i : size - 1 - i];
+    if (size == 8 && p->big == (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__))
+        memcpy(&bits, p->at, 8);
+    else
+        for (size_t i = 0; i < size; ++i) bits = bits << 8 | (unsigned char)p->at[p->big ? i : size - 1 - i];
     p->at += size;
     float single;
     const uint32_t low = (uint32_t)bits;
