@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* The scene takes large batches more quickly than small ones, above all where they are not small beside it. */
-enum { BATCH_OBJECTS = 1 << 20, BATCH_DOUBLES = 1 << 22 };
+enum { BATCH_OBJECTS = 1 << 20, BATCH_DOUBLES = 10 << 20, INDEXED_OBJECTS = 1 << 24 };
 
 froe_status formats_sink_open(formats_sink *sink, int dim) {
     sink->dim = dim;
@@ -20,7 +20,10 @@ froe_status formats_sink_open(formats_sink *sink, int dim) {
 }
 
 void formats_sink_free(formats_sink *sink) {
+    array_free(&sink->alloc, &sink->points);
     array_free(&sink->alloc, &sink->coords);
+    array_free(&sink->alloc, &sink->gathered);
+    array_free(&sink->alloc, &sink->indices);
     array_free(&sink->alloc, &sink->radii);
     array_free(&sink->alloc, &sink->starts);
     array_free(&sink->alloc, &sink->object_faces);
@@ -60,7 +63,9 @@ static froe_status flush(formats_sink *sink) {
     froe_objects batch = froe_objects_defaults();
     batch.kind = sink->kind;
     batch.count = sink->count;
-    batch.coords = sink->coords.data;
+    batch.coords = sink->indexed ? sink->points.data : sink->coords.data;
+    batch.indices = sink->indexed ? sink->indices.data : NULL;
+    batch.point_count = sink->indexed ? sink->points.count / (size_t)sink->dim : 0;
     batch.starts = has_starts(sink->kind) ? sink->starts.data : NULL;
     batch.radii = sink->kind == FROE_BALL ? sink->radii.data : NULL;
     batch.tags = sink->tags.data;
@@ -76,7 +81,7 @@ static froe_status flush(formats_sink *sink) {
         return support_fail_at(sink->diag, status, (uint32_t)object, why.corner, why.axis, "%s: object %zu: %s", path,
                                object, sentence);
     }
-    sink->coords.count = sink->radii.count = sink->starts.count = 0;
+    sink->coords.count = sink->indices.count = sink->radii.count = sink->starts.count = 0;
     sink->object_faces.count = sink->groups.count = sink->tags.count = 0;
     sink->count = 0;
     return FROE_OK;
@@ -84,18 +89,20 @@ static froe_status flush(formats_sink *sink) {
 
 /* Before up to `count` objects of this kind: hands a batch over where it is full or of another kind. *fits: the new one
  * takes so many of them, at least one. */
-static froe_status begin_put(formats_sink *sink, froe_kind kind, size_t count, size_t *fits) {
-    const bool full = sink->count >= BATCH_OBJECTS || sink->coords.count > BATCH_DOUBLES;
-    if (full || (sink->count && kind != sink->kind)) {
+static froe_status begin_put(formats_sink *sink, froe_kind kind, bool indexed, size_t count, size_t *fits) {
+    const size_t most = indexed ? INDEXED_OBJECTS : BATCH_OBJECTS;
+    const bool full = sink->count >= most || sink->coords.count > BATCH_DOUBLES;
+    if (full || (sink->count && (kind != sink->kind || indexed != sink->indexed))) {
         const froe_status status = flush(sink);
         if (status) return status;
     }
     if (sink->total >= FROE_NONE - 1)
         return formats_sink_fail(sink, FROE_E_LIMIT, "There are more than 2^32 - 2 objects.");
-    const size_t left = FROE_NONE - 1 - sink->total, room = BATCH_OBJECTS - sink->count;
+    const size_t left = FROE_NONE - 1 - sink->total, room = most - sink->count;
     if (count > left) count = left;
     *fits = count < room ? count : room;
     sink->kind = kind;
+    sink->indexed = indexed;
     return FROE_OK;
 }
 
@@ -115,16 +122,20 @@ static bool put_descriptions(formats_sink *sink, size_t count) {
     return true;
 }
 
-static froe_status put_in_sink(formats_sink *sink, froe_kind kind, const double *coords, size_t corners) {
+/* indices: of the points, or NULL. */
+static froe_status put_in_sink(formats_sink *sink, froe_kind kind, const double *coords, const uint32_t *indices,
+                               size_t corners) {
     size_t fits;
-    const froe_status status = begin_put(sink, kind, 1, &fits);
+    const froe_status status = begin_put(sink, kind, indices, 1, &fits);
     if (status) return status;
     const froe_allocator *alloc = &sink->alloc;
-    const size_t dim = (size_t)sink->dim, start = sink->coords.count / dim;
+    const size_t dim = (size_t)sink->dim, start = indices ? sink->indices.count : sink->coords.count / dim;
     const bool first = has_starts(kind) && !sink->count;
     if ((first && !array_push(alloc, &sink->starts, start)) ||
         (has_starts(kind) && !array_push(alloc, &sink->starts, start + corners)) ||
-        !array_append(alloc, &sink->coords, coords, corners * dim) || !put_descriptions(sink, 1))
+        (indices ? !array_append(alloc, &sink->indices, indices, corners)
+                 : !array_append(alloc, &sink->coords, coords, corners * dim)) ||
+        !put_descriptions(sink, 1))
         return support_fail_memory(sink->diag);
     return FROE_OK;
 }
@@ -133,7 +144,7 @@ static froe_status put_in_sink(formats_sink *sink, froe_kind kind, const double 
 static froe_status put_segments(formats_sink *sink, const double *points, size_t count) {
     const size_t dim = (size_t)sink->dim;
     for (size_t fits = 0; count > 1; points += fits * dim, count -= fits) {
-        const froe_status status = begin_put(sink, FROE_SEGMENT, count - 1, &fits);
+        const froe_status status = begin_put(sink, FROE_SEGMENT, false, count - 1, &fits);
         if (status) return status;
         if (!array_reserve(&sink->alloc, &sink->coords, 2 * fits * dim)) return support_fail_memory(sink->diag);
         double *to = sink->coords.data + sink->coords.count;
@@ -188,7 +199,7 @@ static froe_status put_bounds(formats_sink *sink, formats_bounds *bounds) {
     memcpy(corners + sink->dim, bounds->hi, (size_t)sink->dim * sizeof(double));
     bounds->any = false;
     sink->face = FROE_NONE;
-    return put_in_sink(sink, FROE_BOX, corners, 2);
+    return put_in_sink(sink, FROE_BOX, corners, NULL, 2);
 }
 
 froe_status formats_sink_end_feature(formats_sink *sink) {
@@ -246,10 +257,11 @@ static void widen(const formats_sink *sink, formats_bounds *bounds, const double
 }
 
 /* Checks; then adds the object, or with `boxes` only widens the feature's box. */
-static froe_status add_to_sink(formats_sink *sink, froe_kind kind, const double *coords, size_t corners) {
+static froe_status add_to_sink(formats_sink *sink, froe_kind kind, const double *coords, const uint32_t *indices,
+                               size_t corners) {
     froe_status status = finite(sink, coords, corners);
     if (status) return status;
-    if (!sink->boxes) return put_in_sink(sink, kind, coords, corners);
+    if (!sink->boxes) return put_in_sink(sink, kind, coords, indices, corners);
     if (!corners) return FROE_OK;
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
     for (size_t i = 0; i < corners * (size_t)sink->dim; ++i) {
@@ -268,14 +280,14 @@ static froe_status add_to_sink(formats_sink *sink, froe_kind kind, const double 
 }
 
 froe_status formats_sink_point(formats_sink *sink, const double *p) {
-    return add_to_sink(sink, FROE_POINT, p, 1);
+    return add_to_sink(sink, FROE_POINT, p, NULL, 1);
 }
 
 static froe_status add_pair(formats_sink *sink, froe_kind kind, const double *a, const double *b) {
     double corners[2 * FROE_MAX_DIM];
     memcpy(corners, a, (size_t)sink->dim * sizeof(double));
     memcpy(corners + sink->dim, b, (size_t)sink->dim * sizeof(double));
-    return add_to_sink(sink, kind, corners, 2);
+    return add_to_sink(sink, kind, corners, NULL, 2);
 }
 
 froe_status formats_sink_segment(formats_sink *sink, const double *a, const double *b) {
@@ -294,7 +306,7 @@ froe_status formats_sink_line(formats_sink *sink, const double *points, size_t c
 }
 
 froe_status formats_sink_hull(formats_sink *sink, const double *corners, size_t count) {
-    return add_to_sink(sink, FROE_HULL, corners, count);
+    return add_to_sink(sink, FROE_HULL, corners, NULL, count);
 }
 
 froe_status formats_sink_box(formats_sink *sink, const double *lo, const double *hi) {
@@ -322,7 +334,7 @@ froe_status formats_sink_ball(formats_sink *sink, const double *centre, double r
         }
         return add_pair(sink, FROE_BOX, lo, hi);
     }
-    status = put_in_sink(sink, FROE_BALL, centre, 1);
+    status = put_in_sink(sink, FROE_BALL, centre, NULL, 1);
     if (!status && !array_push(&sink->alloc, &sink->radii, radius)) return support_fail_memory(sink->diag);
     return status;
 }
@@ -331,7 +343,7 @@ froe_status formats_sink_triangle(formats_sink *sink, const double *a, const dou
     double corners[3 * FROE_MAX_DIM];
     const double *from[3] = {a, b, c};
     for (int i = 0; i < 3; ++i) memcpy(corners + i * sink->dim, from[i], (size_t)sink->dim * sizeof(double));
-    return add_to_sink(sink, FROE_POLYGON, corners, 3);
+    return add_to_sink(sink, FROE_POLYGON, corners, NULL, 3);
 }
 
 void formats_sink_up(formats_sink *sink, int axis) {
@@ -356,10 +368,11 @@ static froe_status polygon_fits(formats_sink *sink, const double *corners, size_
     return FROE_OK;
 }
 
-froe_status formats_sink_face(formats_sink *sink, const double *corners, size_t count) {
+/* indices: of the corners, or NULL. */
+static froe_status add_face(formats_sink *sink, const double *corners, const uint32_t *indices, size_t count) {
     if (count == 1) return formats_sink_point(sink, corners);
     if (count == 2) return formats_sink_segment(sink, corners, corners + 3);
-    if (count == 3 || sink->boxes) return add_to_sink(sink, FROE_POLYGON, corners, count);
+    if (count == 3 || sink->boxes) return add_to_sink(sink, FROE_POLYGON, corners, indices, count);
     froe_status status = finite(sink, corners, count);
     bool whole = false;
     if (!status && sink->faces == FROE_FACES_POLYGONS) status = polygon_fits(sink, corners, count, &whole);
@@ -367,12 +380,30 @@ froe_status formats_sink_face(formats_sink *sink, const double *corners, size_t 
     formats_sink_new_face(sink);
     formats_indices triangles = {0};
     if (whole)
-        status = put_in_sink(sink, FROE_POLYGON, corners, count);
+        status = put_in_sink(sink, FROE_POLYGON, corners, indices, count);
     else if (++sink->report.triangulated, !formats_triangulate(&sink->alloc, corners, count, &triangles))
         status = support_fail_memory(sink->diag);
-    for (const uint32_t *at = triangles.data, *end = at + triangles.count; at != end && !status; at += 3)
-        status = formats_sink_triangle(sink, corners + 3 * at[0], corners + 3 * at[1], corners + 3 * at[2]);
+    for (const uint32_t *at = triangles.data, *end = at + triangles.count; at != end && !status; at += 3) {
+        double triangle[9];
+        const uint32_t named[3] = {indices ? indices[at[0]] : 0, indices ? indices[at[1]] : 0,
+                                   indices ? indices[at[2]] : 0};
+        for (int i = 0; i < 3; i++) memcpy(triangle + 3 * i, corners + 3 * at[i], 3 * sizeof *corners);
+        status = put_in_sink(sink, FROE_POLYGON, triangle, indices ? named : NULL, 3);
+    }
     array_free(&sink->alloc, &triangles);
     sink->face = FROE_NONE;
     return status;
+}
+
+froe_status formats_sink_face(formats_sink *sink, const double *corners, size_t count) {
+    return add_face(sink, corners, NULL, count);
+}
+
+froe_status formats_sink_indexed_face(formats_sink *sink, const uint32_t *indices, size_t count) {
+    if (sink->points.count / 3 >= FROE_NONE)
+        return formats_sink_fail(sink, FROE_E_LIMIT, "There are more than 2^32 - 2 points.");
+    if (!array_reserve(&sink->alloc, &sink->gathered, 3 * count)) return support_fail_memory(sink->diag);
+    for (size_t i = 0; i < count; i++)
+        memcpy(sink->gathered.data + 3 * i, sink->points.data + 3 * (size_t)indices[i], 3 * sizeof(double));
+    return add_face(sink, sink->gathered.data, indices, count);
 }

@@ -29,21 +29,24 @@ typedef struct formats_sink {
     /* of the objects to come; readers write them, formats_sink_feature() resets them */
     uint32_t group;
     uint64_t tag;
-    bool tagged;        /**< use `tag`; otherwise each object's own id */
-    uint32_t face;      /**< FROE_NONE: each object its own */
-    const char *unit;   /**< "feature", "row", "face", ... for messages */
-    const char *inside; /**< name of the layer, node or group it is in; NULL: none */
-    bool guessed;       /**< that coordinates are degrees: it is believed if all of them can be some */
-    bool promised;      /**< the same by a rule of the format: it is told where they cannot be */
-    uint64_t number;    /**< of the unit, as the file counts */
+    bool tagged;          /**< use `tag`; otherwise each object's own id */
+    uint32_t face;        /**< FROE_NONE: each object its own */
+    ARRAY(double) points; /**< that faces name, dim numbers each; readers append to it */
+    const char *unit;     /**< "feature", "row", "face", ... for messages */
+    const char *inside;   /**< name of the layer, node or group it is in; NULL: none */
+    bool guessed;         /**< that coordinates are degrees: it is believed if all of them can be some */
+    bool promised;        /**< the same by a rule of the format: it is told where they cannot be */
+    uint64_t number;      /**< of the unit, as the file counts */
 
     /* private */
     froe_scene *scene;
     int dim;
     froe_kind kind; /**< of the batch */
+    bool indexed;   /**< its corners are indices of points */
     size_t count;   /**< objects in the batch */
     size_t total;   /**< objects so far, batch included: the next id */
-    ARRAY(double) coords, radii;
+    ARRAY(double) coords, radii, gathered;
+    ARRAY(uint32_t) indices;
     ARRAY(size_t) starts;
     ARRAY(uint32_t) object_faces, groups;
     ARRAY(uint64_t) tags;
@@ -83,6 +86,8 @@ froe_status formats_sink_triangle(formats_sink *sink, const double *a, const dou
 /** One face of a solid with its corners in order: 1 gives a point, 2 a segment, 3 a triangle, more a
  * polygon or triangles, as `faces` says. Counts what was split. */
 froe_status formats_sink_face(formats_sink *sink, const double *corners, size_t count);
+/** The same, with its corners among the points. */
+froe_status formats_sink_indexed_face(formats_sink *sink, const uint32_t *indices, size_t count);
 
 /** Reports progress; FROE_E_CANCELLED. */
 froe_status formats_sink_progress(formats_sink *sink, double done);

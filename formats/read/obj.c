@@ -31,13 +31,14 @@ typedef struct obj {
     const char *path;
     formats_materials materials;
     formats_images images;
-    ARRAY(uint32_t) shades;        /* per point, up to the last that has one: its colour; 0: none */
-    ARRAY(uint32_t) own_shades;    /* of an element's corners */
-    ARRAY(double) places;          /* in textures, 2 each */
-    ARRAY(double) corner_places;   /* of an element's corners; not all have one: none */
-    char *line;                    /* the current one, ended by a NUL */
-    uint64_t number;               /* of the line, from 1 */
-    ARRAY(double) points, corners; /* 3 each */
+    ARRAY(uint32_t) shades;      /* per point, up to the last that has one: its colour; 0: none */
+    ARRAY(uint32_t) own_shades;  /* of an element's corners */
+    ARRAY(double) places;        /* in textures, 2 each */
+    ARRAY(double) corner_places; /* of an element's corners; not all have one: none */
+    char *line;                  /* the current one, ended by a NUL */
+    uint64_t number;             /* of the line, from 1 */
+    ARRAY(uint32_t) indices;     /* of an element's corners */
+    ARRAY(double) corners;       /* the same, 3 each, where a texture colours them */
     ARRAY(known) groups;
     uint32_t first1[BUCKETS]; /* heads of the chains */
     char name[NAME_ROOM], material[NAME_ROOM];
@@ -151,8 +152,8 @@ static froe_status read_place(obj *o, const char *at) {
 /* Gathers the corners named on a line, with what colours them. */
 static froe_status read_corners(obj *o, const char *at, size_t *count) {
     const froe_allocator *alloc = &o->sink->alloc;
-    int64_t vertices = (int64_t)(o->points.count / 3);
-    o->corners.count = o->own_shades.count = o->corner_places.count = 0;
+    int64_t vertices = (int64_t)(o->sink->points.count / 3);
+    o->indices.count = o->corners.count = o->own_shades.count = o->corner_places.count = 0;
     for (*count = 0; at = pass_blanks(at), *at; ++*count) {
         char *end;
         int64_t index = read_index(at, &end);
@@ -160,7 +161,9 @@ static froe_status read_corners(obj *o, const char *at, size_t *count) {
         if (index < 0) index += vertices + 1;
         if (index < 1 || index > vertices) return broken_obj(o, "An index names a vertex that does not exist.");
         const size_t point = (size_t)index - 1;
-        if (!array_append(alloc, &o->corners, o->points.data + 3 * point, 3)) return out_of_memory(o);
+        if (!array_push(alloc, &o->indices, (uint32_t)point) ||
+            (o->places.count && !array_append(alloc, &o->corners, o->sink->points.data + 3 * point, 3)))
+            return out_of_memory(o);
         if (o->shades.count && !array_push(alloc, &o->own_shades, point < o->shades.count ? o->shades.data[point] : 0))
             return out_of_memory(o);
         const froe_status status = read_place(o, end);
@@ -180,11 +183,11 @@ static froe_status read_element(obj *o, char kind, const char *at) {
     if (status) return status;
     o->refeature = false;
     sink->number = o->number;
-    const double *p = o->corners.data;
+    const uint32_t *indices = o->indices.data;
     if (!count || (kind == 'l' && count < 2)) return ++sink->report.skipped, FROE_OK;
-    if (kind == 'f') return formats_sink_face(sink, p, count);
+    if (kind == 'f') return formats_sink_indexed_face(sink, indices, count);
     size_t step = kind == 'l' ? 2 : 1;
-    for (size_t i = 0; i + step <= count && !status; ++i) status = formats_sink_face(sink, p + 3 * i, step);
+    for (size_t i = 0; i + step <= count && !status; ++i) status = formats_sink_indexed_face(sink, indices + i, step);
     return status;
 }
 
@@ -197,7 +200,7 @@ static inline bool starts(const char *line, const char *word) {
 /* The colour behind the coordinates of a vertex: three shares. A single number there is a weight. */
 static froe_status read_shade(obj *o, const char *at) {
     double rgba[4] = {0, 0, 0, 1};
-    const size_t points = o->points.count / 3;
+    const size_t points = o->sink->points.count / 3;
     for (int k = 0; k < 3; ++k) {
         char *end;
         rgba[k] = support_decimal_ahead(at, &end);
@@ -220,7 +223,7 @@ static froe_status read_line(obj *o) {
             p[k] = support_decimal_ahead(from, &end);
             if (end == from) return broken_obj(o, "A vertex needs three coordinates.");
         }
-        return array_append(&o->sink->alloc, &o->points, p, 3) ? read_shade(o, end) : out_of_memory(o);
+        return array_append(&o->sink->alloc, &o->sink->points, p, 3) ? read_shade(o, end) : out_of_memory(o);
     }
     if (starts(line, "vt")) {
         double place[2] = {0, 0};
@@ -264,7 +267,7 @@ static froe_status read_cloud_point(obj *o, size_t i) {
     o->own_shades.count = o->corner_places.count = 0;
     if (i < o->shades.count && !array_push(&o->sink->alloc, &o->own_shades, o->shades.data[i])) return out_of_memory(o);
     const froe_status status = enter_group_of(o, 1);
-    return status ? status : formats_sink_point(o->sink, o->points.data + 3 * i);
+    return status ? status : formats_sink_point(o->sink, o->sink->points.data + 3 * i);
 }
 
 froe_status formats_read_obj(const formats_source *source, formats_sink *sink) {
@@ -292,11 +295,11 @@ froe_status formats_read_obj(const formats_source *source, formats_sink *sink) {
         }
         const bool cloud = !sink->report.features; /* vertices, and nothing that names them */
         if (!status && cloud) status = formats_sink_feature(sink, 0);
-        for (size_t i = 0; i < o->points.count && cloud && !status; i += 3) status = read_cloud_point(o, i / 3);
-        if (!status && !o->points.count)
+        for (size_t i = 0; i < o->sink->points.count && cloud && !status; i += 3) status = read_cloud_point(o, i / 3);
+        if (!status && !o->sink->points.count)
             status = support_fail(sink->diag, FROE_E_FORMAT, "%s: The file has no vertices, and is not OBJ.",
                                   support_short(source->path));
-        array_free(alloc, &o->points);
+        array_free(alloc, &o->indices);
         array_free(alloc, &o->corners);
         for (size_t i = 0; i < o->groups.count; ++i) formats_paint_free(sink, &o->groups.data[i].colours);
         array_free(alloc, &o->groups);

@@ -24,9 +24,9 @@ typedef struct off {
     bool extras;            /* vertices carry something behind their coordinates, to the end of the line */
     bool normals, coloured; /* of it, what is read */
     uint64_t vertices, faces;
-    ARRAY(double) points, corners; /* 3 each */
-    ARRAY(uint32_t) colours;       /* of vertices; as many as points when `coloured` */
-    ARRAY(uint32_t) shades;        /* of the corners of a face */
+    ARRAY(uint32_t) corners; /* of a face */
+    ARRAY(uint32_t) colours; /* of vertices; as many as points when `coloured` */
+    ARRAY(uint32_t) shades;  /* of the corners of a face */
     formats_paint paint;
 } off;
 
@@ -128,7 +128,7 @@ static froe_status read_off_header(off *o) {
 static froe_status read_vertex(off *o) {
     double ignored;
     for (int k = 0; k < 3; ++k)
-        if (!number(o, &o->points.data[o->points.count++]))
+        if (!number(o, &o->sink->points.data[o->sink->points.count++]))
             return broken_off(o, *o->at ? "A coordinate is not a number." : "Vertices are missing.");
     for (int k = 0; o->normals && k < 3; ++k)
         if (!number(o, &ignored)) return broken_off(o, "A normal is not a number.");
@@ -146,7 +146,7 @@ static froe_status read_face(off *o) {
     for (uint64_t i = 0; i < corners; ++i) {
         if (!whole(o, &vertex)) return broken_off(o, *o->at ? "An index is not a number." : "Faces are missing.");
         if (vertex >= o->vertices) return broken_off(o, "A face names a vertex that does not exist.");
-        if (!array_append(alloc, &o->corners, o->points.data + 3 * vertex, 3) ||
+        if (!array_push(alloc, &o->corners, (uint32_t)vertex) ||
             (o->coloured && !array_push(alloc, &o->shades, o->colours.data[vertex])))
             return support_fail_memory(o->sink->diag);
     }
@@ -155,7 +155,7 @@ static froe_status read_face(off *o) {
     if (!corners) return ++o->sink->report.skipped, FROE_OK;
     const froe_status status =
         formats_paint_enter(o->sink, &o->paint, own ? own : formats_paint_mean(o->shades.data, o->shades.count));
-    return status ? status : formats_sink_face(o->sink, o->corners.data, (size_t)corners);
+    return status ? status : formats_sink_indexed_face(o->sink, o->corners.data, (size_t)corners);
 }
 
 froe_status formats_read_off(const formats_source *source, formats_sink *sink) {
@@ -166,7 +166,7 @@ froe_status formats_read_off(const formats_source *source, formats_sink *sink) {
     off o = {.source = source, .sink = sink, .begin = text.data, .at = text.data, .length = text.count};
     if (!status) status = read_off_header(&o);
     if (!status) status = formats_sink_open(sink, 3);
-    if (!status && (!array_reserve(alloc, &o.points, (size_t)o.vertices * 3) ||
+    if (!status && (!array_reserve(alloc, &sink->points, (size_t)o.vertices * 3) ||
                     (o.coloured && !array_reserve(alloc, &o.colours, (size_t)o.vertices))))
         status = support_fail_memory(sink->diag);
     for (uint64_t i = 0; i < o.vertices && !status; ++i) status = read_vertex(&o);
@@ -176,11 +176,10 @@ froe_status formats_read_off(const formats_source *source, formats_sink *sink) {
     sink->unit = o.faces ? "face" : "vertex";
     for (uint64_t i = 0; i < (o.faces ? o.faces : o.vertices) && !status; ++i) {
         sink->number = i;
-        status = o.faces ? read_face(&o) : formats_sink_point(sink, o.points.data + 3 * i);
+        status = o.faces ? read_face(&o) : formats_sink_point(sink, sink->points.data + 3 * i);
         if (!status && i % FACES_PER_REPORT == 0)
             status = formats_sink_progress(sink, (double)(o.at - o.begin) / (double)o.length);
     }
-    array_free(alloc, &o.points);
     array_free(alloc, &o.corners);
     array_free(alloc, &o.colours);
     array_free(alloc, &o.shades);

@@ -36,7 +36,7 @@ typedef struct ply {
     bool text, big; /* big: the most significant byte comes first */
     bool doubles;   /* x, y and z are doubles */
     ARRAY(element) elements;
-    ARRAY(double) points, corners; /* 3 each */
+    ARRAY(uint32_t) corners; /* of an item */
     ARRAY(double) indices;
     ARRAY(uint32_t) colours, shades; /* of vertices, where they have any; of the corners of a face */
     formats_paint paint;
@@ -202,12 +202,11 @@ static froe_status read_item(ply *p, const element *e, double *by_role) {
 }
 
 static froe_status add_corner(ply *p, double index) {
-    const size_t vertices = p->points.count / 3;
+    const size_t vertices = p->sink->points.count / 3;
     if (!(index >= 0 && index < (double)vertices) || index != (double)(uint64_t)index)
         return broken(p, "A face or edge names a vertex that does not exist (or comes later).");
-    const double *at = p->points.data + 3 * (size_t)index;
     const bool coloured = p->colours.count == vertices;
-    return array_append(&p->sink->alloc, &p->corners, at, 3) &&
+    return array_push(&p->sink->alloc, &p->corners, (uint32_t)index) &&
                    (!coloured || array_push(&p->sink->alloc, &p->shades, p->colours.data[(size_t)index]))
                ? FROE_OK
                : out_of_memory(p);
@@ -236,7 +235,7 @@ static froe_status add_item(ply *p, const element *e, const double *by_role) {
         return status ? status : formats_sink_point(p->sink, by_role + X);
     }
     if (e->kind == VERTEX)
-        return array_append(&p->sink->alloc, &p->points, by_role + X, 3) &&
+        return array_append(&p->sink->alloc, &p->sink->points, by_role + X, 3) &&
                        (!colour || array_push(&p->sink->alloc, &p->colours, colour))
                    ? FROE_OK
                    : out_of_memory(p);
@@ -251,7 +250,7 @@ static froe_status add_item(ply *p, const element *e, const double *by_role) {
     if (!p->corners.count) return ++p->sink->report.skipped, FROE_OK;
     const uint32_t mean = formats_paint_mean(p->shades.data, p->shades.count);
     status = formats_paint_enter(p->sink, &p->paint, colour ? colour : mean);
-    return status ? status : formats_sink_face(p->sink, p->corners.data, p->corners.count / 3);
+    return status ? status : formats_sink_indexed_face(p->sink, p->corners.data, p->corners.count);
 }
 
 froe_status formats_read_ply(const formats_source *source, formats_sink *sink) {
@@ -282,7 +281,6 @@ froe_status formats_read_ply(const formats_source *source, formats_sink *sink) {
     }
     array_free(alloc, &file);
     array_free(alloc, &p.elements);
-    array_free(alloc, &p.points);
     array_free(alloc, &p.corners);
     array_free(alloc, &p.indices);
     array_free(alloc, &p.colours);
