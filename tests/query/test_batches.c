@@ -442,12 +442,43 @@ static void pairs_of_batches_are_those_of_single_calls(void **state) {
     }
 }
 
+/* ---------------------------------------------------------------------- memory -- */
+
+/* On one thread and on several: each failure is one of memory, and leaves nothing behind. */
+static froe_status ask_without_memory(void *user, const froe_allocator *alloc) {
+    static questions ask;
+    froe_tree tree = *(const froe_tree *)user;
+    froe_answers ranges = {0}, near = {0};
+    froe_query *q = NULL;
+    draw(&ask, 2, true, false);
+    tree.alloc = *alloc;
+    froe_status status = froe_query_new(&tree, &q, NULL);
+    for (unsigned threads = 1; threads <= 2 && !status; threads++) {
+        froe_batch_options o = froe_batch_defaults();
+        o.threads = threads;
+        status = froe_batch_range(q, ask.ranges, MANY, &o, &ranges, NULL);
+        if (!status) status = froe_batch_near(q, ask.points, MANY, 2, INFINITY, &o, &near, NULL);
+        froe_answers_free(&ranges);
+        froe_answers_free(&near);
+    }
+    froe_query_free(q);
+    return status;
+}
+
+static void every_allocation_of_a_batch_may_fail(void **state) {
+    (void)state;
+    froe_tree *tree = trees_grow(2, FROE_SEGMENT, 200, 0, 0.2, "index", 6);
+    assert_true(test_memory_each(ask_without_memory, tree) > 20);
+    froe_tree_free(tree);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(in_the_plane),
         cmocka_unit_test(in_space),
         cmocka_unit_test(among_no_objects),
         cmocka_unit_test(pairs_of_batches_are_those_of_single_calls),
+        cmocka_unit_test(every_allocation_of_a_batch_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
