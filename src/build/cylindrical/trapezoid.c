@@ -15,6 +15,7 @@ typedef struct trapezoid_cut {
     double x, error;  /**< of a wall */
     filter_line line; /**< of a line, sure of whatever is further from 0 than `bound` */
     double bound;
+    double ends[2][2]; /**< of a line: of the first part's segment */
     bool has_plane;
     geom_plane plane; /**< made for the first part that is too near for the filter; may face the other way */
     int facing;       /**< -1: it does */
@@ -100,6 +101,20 @@ static int side_of_end(trapezoid_work *w, const geom_plane *plane, const trapezo
     return geom_side_crossing(context, plane, f->p[LEFT], f->p[RIGHT], &by);
 }
 
+/** The side of the cut, a wall, on which one end of the part is. Vertices and walls of vertices are ordered by x and y,
+ * without a plane. */
+static int side_of_wall(trapezoid_work *w, trapezoid_cut *cut, const trapezoid_part *f, int end) {
+    froe_predicate_stats *stats = &w->set.context.stats;
+    const double *at = f->end[end] & TREE_EDGE_CUT ? NULL : f->p[end];
+    if (!at && cut->name.kind == FROE_CUT_VERTEX) {
+        const froe_cut by = split_cut_at(&w->set, f->end[end] & ~TREE_EDGE_CUT);
+        if (by.kind == FROE_CUT_VERTEX) at = scene_vertex(w->set.scene, by.id[0]);
+    }
+    if (!at || cut->name.kind != FROE_CUT_VERTEX) return side_of_end(w, plane_of(w, cut), f, end);
+    stats->calls++, stats->by_id++;
+    return order_ends(at, scene_vertex(w->set.scene, cut->name.id[0]));
+}
+
 static uint8_t class_between(int left, int right) {
     if (left * right < 0) return left < 0 ? SPLIT_BOTH : SPLIT_BOTH | FALLING;
     return left < 0 || right < 0 ? SPLIT_NEG : left || right ? SPLIT_POS : SPLIT_ON;
@@ -122,8 +137,7 @@ static void classify_beside_wall(trapezoid_work *w, const trapezoid_cell *cell, 
                        right = (unsigned)(f->x[RIGHT] < from) | (unsigned)(f->x[RIGHT] > to) << 2;
         uint8_t class = classes[left | right << 1];
         if (class == UNSURE) {
-            const geom_plane *plane = plane_of(w, cut);
-            class = class_between(side_of_end(w, plane, f, LEFT), side_of_end(w, plane, f, RIGHT));
+            class = class_between(side_of_wall(w, cut, f, LEFT), side_of_wall(w, cut, f, RIGHT));
         } else {
             stats->calls += 2, stats->by_id += 2;
         }
@@ -152,7 +166,11 @@ static uint8_t class_near_line(trapezoid_work *w, trapezoid_cut *cut, const trap
     num_context *context = &w->set.context;
     for (int k = 0; k < 2; k++) {
         whole[k] = num_filtered_call(context, sure_sign(value[k], cut->bound));
-        if (whole[k] == NUM_UNSURE) whole[k] = cut->facing * geom_side_vertex(context, plane_of(w, cut), f->p[k]);
+        if (whole[k] != NUM_UNSURE) continue;
+        if (!order_ends(f->p[k], cut->ends[LEFT]) || !order_ends(f->p[k], cut->ends[RIGHT]))
+            context->stats.calls++, whole[k] = num_by_id(context, 0);
+        else
+            whole[k] = cut->facing * geom_side_vertex(context, plane_of(w, cut), f->p[k]);
     }
     if (whole[LEFT] == whole[RIGHT]) return class_between(whole[LEFT], whole[RIGHT]);
     for (int k = 0; k < 2; k++) {
@@ -241,6 +259,7 @@ static void choose_cut(trapezoid_work *w, const trapezoid_cell *cell, trapezoid_
     }
     cut->name = (froe_cut){.kind = FROE_CUT_OBJECT, .id = {object_of(f)}};
     cut->facing = f->object & TRAPEZOID_TURNED ? -1 : 1;
+    memcpy(cut->ends, f->p, sizeof cut->ends);
     cut->line = filter_line_through(f->p[LEFT], f->p[RIGHT], w->filtered);
     cut->bound = w->filtered ? filter_line_bound(&cut->line, w->span[0], w->span[1]) : (double)INFINITY;
 }
