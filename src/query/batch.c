@@ -13,7 +13,8 @@
 #include "support/fail.h"
 #include <string.h>
 
-enum { QUERIES_PER_CHUNK = 256, MOST_EXPECTED = 16 };
+enum { QUERIES_PER_CHUNK = 256 };
+enum { EXPECT_FROM = 7, EXPECT_MOST = 1 << 22 }; /* queries; ids for which room is made beforehand */
 
 /* What one thread finds. */
 typedef struct batch_found {
@@ -161,13 +162,13 @@ static froe_status check_all(const batch *b, froe_query *q, size_t first, size_t
     return FROE_OK;
 }
 
-/* Makes room for what the thread will find, if its further queries find as much as those before; for a few times as
- * much as there is, at most. An array that grows bit by bit is copied again and again. */
+/* Makes room for what the thread will find, if its further queries find as much as those before. An array that grows
+ * bit by bit is copied again and again, all of its room each time. Few queries say little of many. */
 static void expect_as_much(const batch *b, const froe_query *q, batch_found *found) {
     const size_t share = b->count / b->workers.count, left = share > found->queries ? share - found->queries : 0;
-    if (!found->queries || !b->starts) return;
-    const double each = 1.125 * (double)found->ids.count / (double)found->queries;
-    const double most = MOST_EXPECTED * (double)found->ids.count, wanted = each * (double)left;
+    const double ids = (double)found->ids.count, queries = (double)found->queries;
+    if (!found->queries || !b->starts || (found->queries < EXPECT_FROM && left > 2 * EXPECT_FROM)) return;
+    const double wanted = 1.125 * ids / queries * (double)left, most = ids > EXPECT_MOST ? ids : EXPECT_MOST;
     const size_t more = (size_t)(wanted < most ? wanted : most);
     (void)array_reserve(&q->alloc, &found->ids, more); /* without memory now, there may be enough later */
     if (b->value) (void)array_reserve(&q->alloc, &found->values, more);
