@@ -22,7 +22,10 @@ int main(int argc, char **argv) {
     o.camera.parallel = true, o.camera.fit = false, o.camera.scale = 1;
     for (int k = 0; k < 3; k++) o.camera.eye[k] = k == 2, o.camera.target[k] = 0, o.camera.up[k] = k == 1;
     const double start = bench_cpu();
-    froe_tree *tree = bench_build(scene, froe_method_auto(scene, "draw"), NULL, 1, 1, NULL);
+    froe_tree *tree;
+    froe_build_options build = froe_build_defaults();
+    build.purpose = "draw", build.threads = 1;
+    bench_must(froe_build(scene, &build, &tree, &why), &why);
     bench_must(froe_render_lines(tree, count_line, &points, &o, NULL, &why), &why);
     printf("%.4f\n", bench_cpu() - start);
     froe_tree_free(tree), froe_scene_free(scene);

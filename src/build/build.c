@@ -70,6 +70,15 @@ static bool suits_grain(const froe_scene *scene, uint32_t kinds) {
     return scene->dim == 3 && kinds & polygon && !(kinds & ~(point | segment | polygon));
 }
 
+static bool is_auto(const froe_build_options *o) {
+    return !o->method || !strcmp(o->method, "auto");
+}
+
+/** Is it for pictures in space? */
+static bool draws_space(const froe_scene *scene, const char *purpose) {
+    return scene->dim == 3 && purpose && !strcmp(purpose, "draw");
+}
+
 /** What "auto" stands for: it serves every dimension and kind. Index answers queries several times faster, where it
  * serves. Directional has the fewest pieces of boxes, and is no slower. In space, density and one picture together take
  * a third to two thirds of the time that grain and the same picture take. (See docs/reference/compare.md.) */
@@ -81,17 +90,15 @@ const char *froe_method_auto(const froe_scene *scene, const char *purpose) {
     if (query && froe_method_serves(&find_method("index")->info, scene, FROE_LEAF_OWN)) return "index";
     if (kinds == 1u << FROE_POINT && query) return "kd"; /* four times as fast as density in dimension 8 */
     if (kinds == 1u << FROE_BOX) return "directional";
-    const bool picture = scene->dim == 3 && purpose && !strcmp(purpose, "draw");
-    return !query && !picture && suits_grain(scene, kinds) ? "grain" : "density";
+    return !query && !draws_space(scene, purpose) && suits_grain(scene, kinds) ? "grain" : "density";
 }
 
 static froe_status choose_method(const froe_build_options *o, const froe_scene *scene, const build_method **out,
                                  froe_diagnostic *diag) {
-    const char *name = o->method ? o->method : "auto", *best = froe_method_auto(scene, o->purpose);
+    const char *best = froe_method_auto(scene, o->purpose), *name = is_auto(o) ? best : o->method;
     if (!best)
         return support_fail(diag, FROE_E_OPTIONS, "There is no purpose '%s'. There are: pieces, query, draw.",
                             o->purpose);
-    if (!strcmp(name, "auto")) name = best;
     *out = find_method(name);
     if (*out) return FROE_OK;
     char list[160] = "auto";
@@ -201,6 +208,7 @@ static froe_status build_by_method(froe_scene *scene, const froe_build_options *
     if (status) return status;
     build_job job = {
         .scene = scene, .alloc = scene->alloc, .task = &task, .diag = diag, .root = root, .own_leaf = own_leaf};
+    job.picture = is_auto(&o) && draws_space(scene, o.purpose);
     base_task_init(&task, o.threads, o.progress, o.user);
     status = prepare_in_any_locale(&o, method, tuned, &job);
     if (!status && !base_progress(&task, 0)) status = support_fail_cancelled(diag);

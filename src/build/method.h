@@ -27,6 +27,7 @@ typedef struct build_job {
     froe_diagnostic *diag;
     uint32_t leaf;
     bool own_leaf; /**< the caller names none: the builder may take another, and says so in meta */
+    bool picture;  /**< "auto" chose the method for pictures of a scene in space: the tree serves few of them */
     uint64_t seed, max_fragments;
     const uint32_t *order;        /**< of all objects, or NULL */
     const froe_cut *root;         /**< the first cut, or NULL */

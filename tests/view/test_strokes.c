@@ -183,17 +183,24 @@ static void lines_of_objects_apart_are_the_same_lines(void **state) {
 
 /* The outlines of a terrain. Cuts that go through vertices end edges there, too, and different cuts different edges. */
 static void lines_do_not_depend_on_the_tree(void **state) {
-    static const char *const methods[] = {"density", "autopartition", "kd", "grain"};
-    size_t strokes = 0, points = 0;
+    static const char *const methods[] = {"density", "autopartition", "kd", "grain", "auto"};
+    size_t strokes = 0, points = 0, pieces = 0;
     (void)state;
-    for (int m = 0; m < 4; m++) {
+    for (int m = 0; m < 5; m++) {
         froe_scene *scene;
+        froe_tree *tree;
+        froe_build_options o = froe_build_defaults();
+        o.method = methods[m];
+        o.purpose = "draw";
         assert_int_equal(froe_generate("terrain", 1000, 1, NULL, &scene, NULL), FROE_OK);
-        froe_tree *tree = tree_of(scene, methods[m], 1);
+        assert_int_equal(froe_build(scene, &o, &tree, NULL), FROE_OK);
+        froe_scene_free(scene); /* the tree holds it */
         sight s = look_for(tree, FROE_LINE_BORDER | FROE_LINE_SILHOUETTE | FROE_LINE_CREASE);
         size_t sum = 0;
         for (size_t i = 0; i < froe_picture_stroke_count(s.picture); i++)
             sum += froe_picture_stroke(s.picture, i).count;
+        if (!m) pieces = froe_tree_piece_count(tree);
+        if (m == 4) assert_true(froe_tree_piece_count(tree) != pieces); /* density with fewer candidates */
         if (!m) strokes = froe_picture_stroke_count(s.picture), points = sum;
         assert_int_equal(froe_picture_stroke_count(s.picture), strokes);
         assert_int_equal(sum, points);
