@@ -34,22 +34,15 @@ INLINED void ask_ahead(const froe_scene *s, uint32_t object) {
     }
 }
 
-/* On which sides of a cut an item is: 1 negative, 2 positive, 3 both. What lies in the cut belongs to both. */
+/* On which sides of a cut an item is: 2 positive, 3 both; else negative, in the cut too, where it touches both. */
 static unsigned sides_at(const space_item *item, const tree_node *n) {
-    const unsigned class = (item->lo[n->axis] < n->u.value) | (unsigned)(item->hi[n->axis] > n->u.value) << 1;
-    return class ? class : 3;
+    return (item->lo[n->axis] < n->u.value) | (unsigned)(item->hi[n->axis] > n->u.value) << 1;
 }
 
-/* The part of an item on each side of the cut of a node. What lies in the cut is not clipped. */
-static void divide_at(const froe_scene *s, bool tame, const tree_node *n, const space_item *item,
-                      space_item *const out[2], bool left[2]) {
+static void divide_at(const froe_scene *s, bool tame, const tree_node *n, const space_item *item, space_item part[2],
+                      bool left[2]) {
     const surface_cut cut = {.axis = n->axis, .value = n->u.value};
-    if (item->lo[n->axis] < n->u.value || item->hi[n->axis] > n->u.value) {
-        surface_divide(s, tame, &cut, false, item, out, left);
-    } else {
-        *out[0] = *out[1] = *item;
-        left[0] = left[1] = true;
-    }
+    surface_divide(s, tame, &cut, false, item, (space_item *[2]){part, part + 1}, left);
 }
 
 /* Depth first, the negative side first. The stack has one entry for each level at most. */
@@ -66,7 +59,7 @@ static froe_status deal_object(sketching *k, deal_chunk *chunk, uint32_t object,
             if (class != 3) continue;
             space_item part[2];
             bool left[2];
-            divide_at(k->scene, k->tame, n, &at.item, (space_item *[2]){part, part + 1}, left);
+            divide_at(k->scene, k->tame, n, &at.item, part, left);
             at.divided = true;
             there = left[0] || left[1];
             if (left[0] && left[1]) stack[top++] = (sketch_fall){part[1], n->child + 1, true};
@@ -163,7 +156,7 @@ froe_status sketch_fill(const build_job *job, const space_sketch *s, uint32_t no
             if (sides_at(&item, n) != 3) continue;
             space_item part[2];
             bool left[2];
-            divide_at(job->scene, tame, n, &item, (space_item *[2]){part, part + 1}, left);
+            divide_at(job->scene, tame, n, &item, part, left);
             item = part[path.data[p] - n->child];
         }
         out[i - from] = item;
