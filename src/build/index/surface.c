@@ -30,19 +30,15 @@ static void try_axis(const binning *b, int k, surface_cut *best) {
     most = most > b->size[2] ? most : b->size[2];
     double w = b->size[k] / most, u = b->size[(k + 1) % 3] / most, v = b->size[(k + 2) % 3] / most;
     double cap = u * v, whole = (cap + w * (u + v)) * b->samples;
-    const double bin = 1.0 / b->bins, sides = (u + v) * w; /* of 16 or 32: exact */
     uint32_t left = 0, right = b->samples;
-    double least = INFINITY, place = 0;
     for (int i = 1; i < b->bins; i++) {
-        const double share = (i + 0.0173) * bin;
+        double share = (i + 0.0173) / b->bins;
         left += b->begin[k][i - 1];
         right -= b->end[k][i - 1];
-        const double cost = (cap + sides * share) * left + (cap + sides * (1 - share)) * right;
-        place = cost < least ? share : place;
-        least = cost < least ? cost : least;
+        double cost = (cap + (u + v) * w * share) * left + (cap + (u + v) * w * (1 - share)) * right;
+        cost /= whole;
+        if (cost < best->cost) *best = (surface_cut){.axis = k, .value = b->lo[k] + b->size[k] * share, .cost = cost};
     }
-    const double cost = least / whole;
-    if (cost < best->cost) *best = (surface_cut){.axis = k, .value = b->lo[k] + b->size[k] * place, .cost = cost};
 }
 
 bool surface_choose(const space_item *items, uint32_t count, surface_cut *cut) {
