@@ -2,6 +2,7 @@
  * blocks. (What tests/query asks of all builders is asked of these, too.) */
 #include "oracle/convex.h"
 #include "query/packed/space.h"
+#include "support/memory.h"
 #include "tree/trees.h"
 #include "tree/validate.h"
 #include <stdlib.h>
@@ -295,6 +296,38 @@ static void batches_refuse_bad_rays(void **state) {
     froe_query_free(q);
     froe_tree_free(tree);
     free(r);
+}
+
+/* --------------------------------------------------------------------- memory -- */
+
+static froe_status ask_without_memory(void *user, const froe_allocator *alloc) {
+    froe_tree tree = *(const froe_tree *)user;
+    const double two[12] = {0, 0, 0, 0.4, 0.6, -1, 1, 1, 1, 0.01, 0.02, 1}, window[6] = {0.2, 0.2, 0.2, 0.6, 0.6, 0.6};
+    froe_range range = froe_range_defaults();
+    froe_query *q;
+    froe_hit hit, hits[2];
+    froe_neighbours near;
+    froe_list list;
+    uint32_t any;
+    tree.alloc = *alloc;
+    froe_status status = froe_query_new(&tree, &q, NULL);
+    if (status) return status;
+    range.points = window;
+    status = froe_query_ray(q, two, two + 6, INFINITY, &hit, NULL);
+    if (!status) status = froe_query_ray_any(q, two, two + 6, INFINITY, &any, NULL);
+    if (!status) status = froe_batch_ray(q, two, two + 6, 2, INFINITY, NULL, hits, NULL);
+    if (!status) status = froe_query_near(q, two + 3, 1, INFINITY, &near, NULL);
+    if (!status) status = froe_query_range(q, &range, &list, NULL);
+    if (!status) assert_true(hits[0].object == hit.object && hits[0].t == hit.t && any != FROE_NONE && near.count == 1);
+    froe_query_free(q);
+    return status;
+}
+
+static void every_allocation_of_a_query_may_fail(void **state) {
+    froe_tree *t = tree_of(kinds);
+    (void)state;
+    assert_true(test_memory_each(ask_without_memory, t) > 8);
+    froe_tree_free(t);
 }
 
 /* ------------------------------------------------------------------- kernels -- */
@@ -621,6 +654,7 @@ int main(void) {
         cmocka_unit_test(every_kernel_gives_the_answers_of_general_trees),
         cmocka_unit_test(batches_answer_as_rays_alone),
         cmocka_unit_test(batches_refuse_bad_rays),
+        cmocka_unit_test(every_allocation_of_a_query_may_fail),
         cmocka_unit_test(kernels_agree),
         cmocka_unit_test(kernels_are_sure_only_of_what_is_met),
         cmocka_unit_test(what_is_a_unit_from_the_truth_is_decided_exactly),
