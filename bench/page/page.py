@@ -30,6 +30,8 @@ countries, and *rooms* the walls of a floor plan; of these two, copies are laid 
         "make": "from coordinates to an index that can answer",
         "window of 10": "all segments that meet a rectangle, about 10 of them",
         "window of 1000": "the same, about 1,000 of them",
+        "window of 10000": "about 10,000",
+        "window of 100000": "about 100,000",
         "segment above": "the first segment straight above a point",
         "nearest": "the segment nearest to a point",
         "10 nearest": "the 10 segments nearest to a point",

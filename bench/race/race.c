@@ -46,6 +46,8 @@ static struct options {
 static const race_task plane_tasks[] = {
     {.name = "window of 10", .work = PEER_WINDOW, .share = 10000, .k = 1, .wanted = 10},
     {.name = "window of 1000", .work = PEER_WINDOW, .share = 400, .k = 1, .wanted = 1000},
+    {.name = "window of 10000", .work = PEER_WINDOW, .share = 40, .k = 1, .wanted = 10000},
+    {.name = "window of 100000", .work = PEER_WINDOW, .share = 4, .k = 1, .wanted = 100000},
     {.name = "segment above", .work = PEER_ABOVE, .share = 20000, .k = 1},
     {.name = "nearest", .work = PEER_NEAREST, .share = 4000, .k = 1},
     {.name = "10 nearest", .work = PEER_NEAREST_K, .share = 2000, .k = 10},
@@ -168,7 +170,8 @@ static void race_makings(run *r) {
 
 /* ------------------------------------------------------------------- questions -- */
 
-/* A contestant in a task. The first, froe, is there twice: with single questions, and with a whole share in a call. */
+/* A contestant in a task. The first, froe, is there twice: with single questions, and with a whole share in a call. Both
+ * come after another program, as far as there are any, so that the tree is warm for neither. */
 typedef struct runner {
     const peer *peer;
     void *index;
@@ -252,7 +255,10 @@ static void race_questions(run *r, const race_task *pattern) {
         const race_contestant *c = r->contestants + i;
         if (c->peer->serves(&r->data, t.work)) runners[count++] = (runner){.peer = c->peer, .index = c->index};
     }
-    runners[count++] = (runner){.peer = r->contestants[0].peer, .index = r->contestants[0].index, .together = true};
+    const size_t middle = (count + 1) / 2;
+    memmove(runners + middle + 1, runners + middle, (count - middle) * sizeof *runners);
+    runners[middle] = (runner){.peer = r->contestants[0].peer, .index = r->contestants[0].index, .together = true};
+    count++;
     r->room.values = realloc(r->room.values, (t.share * t.k + 2) * sizeof(double));
     r->room.ends = realloc(r->room.ends, (t.share + 1) * sizeof(size_t));
     for (size_t i = 0; i < count; i++) runners[i].digest = bench_take(t.share * t.k * 2 * RACE_ROUNDS, sizeof(double));
@@ -318,7 +324,8 @@ static bool race(peer_kind kind, const char *name, size_t n) {
     const size_t ours = r.count;
     if (!options.alone) enter_peers(&r, options.folder);
     race_makings(&r);
-    for (const race_task *t = r.tasks; t->name && !options.makings; t++) race_questions(&r, t);
+    for (const race_task *t = r.tasks; t->name && !options.makings; t++)
+        if (t->wanted * 10 <= r.data.count) race_questions(&r, t);
     for (size_t i = 0; i < r.count; i++)
         if (r.contestants[i].index) r.contestants[i].peer->free(r.contestants[i].index);
     for (size_t i = 0; i < ours; i++) race_froe_free((peer *)(uintptr_t)r.contestants[i].peer);
