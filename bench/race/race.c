@@ -170,8 +170,8 @@ static void race_makings(run *r) {
 
 /* ------------------------------------------------------------------- questions -- */
 
-/* A contestant in a task. The first, froe, is there twice: with single questions, and with a whole share in a call. Both
- * come after another program, as far as there are any, so that the tree is warm for neither. */
+/* A contestant in a task. The first, froe, is there twice: with single questions, and with a whole share in a call.
+ * Both come after another program, as far as there are any, so that the tree is warm for neither. */
 typedef struct runner {
     const peer *peer;
     void *index;
