@@ -97,14 +97,37 @@ static void records_are_read_as_they_were_written(void **state) {
     }
 }
 
+/* Numbers are passed with what ends them; everything else is left where it is. */
+static void plain_numbers_are_passed(void **state) {
+    (void)state;
+    char text[64] = "1.5,-.5\r\n3;", *at = text;
+    double x;
+    bool last;
+    assert_true(support_csv_plain(&at, ',', &x, &last) && x == 1.5 && !last);
+    assert_true(support_csv_plain(&at, ',', &x, &last) && x == -0.5 && last && at == text + 9);
+    assert_false(support_csv_plain(&at, ',', &x, &last));
+    assert_true(support_csv_plain(&at, ';', &x, &last) && x == 3 && !last && !*at);
+    char end[64] = "7";
+    at = end;
+    assert_true(support_csv_plain(&at, ',', &x, &last) && x == 7 && last && at == end + 1);
+    static const char *const others[] = {"", ",1", "\n1", " 1,", "1 ,", "\"1\",", "1x,", "-,", "inf,", "1\t,"};
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        char other[64] = "";
+        strcpy(other, others[i]);
+        at = other;
+        assert_false(support_csv_plain(&at, ',', &x, &last));
+        assert_ptr_equal(at, other);
+    }
+}
+
 static void numbers_fill_their_fields(void **state) {
     (void)state;
     double x;
-    assert_true(support_csv_number((char[]){"0.1"}, ',', &x) && x == 0.1);
-    assert_true(support_csv_number((char[]){"-2.5e-3 \t"}, ',', &x) && x == -0.0025);
-    assert_true(support_csv_number((char[]){"2,35"}, ';', &x) && x == 2.35);
-    assert_true(support_csv_number((char[]){"-inf"}, ',', &x) && x == -INFINITY);
-    char text[] = "1,5,";
+    assert_true(support_csv_number((char[32]){"0.1"}, ',', &x) && x == 0.1);
+    assert_true(support_csv_number((char[32]){"-2.5e-3 \t"}, ',', &x) && x == -0.0025);
+    assert_true(support_csv_number((char[32]){"2,35"}, ';', &x) && x == 2.35);
+    assert_true(support_csv_number((char[32]){"-inf"}, ',', &x) && x == -INFINITY);
+    char text[32] = "1,5,";
     assert_false(support_csv_number(text, ';', &x));
     assert_string_equal(text, "1,5,");
     const char *const others[] = {"", " ", "1,5", "1 2", "one", "1.5.2", "--1"};
@@ -154,6 +177,7 @@ int main(void) {
         cmocka_unit_test(the_header_tells_what_separates),
         cmocka_unit_test(fields_lose_blanks_and_quotation_marks),
         cmocka_unit_test(records_are_read_as_they_were_written),
+        cmocka_unit_test(plain_numbers_are_passed),
         cmocka_unit_test(numbers_fill_their_fields),
         cmocka_unit_test(axes_are_of_one_family),
         cmocka_unit_test(long_lists_of_names_are_cut),

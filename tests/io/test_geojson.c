@@ -505,8 +505,10 @@ static void a_file_with_a_changed_byte_is_read_alike_or_left_to_gdal(void **stat
             const size_t at = choose(&m, (unsigned)m.length), digits = strcspn(m.text + at, "0123456789");
             if (choose(&m, 4) && at + digits < m.length)
                 m.text[at + digits] = (char)('0' + choose(&m, 10));
+            else if (choose(&m, 4))
+                m.text[at] = bytes[choose(&m, sizeof bytes)];
             else
-                m.text[at] = choose(&m, 4) ? bytes[choose(&m, sizeof bytes)] : (char)(m.text[at] ^ 1 << choose(&m, 8));
+                m.text[at] = (char)(m.text[at] ^ 1 << choose(&m, 8));
         }
         own += compare_bytes(m.text, m.length);
     }
