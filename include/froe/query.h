@@ -255,6 +255,15 @@ FROE_API froe_batch_options froe_batch_defaults(void);
  * when there are several. */
 FROE_API froe_status froe_batch_range(froe_query *query, const froe_range *ranges, size_t count,
                                       const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag);
+/** Of exact boxes alone: 2 dim doubles each, lower corner, then upper. */
+FROE_API froe_status froe_batch_boxes(froe_query *query, const double *boxes, size_t count,
+                                      const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag);
+/** How many objects meet each range, and one of them, or FROE_NONE. counts, objects: `count` of them, the caller's; on
+ * failure they may hold anything. */
+FROE_API froe_status froe_batch_count(froe_query *query, const froe_range *ranges, size_t count,
+                                      const froe_batch_options *options, uint64_t *counts, froe_diagnostic *diag);
+FROE_API froe_status froe_batch_any(froe_query *query, const froe_range *ranges, size_t count,
+                                    const froe_batch_options *options, uint32_t *objects, froe_diagnostic *diag);
 /** points: dim doubles each. */
 FROE_API froe_status froe_batch_locate(froe_query *query, const double *points, size_t count,
                                        const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag);
@@ -285,6 +294,16 @@ FROE_API froe_status froe_batch_near(froe_query *query, const double *points, si
  * FROE_E_CANCELLED. */
 FROE_API froe_status froe_batch_pairs(froe_query *query, bool shared, const froe_batch_options *options,
                                       froe_pair_fn *fn, void *fn_user, froe_diagnostic *diag);
+/** All pairs of objects that meet, by a, then b. */
+typedef struct froe_pairs {
+    froe_pair *pairs;
+    size_t count;
+    froe_allocator alloc; /**< that the array came from */
+} froe_pairs;
+/** The same as an array of all pairs. */
+FROE_API froe_status froe_batch_pair_array(froe_query *query, bool shared, const froe_batch_options *options,
+                                           froe_pairs *out, froe_diagnostic *diag);
+FROE_API void froe_pairs_free(froe_pairs *pairs);
 
 #ifdef __cplusplus
 }

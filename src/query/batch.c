@@ -46,12 +46,14 @@ struct batch {
     ask_in_fn *ask_in; /* instead: leaves of many points are found at once */
     const query_areas *areas;
     const froe_range *ranges; /* or ... */
+    const double *boxes;      /* or ... */
     const double *points, *directions;
     double limit; /* t_max; bound */
     size_t k;
     int direction;
     froe_hit *hits;    /* the caller's */
     uint32_t *objects; /* the caller's */
+    uint64_t *counts;  /* the caller's */
     value_fn *value;   /* NULL: answers are ids alone */
     size_t count, chunk_count;
     batch_chunk *chunks;
@@ -75,8 +77,24 @@ static const double *point_of(const batch *b, const double *points, size_t i) {
     return points + i * (size_t)b->query->tree->scene->dim;
 }
 
+static froe_range range_of(const batch *b, size_t i) {
+    if (b->ranges) return b->ranges[i];
+    froe_range box = froe_range_defaults();
+    box.points = b->boxes + 2 * i * (size_t)b->query->tree->scene->dim;
+    return box;
+}
+
 static froe_status ask_range(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
-    return query_range_ask(q, b->ranges + i, false, diag);
+    const froe_range range = range_of(b, i);
+    return query_range_ask(q, &range, false, diag);
+}
+
+static froe_status ask_count(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
+    return froe_query_count(q, b->ranges + i, b->counts + i, diag);
+}
+
+static froe_status ask_any(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
+    return froe_query_any(q, b->ranges + i, b->objects + i, diag);
 }
 
 static froe_status ask_locate(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
@@ -175,26 +193,31 @@ static void expect_as_much(const batch *b, const froe_query *q, batch_found *fou
 }
 
 /* Are the ranges windows on a packed tree of the plane? They are answered all at once, too. */
-static bool are_windows(const batch *b, const froe_query *q, size_t first, size_t end) {
-    while (first < end && query_range_is_packed_window(q, b->ranges + first)) first++;
-    return first == end;
+static bool are_windows(const batch *b, const froe_query *q, size_t first, size_t end, const double **windows) {
+    for (size_t i = first; i < end; i++) {
+        const froe_range range = range_of(b, i);
+        if (!query_range_is_packed_window(q, &range)) return false;
+        windows[i - first] = range.points;
+    }
+    return true;
 }
 
 /* What the context finds goes to the thread's answers. */
-static froe_status answer_windows(const batch *b, froe_query *q, size_t first, size_t end, batch_found *found,
-                                  froe_diagnostic *diag) {
+static froe_status answer_windows(const batch *b, froe_query *q, size_t first, size_t end, const double *const *windows,
+                                  batch_found *found, froe_diagnostic *diag) {
     froe_status status = FROE_OK;
     for (size_t i = first; i < end && !status; i++) {
-        status = query_range_check(b->ranges + i, 2, diag);
+        const froe_range range = range_of(b, i);
+        status = query_range_check(&range, 2, diag);
         if (status) diag->object = (uint32_t)i;
     }
-    for (size_t count; first < end && !status; first += count) {
+    for (size_t count; first < end && !status; first += count, windows += count) {
         count = found->queries < end - first ? found->queries + 1 : end - first; /* one, two, four ... */
         if (count > end - first) count = end - first;
         expect_as_much(b, q, found);
         const query_ids own = q->found;
         q->found = found->ids;
-        if (packed_ranges(q, b->ranges + first, count, b->starts + first + 1)) status = support_fail_memory(diag);
+        if (packed_ranges(q, windows, count, b->starts + first + 1)) status = support_fail_memory(diag);
         found->ids = q->found;
         q->found = own;
         q->found.count = 0;
@@ -258,7 +281,7 @@ static froe_status answer_chunk(void *user, unsigned worker, size_t job) {
     batch_found *found = b->found + worker;
     const size_t first = job * QUERIES_PER_CHUNK, left = b->count - first;
     const size_t end = first + (left < QUERIES_PER_CHUNK ? left : QUERIES_PER_CHUNK);
-    const double *points = b->points ? point_of(b, b->points, first) : NULL;
+    const double *points = b->points ? point_of(b, b->points, first) : NULL, *windows[QUERIES_PER_CHUNK];
     c->found = found;
     c->first = found->ids.count;
     /* On a packed tree rays are answered all at once: one computes while others wait for memory. */
@@ -273,7 +296,8 @@ static froe_status answer_chunk(void *user, unsigned worker, size_t job) {
                           b->hits ? b->hits + first : NULL, b->objects ? b->objects + first : NULL, &c->diag);
     if (upright) status = packed_vertical(q, points, end - first, b->direction, b->objects + first);
     if (upright) return status ? support_fail_memory(&c->diag) : FROE_OK;
-    if (b->ranges && are_windows(b, q, first, end)) return answer_windows(b, q, first, end, found, &c->diag);
+    if (b->ask == ask_range && are_windows(b, q, first, end, windows))
+        return answer_windows(b, q, first, end, windows, found, &c->diag);
     if (near) return answer_near(b, q, first, end, found, &c->diag);
     return answer_one_by_one(b, q, first, end, found, &c->diag);
 }
@@ -370,6 +394,30 @@ froe_status froe_batch_range(froe_query *query, const froe_range *ranges, size_t
     if (!query || !out || (count && !ranges)) return support_fail_null(diag, __func__);
     batch b = {.query = query, .ask = ask_range, .ranges = ranges, .count = count};
     return run_batch(&b, options, out, diag);
+}
+
+froe_status froe_batch_boxes(froe_query *query, const double *boxes, size_t count, const froe_batch_options *options,
+                             froe_answers *out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
+    if (!query || !out || (count && !boxes)) return support_fail_null(diag, __func__);
+    batch b = {.query = query, .ask = ask_range, .boxes = boxes, .count = count};
+    return run_batch(&b, options, out, diag);
+}
+
+froe_status froe_batch_count(froe_query *query, const froe_range *ranges, size_t count,
+                             const froe_batch_options *options, uint64_t *counts, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
+    if (!query || (count && (!ranges || !counts))) return support_fail_null(diag, __func__);
+    batch b = {.query = query, .ask = ask_count, .ranges = ranges, .count = count, .counts = counts};
+    return run_batch(&b, options, NULL, diag);
+}
+
+froe_status froe_batch_any(froe_query *query, const froe_range *ranges, size_t count, const froe_batch_options *options,
+                           uint32_t *objects, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
+    if (!query || (count && (!ranges || !objects))) return support_fail_null(diag, __func__);
+    batch b = {.query = query, .ask = ask_any, .ranges = ranges, .count = count, .objects = objects};
+    return run_batch(&b, options, NULL, diag);
 }
 
 froe_status froe_batch_locate(froe_query *query, const double *points, size_t count, const froe_batch_options *options,

@@ -256,20 +256,28 @@ static void ask_points(floats_run *r, froe_query *q, const places *p, int dim) {
     }
 }
 
-static void ask_batches(floats_run *r, froe_query *q, const places *p) {
+static void ask_batches(floats_run *r, froe_query *q, const places *p, size_t dim) {
     froe_batch_options o = froe_batch_defaults();
     froe_range ranges[POINTS];
     froe_answers answers;
     froe_hit hits[POINTS];
     uint32_t objects[POINTS];
+    uint64_t counts[POINTS];
+    froe_pairs pairs;
+    double boxes[POINTS * 6];
+    const size_t numbers = 2 * dim;
     o.threads = 3;
     o.progress = floats_progress;
     o.user = r;
     for (int i = 0; i < POINTS; i++) {
         ranges[i] = froe_range_defaults();
         ranges[i].points = p->boxes[i];
+        memcpy(boxes + (size_t)i * numbers, p->boxes[i], numbers * sizeof *boxes);
     }
     if (!ASK(r, froe_batch_range(q, ranges, POINTS, &o, &answers, NULL))) note_answers(r, &answers);
+    if (!ASK(r, froe_batch_boxes(q, boxes, POINTS, &o, &answers, NULL))) note_answers(r, &answers);
+    if (!ASK(r, froe_batch_count(q, ranges, POINTS, &o, counts, NULL))) floats_note(r, counts, sizeof counts);
+    if (!ASK(r, froe_batch_any(q, ranges, POINTS, &o, objects, NULL))) floats_note(r, objects, sizeof objects);
     if (!ASK(r, froe_batch_locate(q, p->at[0], POINTS, &o, &answers, NULL))) note_answers(r, &answers);
     if (!ASK(r, froe_batch_groups(q, p->at[0], POINTS, &o, &answers, NULL))) note_answers(r, &answers);
     if (!ASK(r, froe_batch_vertical(q, p->at[0], POINTS, -1, &o, objects, NULL)))
@@ -282,6 +290,9 @@ static void ask_batches(floats_run *r, froe_query *q, const places *p) {
     if (!ASK(r, froe_batch_near(q, p->at[0], POINTS, 4, 1e300, &o, &answers, NULL))) note_answers(r, &answers);
     MUST(r, froe_batch_pairs(q, true, &o, note_pair, r, NULL));
     MUST(r, froe_query_pairs(q, false, note_pair, r, NULL));
+    MUST(r, froe_batch_pair_array(q, true, &o, &pairs, NULL));
+    for (size_t i = 0; i < pairs.count; i++) floats_note(r, &pairs.pairs[i].a, 4), floats_note(r, &pairs.pairs[i].b, 4);
+    TELL(r, froe_pairs_free(&pairs));
 }
 
 static void queries(floats_run *r, void *user) {
@@ -299,7 +310,7 @@ static void queries(floats_run *r, void *user) {
         MUST(r, froe_query_fork(first, &q, NULL));
         ask_ranges(r, q, &p);
         ask_points(r, q, &p, froe_scene_dim(scene));
-        ask_batches(r, q, &p);
+        ask_batches(r, q, &p, (size_t)froe_scene_dim(froe_tree_scene(tree)));
         TELL(r, froe_query_free(q));
         TELL(r, froe_query_free(first));
         froe_tree_free(tree);

@@ -60,8 +60,6 @@ static void draw(questions *ask, size_t dim, bool windows, bool equal) {
         ask->ranges[i].radius = 0.1;
         const bool unbounded = draw % 40 == 3 || draw % 60 == 5;
         ask->ranges[i].shape = windows || unbounded || draw % 2 ? FROE_SHAPE_BOX : FROE_SHAPE_BALL;
-        ask->ranges[i].shape =
-            windows || draw % 2 || draw % 40 == 3 || draw % 60 == 5 ? FROE_SHAPE_BOX : FROE_SHAPE_BALL;
     }
 }
 
@@ -105,6 +103,50 @@ static froe_status all_ranges(froe_query *q, const questions *ask, size_t count,
                               answers_found *out, froe_diagnostic *why) {
     froe_answers answers;
     return take(froe_batch_range(q, ask->ranges, count, o, &answers, why), &answers, out);
+}
+
+static froe_status one_box(froe_query *q, const questions *ask, size_t i, answers_found *out, froe_diagnostic *why) {
+    froe_range box = froe_range_defaults();
+    froe_list list = {0};
+    box.points = ask->windows[i];
+    const froe_status status = froe_query_range(q, &box, &list, why);
+    put_list(out, &list);
+    return status;
+}
+static froe_status all_boxes(froe_query *q, const questions *ask, size_t count, const froe_batch_options *o,
+                             answers_found *out, froe_diagnostic *why) {
+    static double boxes[6 * MANY];
+    const size_t numbers = 2 * dim_of(q);
+    froe_answers answers;
+    for (size_t i = 0; i < count; i++) memcpy(boxes + i * numbers, ask->windows[i], numbers * sizeof *boxes);
+    return take(froe_batch_boxes(q, boxes, count, o, &answers, why), &answers, out);
+}
+
+static froe_status one_count(froe_query *q, const questions *ask, size_t i, answers_found *out, froe_diagnostic *why) {
+    uint64_t met = 0;
+    const froe_status status = froe_query_count(q, ask->ranges + i, &met, why);
+    if (!status) put(out, (uint32_t)met, 0);
+    return status;
+}
+static froe_status all_counts(froe_query *q, const questions *ask, size_t count, const froe_batch_options *o,
+                              answers_found *out, froe_diagnostic *why) {
+    static uint64_t counts[MANY];
+    static uint32_t ids[MANY];
+    const froe_status status = froe_batch_count(q, ask->ranges, count, o, counts, why);
+    for (size_t i = 0; i < count && !status; i++) ids[i] = (uint32_t)counts[i];
+    return take_ids(status, ids, count, out);
+}
+
+static froe_status one_any(froe_query *q, const questions *ask, size_t i, answers_found *out, froe_diagnostic *why) {
+    uint32_t object = 0;
+    const froe_status status = froe_query_any(q, ask->ranges + i, &object, why);
+    if (!status) put(out, object, 0);
+    return status;
+}
+static froe_status any_of_all(froe_query *q, const questions *ask, size_t count, const froe_batch_options *o,
+                              answers_found *out, froe_diagnostic *why) {
+    static uint32_t ids[MANY];
+    return take_ids(froe_batch_any(q, ask->ranges, count, o, ids, why), ids, count, out);
 }
 
 static froe_status one_locate(froe_query *q, const questions *ask, size_t i, answers_found *out, froe_diagnostic *why) {
@@ -209,6 +251,9 @@ static const struct form {
     batch_fn *batch;
 } forms[] = {
     {"range", one_range, all_ranges},
+    {"box", one_box, all_boxes},
+    {"count", one_count, all_counts},
+    {"any", one_any, any_of_all},
     {"locate", one_locate, all_locate},
     {"groups", one_groups, all_groups},
     {"vertical", one_vertical, all_vertical},
@@ -426,6 +471,17 @@ static void check_pairs(froe_scene *scene, const char *method) {
             assert_int_equal(alone.pairs[i].b, together.pairs[i].b);
             assert_int_equal(alone.pairs[i].kind, together.pairs[i].kind);
         }
+        froe_pairs array;
+        assert_int_equal(froe_batch_pair_array(q, true, &o, &array, NULL), FROE_OK);
+        assert_non_null(array.pairs);
+        assert_true(alone.count == (alone.most < array.count ? alone.most : array.count));
+        for (size_t i = 0; i < alone.count; i++) {
+            assert_int_equal(alone.pairs[i].a, array.pairs[i].a);
+            assert_int_equal(alone.pairs[i].b, array.pairs[i].b);
+            assert_int_equal(alone.pairs[i].kind, array.pairs[i].kind);
+        }
+        froe_pairs_free(&array);
+        froe_pairs_free(&array);
     }
     froe_query_free(q);
     froe_tree_free(tree);
@@ -449,6 +505,7 @@ static froe_status ask_without_memory(void *user, const froe_allocator *alloc) {
     static questions ask;
     froe_tree tree = *(const froe_tree *)user;
     froe_answers ranges = {0}, near = {0};
+    froe_pairs pairs = {0};
     froe_query *q = NULL;
     draw(&ask, 2, true, false);
     tree.alloc = *alloc;
@@ -458,6 +515,8 @@ static froe_status ask_without_memory(void *user, const froe_allocator *alloc) {
         o.threads = threads;
         status = froe_batch_range(q, ask.ranges, MANY, &o, &ranges, NULL);
         if (!status) status = froe_batch_near(q, ask.points, MANY, 2, INFINITY, &o, &near, NULL);
+        if (!status) status = froe_batch_pair_array(q, true, &o, &pairs, NULL);
+        froe_pairs_free(&pairs);
         froe_answers_free(&ranges);
         froe_answers_free(&near);
     }

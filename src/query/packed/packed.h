@@ -64,9 +64,9 @@ void packed_work_free(packed_work *work, const froe_allocator *alloc);
 
 /** Objects that meet a closed box: they are query->found. The caller has begun the query. FROE_E_MEMORY. */
 froe_status packed_range(froe_query *query, const double *lo, const double *hi);
-/** Those of each of several good boxes, several of them in flight: appended to query->found, one after the other, with
- * their numbers in counts. FROE_E_MEMORY. */
-froe_status packed_ranges(froe_query *query, const froe_range *ranges, size_t count, size_t *counts);
+/** Those of each of several good boxes (lower corner, then upper), several of them in flight: appended to query->found,
+ * one after the other, with their numbers in counts. FROE_E_MEMORY. */
+froe_status packed_ranges(froe_query *query, const double *const *boxes, size_t count, size_t *counts);
 /** How many there are. FROE_E_MEMORY. */
 froe_status packed_count_range(froe_query *query, const double *lo, const double *hi, uint64_t *out);
 /** Some of them, at least one if there is any. FROE_E_MEMORY. */

@@ -325,7 +325,7 @@ __attribute__((always_inline)) static inline void ask_nodes(const froe_tree *t, 
     if (!(last.kind & TABLE_LEAF)) __builtin_prefetch(t->nodes + last.at);
 }
 
-froe_status packed_ranges(froe_query *q, const froe_range *ranges, size_t count, size_t *counts) {
+froe_status packed_ranges(froe_query *q, const double *const *boxes, size_t count, size_t *counts) {
     packed_work *work = q->packed;
     flying flock[3 * FLOCK];
     size_t launched = 0, asked = 0, collected = 0, done = 0;
@@ -334,7 +334,7 @@ froe_status packed_ranges(froe_query *q, const froe_range *ranges, size_t count,
         forget_visits(work);
         while (collected < count && collected - done < FLOCK && work->visits.count < FLOCK_VISITS) {
             for (; launched < count && launched <= collected + TABLE_AHEAD; launched++)
-                flock[launched % (3 * FLOCK)] = launch(q->tree, ranges[launched].points);
+                flock[launched % (3 * FLOCK)] = launch(q->tree, boxes[launched]);
             for (; asked < count && asked <= collected + NODES_AHEAD; asked++)
                 ask_nodes(q->tree, flock + asked % (3 * FLOCK));
             flying *f = flock + collected % (3 * FLOCK);

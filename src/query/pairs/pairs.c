@@ -10,6 +10,7 @@
 #include "query/heap.h"
 #include "query/packed/packed.h"
 #include "query/workers.h"
+#include "support/array.h"
 #include "support/fail.h"
 #include <string.h>
 
@@ -144,6 +145,45 @@ froe_status froe_batch_pairs(froe_query *query, bool shared, const froe_batch_op
     query_workers_give(&workers);
     query->stats.queries = queries + 1; /* not one for each object */
     return status;
+}
+
+typedef struct pair_array {
+    const froe_allocator *alloc;
+    ARRAY(froe_pair) pairs;
+    bool full; /* there was no memory for more */
+} pair_array;
+
+static bool keep_pair(void *user, const froe_pair *pair) {
+    BASE_FLOATS_OWN;
+    pair_array *a = user;
+    a->full = !array_push(a->alloc, &a->pairs, *pair);
+    return !a->full;
+}
+
+/* Bytes of an array of so many, or one: it is never NULL. */
+static size_t room_for(size_t pairs) {
+    return (pairs ? pairs : 1) * sizeof(froe_pair);
+}
+
+void froe_pairs_free(froe_pairs *pairs) {
+    if (!pairs) return;
+    support_free(&pairs->alloc, pairs->pairs, pairs->pairs ? room_for(pairs->count) : 0);
+    *pairs = (froe_pairs){0};
+}
+
+froe_status froe_batch_pair_array(froe_query *query, bool shared, const froe_batch_options *options, froe_pairs *out,
+                                  froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
+    if (!query || !out) return support_fail_null(diag, __func__);
+    pair_array found = {.alloc = &query->alloc};
+    froe_status status = froe_batch_pairs(query, shared, options, keep_pair, &found, diag);
+    const size_t room = room_for(found.pairs.count), taken = found.pairs.capacity * sizeof(froe_pair);
+    froe_pair *fitted = status || found.full ? NULL : support_realloc(&query->alloc, found.pairs.data, taken, room);
+    if (fitted)
+        *out = (froe_pairs){fitted, found.pairs.count, query->alloc};
+    else
+        array_free(&query->alloc, &found.pairs);
+    return status || fitted ? status : support_fail_memory(diag);
 }
 
 froe_status froe_query_pairs(froe_query *query, bool shared, froe_pair_fn *fn, void *user, froe_diagnostic *diag) {
