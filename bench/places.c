@@ -36,6 +36,12 @@ static void put_point(const double *from, place where, double size, double *to) 
     }
 }
 
+/** A polygon without area has one or two corners, of which the last one is repeated. */
+static const double *corner_at(const froe_scene *scene, uint32_t object, size_t corner) {
+    const size_t last = froe_scene_object(scene, object).corners - 1;
+    return froe_scene_vertex(scene, froe_scene_corner(scene, object, (uint32_t)(corner < last ? corner : last)));
+}
+
 /** The same polygons in another place; those that the grid leaves without area stay as objects that no cut meets. */
 static froe_scene *placed(const froe_scene *from, place where) {
     const size_t n = froe_scene_object_count(from);
@@ -43,12 +49,14 @@ static froe_scene *placed(const froe_scene *from, place where) {
     froe_scene *scene = NULL;
     froe_diagnostic diag = {0};
     size_t *starts = bench_take(n + 1, sizeof *starts);
-    for (uint32_t i = 0; i < n; i++) starts[i + 1] = starts[i] + froe_scene_object(from, i).corners;
+    for (uint32_t i = 0; i < n; i++) {
+        const uint32_t corners = froe_scene_object(from, i).corners;
+        starts[i + 1] = starts[i] + (corners < 3 ? 3 : corners);
+    }
     double *x = bench_take(starts[n], 3 * sizeof *x);
     for (uint32_t i = 0; i < n; i++)
         for (size_t k = starts[i]; k < starts[i + 1]; k++)
-            put_point(froe_scene_vertex(from, froe_scene_corner(from, i, (uint32_t)(k - starts[i]))), where, size,
-                      x + 3 * k);
+            put_point(corner_at(from, i, k - starts[i]), where, size, x + 3 * k);
     froe_objects o = froe_objects_defaults();
     o.count = n, o.coords = x, o.starts = starts;
     bench_must(froe_scene_new(3, NULL, &scene), NULL);

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SAMPLE = 200, HALVINGS = 40 };
+enum { HALVINGS = 40 };
 
 static size_t dim_of(const race_scene *scene) {
     return (size_t)scene->data.dim;
@@ -48,7 +48,8 @@ static double found_on_average(const race_task *t, const race_contestant *first,
 
 static void make_ranges(race_task *t, const race_scene *scene, const race_contestant *first, peer_answers *room,
                         uint64_t *state) {
-    const size_t dim = dim_of(scene), count = t->share * 2 * RACE_ROUNDS, sample = count < SAMPLE ? count : SAMPLE;
+    const size_t dim = dim_of(scene), count = t->share * 2 * RACE_ROUNDS,
+                 sample = count < RACE_SAMPLE ? count : RACE_SAMPLE;
     const double wanted = fmin(t->wanted, 0.1 * (double)scene->data.count);
     double *centres = bench_take(count * dim, sizeof *centres), low = 0, high = scene->size;
     for (size_t i = 0; i < count; i++) place(scene, state, centres + i * dim);

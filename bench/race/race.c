@@ -250,6 +250,9 @@ static void race_questions(run *r, const race_task *pattern) {
     race_task t = *pattern;
     runner runners[RACE_MOST + 1];
     size_t count = 0;
+    const size_t room = t.share * t.k > RACE_SAMPLE ? t.share * t.k : RACE_SAMPLE; /* questions of race_ask() */
+    r->room.values = realloc(r->room.values, (room + 2) * sizeof(double));
+    r->room.ends = realloc(r->room.ends, (room + 1) * sizeof(size_t));
     if (t.work != PEER_PAIRS) race_ask(&t, &r->scene, r->contestants, &r->room);
     for (size_t i = 0; i < r->count; i++) {
         const race_contestant *c = r->contestants + i;
@@ -259,8 +262,6 @@ static void race_questions(run *r, const race_task *pattern) {
     memmove(runners + middle + 1, runners + middle, (count - middle) * sizeof *runners);
     runners[middle] = (runner){.peer = r->contestants[0].peer, .index = r->contestants[0].index, .together = true};
     count++;
-    r->room.values = realloc(r->room.values, (t.share * t.k + 2) * sizeof(double));
-    r->room.ends = realloc(r->room.ends, (t.share + 1) * sizeof(size_t));
     for (size_t i = 0; i < count; i++) runners[i].digest = bench_take(t.share * t.k * 2 * RACE_ROUNDS, sizeof(double));
     run_rounds(r, &t, runners, count);
     report(r, &t, runners, count);

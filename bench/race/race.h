@@ -3,7 +3,8 @@
 #define FROE_BENCH_RACE_H
 #include "peers/peer.h"
 
-enum { RACE_ROUNDS = 9, RACE_MAKES = 5, RACE_MOST = 12 }; /* of questions; of making; contestants */
+/* Of questions; of making; contestants; questions that are asked to find the size of a range. */
+enum { RACE_ROUNDS = 9, RACE_MAKES = 5, RACE_MOST = 12, RACE_SAMPLE = 200 };
 
 /** Objects in arrays, and where they lie. */
 typedef struct race_scene {
