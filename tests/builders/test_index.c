@@ -322,6 +322,29 @@ static void jobs_keep_a_budget_to_the_piece_and_can_be_cancelled(void **state) {
     }
 }
 
+/* Four boxes without depth at four doubles in a row: every cut between the first and the last is one of them, and was
+ * moved on until all lay before it, so that the cell was cut in the same way for ever. */
+static void flat_boxes_at_doubles_in_a_row_stay_together(void **state) {
+    double c[4][6];
+    int left = 1000;
+    froe_scene *scene;
+    froe_tree *tree = NULL;
+    froe_build_options o = options(1, NULL, 1);
+    (void)state;
+    for (int i = 0; i < 4; i++) {
+        const double box[6] = {0x1p53 + 2 * i, 0, 0, 0x1p53 + 2 * i, 4, 4};
+        memcpy(c[i], box, sizeof box);
+    }
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    assert_int_equal(trees_add(scene, FROE_BOX, 4, c[0], NULL, NULL), FROE_OK);
+    o.progress = count_down, o.user = &left;
+    assert_int_equal(build_tuned(scene, &o, &tree, NULL), FROE_OK);
+    assert_audited(tree, "flat boxes");
+    assert_int_equal(froe_tree_report(tree).fragments, 4);
+    froe_tree_free(tree);
+    froe_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_tree_is_the_same_for_any_number_of_threads),
@@ -331,6 +354,7 @@ int main(void) {
         cmocka_unit_test(leaves_of_an_even_scene_are_full_and_of_one_depth),
         cmocka_unit_test(jobs_survive_every_failing_allocation),
         cmocka_unit_test(jobs_keep_a_budget_to_the_piece_and_can_be_cancelled),
+        cmocka_unit_test(flat_boxes_at_doubles_in_a_row_stay_together),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

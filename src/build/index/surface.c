@@ -88,7 +88,7 @@ bool surface_count(const space_item *items, uint32_t count, surface_cut *cut, ui
         cut->both = classed[3];
         cut->sides[0] = classed[1] + classed[3];
         cut->sides[1] = classed[2] + classed[3];
-        if (!flat) return true;
+        if (!flat) return cut->sides[0] && cut->sides[1]; /* a value that moved may have come to the end of all items */
     }
     return false;
 }
