@@ -441,6 +441,25 @@ static void large_orders_are_drawn_again(void **state) {
     froe_scene_free(scene);
 }
 
+/* Sums over threads were taken twice. */
+static void predicates_are_counted_once_for_any_number_of_threads(void **state) {
+    froe_scene *scene;
+    froe_predicate_stats one = {0};
+    (void)state;
+    assert_int_equal(froe_generate("segments", 1500, 1, NULL, &scene, NULL), FROE_OK);
+    for (unsigned threads = 1; threads <= 3; threads++) {
+        froe_build_options o = options(1);
+        o.threads = threads;
+        froe_tree *tree = build(scene, &o);
+        const froe_predicate_stats stats = froe_tree_report(tree).predicates;
+        if (threads == 1) one = stats;
+        assert_memory_equal(&stats, &one, sizeof one);
+        froe_tree_free(tree);
+    }
+    assert_true(one.calls > 0);
+    froe_scene_free(scene);
+}
+
 /* ------------------------------------------------------------------ refusals -- */
 
 static froe_scene *triangles(const double *xyz, size_t count) {
@@ -542,6 +561,7 @@ int main(void) {
         cmocka_unit_test(deep_orders_are_drawn_again),
         cmocka_unit_test(size_is_bounded_by_segments_and_crossings),
         cmocka_unit_test(large_orders_are_drawn_again),
+        cmocka_unit_test(predicates_are_counted_once_for_any_number_of_threads),
         cmocka_unit_test(polygons_that_cross_are_named),
         cmocka_unit_test(polygons_that_touch_are_welcome),
         cmocka_unit_test(polygons_that_cross_everywhere_come_to_an_end),

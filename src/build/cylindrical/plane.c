@@ -122,7 +122,6 @@ static froe_status seal_growth(plane_growth *g, froe_tree **out) {
     tree_graft *grafts = support_calloc(&g->job->alloc, count, sizeof *grafts);
     if (!grafts) return FROE_E_MEMORY;
     for (size_t i = 0; i < count; i++) grafts[i] = (tree_graft){g->tasks.data[i].cell.node, &g->tasks.data[i].draft};
-    for (unsigned i = 0; i < g->worker_count; i++) num_stats_add(&g->main.predicates, &g->workers[i].set.context.stats);
     const froe_status status = draft_seal(&g->main, grafts, count, g->job->scene, g->job->meta, out);
     support_free(&g->job->alloc, grafts, count ? count * sizeof *grafts : 1);
     return status;
