@@ -104,6 +104,31 @@ static void a_tree_is_the_same_for_any_number_of_threads(void **state) {
     froe_scene_free(scene);
 }
 
+/* Far from the origin the root box is no wider than a scene whose segments all lie in one axis-parallel line, so that
+ * they lie in its border; beside them some cross it. */
+static void segments_in_the_border_of_the_root_box_are_where_they_are(void **state) {
+    static const double far[] = {1e15, -1e15, 0x1p60, -0x1p60, 1e300, -1e300, DBL_MAX, -DBL_MAX};
+    enum { COUNT = 300 };
+    double c[4 * COUNT];
+    (void)state;
+    for (size_t f = 0; f < sizeof far / sizeof *far; f++)
+        for (int axis = 0; axis < 2; axis++)
+            for (int crossed = 0; crossed < 2; crossed++) {
+                froe_scene *scene;
+                froe_objects o = froe_objects_defaults();
+                o.kind = FROE_SEGMENT, o.count = COUNT, o.coords = c;
+                for (uint32_t i = 0; i < 2 * COUNT; i++) {
+                    c[2 * i + axis] = crossed && i % 10 == 0 ? nextafter(far[f], 0) : far[f];
+                    c[2 * i + 1 - axis] = trees_unit(3, i);
+                }
+                assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+                assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
+                check_threads(scene, "in the border", FROE_LEAF_OWN, NULL);
+                check_threads(scene, "in the border", 5, JOBS);
+                froe_scene_free(scene);
+            }
+}
+
 static void trees_of_all_kinds_of_scenes_are_the_same_for_any_number_of_threads(void **state) {
     size_t space = 0, jobs = 0;
     (void)state;
@@ -348,6 +373,7 @@ static void flat_boxes_at_doubles_in_a_row_stay_together(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_tree_is_the_same_for_any_number_of_threads),
+        cmocka_unit_test(segments_in_the_border_of_the_root_box_are_where_they_are),
         cmocka_unit_test(trees_of_all_kinds_of_scenes_are_the_same_for_any_number_of_threads),
         cmocka_unit_test(samples_that_mislead_make_right_trees_of_space),
         cmocka_unit_test(answers_do_not_depend_on_the_capacity),

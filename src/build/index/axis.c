@@ -9,13 +9,16 @@ int axis_crossing_side(num_context *context, const double *u, const double *v, i
 /* -------------------------------------------------------------------- ends -- */
 
 /* On which axis is the cut that made this end? The end lies in a side of the box. Where its image does so on both axes,
- * the crossing with the one on axis 0 tells: it is beyond the corner, or it is the end. */
+ * the crossing with the one on axis 0 tells: it is beyond the corner, or it is the end. No cut on axis 0 makes an end
+ * of an upright segment, but all of that may lie in the border of the root box, which far from the origin is no wider
+ * than the scene. */
 static int cut_axis(axis_work *work, const packed_fragment *f, bool last, const packed_box *box) {
     const double *x = last ? f->q : f->p;
     bool vertical = x[0] == (last ? box->hi : box->lo)[0], top = x[1] == box->hi[1];
     if (!vertical) return 1;
     if (!top && x[1] != box->lo[1]) return 0;
     const axis_ends ends = axis_sorted(work, f->id & PACKED_OBJECT);
+    if (ends.p[0] == ends.q[0]) return 1;
     int beyond = axis_crossing_side(&work->context, ends.p, ends.q, 1, x[0], x[1]);
     return beyond == (top ? 1 : -1) ? 1 : 0;
 }
