@@ -55,6 +55,7 @@ bool geojson_read_properties(char **at, geojson_names *names, geojson_feature *f
     formats_scan_text name;
     formats_scan_step step;
     for (bool first = true; (step = formats_scan_member(at, first, &name)) == FORMATS_SCAN_MORE; first = false) {
+        if (!name.length) return false; /* GDAL takes a whole number in a column without name for that of the feature */
         const int column = column_of(&name);
         if (formats_scan_is(&name, "_rev")) return false; /* of CouchDB, whose features are nested */
         if (column == GEOJSON_COLUMNS) {

@@ -228,6 +228,7 @@ static const struct {
     {false, TWO("", "{\"name\":true}", "", "{}")},
     {false, TWO("", "{\"name\":[1]}", "", "{}")},
     {false, TWO("", "{\"name\":{}}", "", "{}")},
+    {false, TWO("", "{\"\":7}", "", "{}")},
     {false, TWO("", "{\"name\":-0}", "", "{}")},
     {false, TWO("", "{\"name\":\"\\u0000\"}", "", "{}")},
     {false, TWO("", "{\"name\":\"\\ud800\"}", "", "{}")},
