@@ -315,6 +315,48 @@ static void jobs_survive_every_failing_allocation(void **state) {
     for (size_t i = 0; i < 4; i++) test_memory_each(build_in, (void *)(uintptr_t)(scenes + i));
 }
 
+/* Counts allocations down; the one that comes to 0 fails. */
+static void *fail_at_zero(void *user, void *ptr, size_t old_size, size_t new_size) {
+    (void)old_size;
+    if (!new_size) return free(ptr), NULL;
+    return --*(long *)user ? realloc(ptr, new_size) : NULL;
+}
+
+/* Segments of ever smaller sizes around one point, so that cuts in the middle would go deep, and medians are taken. */
+static void without_memory_for_medians_there_is_no_other_tree(void **state) {
+    enum { COUNT = 120 };
+    double c[4 * COUNT];
+    long left = 0;
+    const froe_allocator alloc = {fail_at_zero, &left};
+    const froe_build_options o = options(1, "height=0.001 growth=100", 1);
+    froe_objects objects = froe_objects_defaults();
+    froe_scene *scene;
+    froe_status status = FROE_E_MEMORY;
+    (void)state;
+    for (uint32_t i = 0; i < 4 * COUNT; i++) c[i] = ldexp(trees_unit(5, i) - 0.5, -(int)(i / 8));
+    objects.kind = FROE_SEGMENT, objects.count = COUNT, objects.coords = c;
+    assert_int_equal(froe_scene_new(2, &alloc, &scene), FROE_OK);
+    assert_int_equal(froe_scene_add(scene, &objects, NULL), FROE_OK);
+    froe_tree *whole = build(scene, 1, o.settings, 1), *higher = build(scene, 1, "height=0 growth=100", 1);
+    assert_true(whole->node_count != higher->node_count); /* medians are taken */
+    for (long at = 1; status; at++) {
+        froe_tree *tree;
+        left = at;
+        status = build_tuned(scene, &o, &tree, NULL);
+        if (status) {
+            assert_int_equal(status, FROE_E_MEMORY);
+            continue;
+        }
+        const bool failed = left <= 0; /* and was made up for */
+        trees_assert_equal(whole, tree);
+        froe_tree_free(tree);
+        if (failed) status = FROE_E_MEMORY;
+    }
+    froe_tree_free(whole);
+    froe_tree_free(higher);
+    froe_scene_free(scene);
+}
+
 static bool count_down(void *user, double done) {
     assert_true(done >= 0 && done <= 1);
     return --*(int *)user > 0;
@@ -379,6 +421,7 @@ int main(void) {
         cmocka_unit_test(answers_do_not_depend_on_the_capacity),
         cmocka_unit_test(leaves_of_an_even_scene_are_full_and_of_one_depth),
         cmocka_unit_test(jobs_survive_every_failing_allocation),
+        cmocka_unit_test(without_memory_for_medians_there_is_no_other_tree),
         cmocka_unit_test(jobs_keep_a_budget_to_the_piece_and_can_be_cancelled),
         cmocka_unit_test(flat_boxes_at_doubles_in_a_row_stay_together),
     };

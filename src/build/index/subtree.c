@@ -102,19 +102,16 @@ static bool shrink_cut(const index_cell *cell, const packed_fragment *f, halve_c
     return most > 2 * size;
 }
 
-/* The middle of the middles of fragments along the longer side of their box. */
-static bool median_cut(index_work *w, const index_cell *cell, const packed_fragment *f, halve_cut *cut) {
+/* The middle of the middles of fragments along the longer side of their box. REQUIRES: room for twice as many. */
+static void median_cut(index_work *w, const index_cell *cell, const packed_fragment *f, halve_cut *cut) {
     packed_box box = contents(f, cell->count);
     size_t n = cell->count;
-    w->middles.count = 0;
-    if (!array_reserve(&w->plan->job->alloc, &w->middles, 2 * n)) return false;
     cut->axis = box.hi[1] - box.lo[1] > box.hi[0] - box.lo[0];
     for (uint32_t i = 0; i < n; i++)
         w->middles.data[i] = (base_pair){base_double_key(0.5 * f[i].p[cut->axis] + 0.5 * f[i].q[cut->axis]), i};
     base_radix_sort(w->middles.data, w->middles.data + n, n);
     const packed_fragment *middle = f + w->middles.data[n / 2].value;
     cut->value = 0.5 * middle->p[cut->axis] + 0.5 * middle->q[cut->axis];
-    return true;
 }
 
 static halve_cut middle_cut(const packed_box *box, int axis) {
@@ -136,7 +133,10 @@ static bool choose_halving(index_work *w, const index_cell *cell, halve_cut *cut
     *which = 0;
     if (cell->growth >= w->plan->growth || cell->barren >= BARREN) return false;
     if (cell->lonely >= LONELY && shrink_cut(cell, f, cut) && count_sides(w, cell, cut, 0)) return true;
-    if (is_deep(w, cell) && median_cut(w, cell, f, cut) && count_sides(w, cell, cut, 0)) return true;
+    if (is_deep(w, cell)) {
+        median_cut(w, cell, f, cut);
+        if (count_sides(w, cell, cut, 0)) return true;
+    }
     /* The middle cut across the longer side, or the other one where that divides most fragments; false where both
      * divide all. *which: whose classes. */
     const double *lo = cell->box.lo, *hi = cell->box.hi;
@@ -160,6 +160,8 @@ static froe_status halve_cell(index_work *w, const index_cell *cell) {
         w->classes[i].count = 0;
         if (!array_reserve(alloc, &w->classes[i], cell->count)) return FROE_E_MEMORY;
     }
+    w->middles.count = 0;
+    if (is_deep(w, cell) && !array_reserve(alloc, &w->middles, 2 * (size_t)cell->count)) return FROE_E_MEMORY;
     if (!choose_halving(w, cell, &cut, &which)) return end_packed_leaf(w, cell);
     /* deals the fragments: the positive ones take the place of all, the negative ones lie on top */
     uint32_t negative = cut.sides[0], positive = cut.sides[1];
