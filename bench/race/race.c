@@ -326,7 +326,7 @@ static bool race(peer_kind kind, const char *name, size_t n) {
     if (!options.alone) enter_peers(&r, options.folder);
     race_makings(&r);
     for (const race_task *t = r.tasks; t->name && !options.makings; t++)
-        if (t->wanted * 10 <= r.data.count) race_questions(&r, t);
+        if (t->wanted * 10 <= (double)r.data.count) race_questions(&r, t);
     for (size_t i = 0; i < r.count; i++)
         if (r.contestants[i].index) r.contestants[i].peer->free(r.contestants[i].index);
     for (size_t i = 0; i < ours; i++) race_froe_free((peer *)(uintptr_t)r.contestants[i].peer);
