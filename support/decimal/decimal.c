@@ -165,7 +165,8 @@ static char *put_digits(char *to, const char *digits, int count, int k, bool sci
         return to + count - 1 + snprintf(to + count - 1, sizeof "e-324", "e%c%02d", k < 0 ? '-' : '+', abs(k));
     }
     if (k < 0) {
-        memcpy(to, "0.000", 5);
+        static const char zeros[] = {'0', '.', '0', '0', '0'};
+        memcpy(to, zeros, sizeof zeros);
         to += 1 - k;
         memcpy(to, digits, (size_t)count);
         return to + count;
