@@ -1,0 +1,54 @@
+#include "errors.h"
+#include <stdarg.h>
+
+/* The functions froe.errors.of_status and froe.errors.of_name, which make exceptions. */
+static PyObject *of_status, *of_name;
+
+bool core_errors_begin(void) {
+    PyObject *module = PyImport_ImportModule("froe.errors");
+    of_status = module ? PyObject_GetAttrString(module, "of_status") : NULL;
+    of_name = module ? PyObject_GetAttrString(module, "of_name") : NULL;
+    Py_XDECREF(module);
+    return of_status && of_name;
+}
+
+/* Sets an exception that a function of froe.errors has made, which it takes. */
+static PyObject *set(PyObject *exception) {
+    if (exception) PyErr_SetObject((PyObject *)Py_TYPE(exception), exception);
+    Py_XDECREF(exception);
+    return NULL;
+}
+
+/* None for FROE_NONE. */
+static PyObject *number(uint32_t value) {
+    if (value == FROE_NONE) return Py_NewRef(Py_None);
+    return PyLong_FromUnsignedLong(value);
+}
+
+PyObject *core_raise(froe_status status, const froe_diagnostic *diag) {
+    const char *message = diag->message[0] ? diag->message : froe_status_text(status);
+    return set(PyObject_CallFunction(of_status, "isNNN", (int)status, message, number(diag->object),
+                                     number(diag->corner), number(diag->axis)));
+}
+
+PyObject *core_fail(froe_status status, const char *format, ...) {
+    va_list list;
+    va_start(list, format);
+    PyObject *message = PyUnicode_FromFormatV(format, list);
+    va_end(list);
+    return message ? set(PyObject_CallFunction(of_status, "iN", (int)status, message)) : NULL;
+}
+
+PyObject *core_fail_as(const char *class_name, const char *format, ...) {
+    va_list list;
+    va_start(list, format);
+    PyObject *message = PyUnicode_FromFormatV(format, list);
+    va_end(list);
+    return message ? set(PyObject_CallFunction(of_name, "sN", class_name, message)) : NULL;
+}
+
+bool core_arguments(const char *function, Py_ssize_t given, Py_ssize_t wanted) {
+    if (given == wanted) return true;
+    PyErr_Format(PyExc_TypeError, "%s() takes %zd arguments, and %zd were given.", function, wanted, given);
+    return false;
+}

@@ -1,0 +1,14 @@
+/* errors.h: statuses become exceptions, which froe/errors.py defines. */
+#ifndef FROE_CORE_ERRORS_H
+#define FROE_CORE_ERRORS_H
+#include "core.h"
+
+/** Sets the exception of a failure, with what the diagnostic knows. Returns NULL. */
+PyObject *core_raise(froe_status status, const froe_diagnostic *diag);
+/** The same with a sentence of the extension's own, in the format of PyUnicode_FromFormat(). */
+PyObject *core_fail(froe_status status, const char *format, ...);
+/** An exception of another class of froe/errors.py, by its name. */
+PyObject *core_fail_as(const char *class_name, const char *format, ...);
+/** Are there as many arguments? Otherwise TypeError. */
+bool core_arguments(const char *function, Py_ssize_t given, Py_ssize_t wanted);
+#endif

@@ -1,0 +1,150 @@
+/* An array is a window into a block that a capsule owns. The capsule keeps the struct that froe handed out (a
+ * froe_answers, say), so that its allocator frees it, whether or not the tree still exists. */
+#include "memory.h"
+#include "errors.h"
+#include <stdlib.h>
+#include <string.h>
+
+/* --------------------------------------------------------------- allocation -- */
+
+#ifdef CORE_FAULTS
+#include <stdatomic.h>
+/* How many allocations still succeed; below 0: all. */
+static atomic_long left = -1;
+
+static bool fails(void) {
+    if (atomic_load(&left) < 0) return false;
+    return atomic_fetch_sub(&left, 1) <= 0 && (atomic_store(&left, 0), true);
+}
+void core_fail_after(long count) {
+    atomic_store(&left, count);
+}
+#else
+static bool fails(void) {
+    return false;
+}
+#endif
+
+static void *allocate(void *user, void *block, size_t old_size, size_t new_size) {
+    (void)user, (void)old_size;
+    if (!new_size) {
+        free(block);
+        return NULL;
+    }
+    return fails() ? NULL : realloc(block, new_size);
+}
+
+const froe_allocator core_allocator = {allocate, NULL};
+
+void *core_allocate(size_t count, size_t size) {
+    void *memory = count && count > SIZE_MAX / size ? NULL : allocate(NULL, NULL, 0, count * size + !count);
+    if (!memory) core_fail(FROE_E_MEMORY, "There is no memory for an array of %zu items.", count);
+    return memory;
+}
+
+void core_release(void *memory, size_t count, size_t size) {
+    allocate(NULL, memory, count * size, 0);
+}
+
+/* --------------------------------------------------------------- ownership -- */
+
+typedef struct owned {
+    core_free_fn *free_block;
+    max_align_t block[];
+} owned;
+
+static void free_owned(PyObject *capsule) {
+    owned *own = PyCapsule_GetPointer(capsule, NULL);
+    own->free_block(own->block);
+    free(own);
+}
+
+PyObject *core_owner(const void *block, size_t bytes, core_free_fn *free_block) {
+    owned *own = malloc(sizeof *own + bytes);
+    if (!own) {
+        core_fail(FROE_E_MEMORY, "There is no memory to hand out an array.");
+        void *copy = (void *)block;
+        free_block(copy);
+        return NULL;
+    }
+    own->free_block = free_block;
+    memcpy(own->block, block, bytes);
+    PyObject *capsule = PyCapsule_New(own, NULL, free_owned);
+    if (!capsule) {
+        own->free_block(own->block);
+        free(own);
+    }
+    return capsule;
+}
+
+/* ------------------------------------------------------------------ arrays -- */
+
+typedef struct core_array_object {
+    PyObject_HEAD;
+    PyObject *owner;
+    void *data;
+    const char *format;
+    int ndim;
+    Py_ssize_t item, shape[2], strides[2];
+} core_array_object;
+
+static PyTypeObject *array_type;
+
+static bool is_dense(const core_array_object *array) {
+    return array->strides[0] == (array->ndim == 2 ? array->shape[1] : 1) * array->item;
+}
+
+static int get_buffer(PyObject *object, Py_buffer *view, int flags) {
+    core_array_object *array = (core_array_object *)object;
+    view->obj = NULL;
+    if (!(flags & PyBUF_STRIDES) && !is_dense(array)) {
+        PyErr_SetString(PyExc_BufferError, "The items of this array do not lie one after the other.");
+        return -1;
+    }
+    view->obj = Py_NewRef(object);
+    view->buf = array->data;
+    view->len = array->shape[0] * (array->ndim == 2 ? array->shape[1] : 1) * array->item;
+    view->readonly = 0;
+    view->itemsize = array->item;
+    view->format = flags & PyBUF_FORMAT ? (char *)array->format : NULL;
+    view->ndim = array->ndim;
+    view->shape = flags & PyBUF_ND ? array->shape : NULL;
+    view->strides = flags & PyBUF_STRIDES ? array->strides : NULL;
+    view->suboffsets = NULL;
+    view->internal = NULL;
+    return 0;
+}
+
+static void free_array(PyObject *object) {
+    Py_XDECREF(((core_array_object *)object)->owner);
+    core_free_object(object);
+}
+
+static Py_ssize_t length(PyObject *object) {
+    return ((core_array_object *)object)->shape[0];
+}
+
+static PyType_Slot array_slots[] = {
+    {Py_bf_getbuffer, get_buffer}, {Py_tp_dealloc, free_array}, {Py_sq_length, length}, {0, NULL}};
+static PyType_Spec array_spec = {"froe._core.Array", sizeof(core_array_object), 0,
+                                 Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, array_slots};
+
+bool core_add_memory(PyObject *module) {
+    array_type = core_add_type(module, &array_spec);
+    return array_type;
+}
+
+PyObject *core_array(PyObject *owner, const void *data, const char *format, size_t count, size_t width, size_t stride) {
+    core_array_object *array = PyObject_New(core_array_object, array_type);
+    if (!array) return NULL;
+    array->owner = Py_NewRef(owner);
+    array->data = (void *)data;
+    array->format = format;
+    array->item = *format == 'B' ? 1 : *format == 'i' ? 4 : 8;
+    array->ndim = width ? 2 : 1;
+    array->shape[0] = (Py_ssize_t)count;
+    array->shape[1] = (Py_ssize_t)width;
+    array->strides[0] = stride ? (Py_ssize_t)stride : (Py_ssize_t)(width ? width : 1) * array->item;
+    array->strides[1] = array->item;
+    return (PyObject *)array;
+}

@@ -1,0 +1,25 @@
+/* tree.h: trees, and their contexts for queries. */
+#ifndef FROE_CORE_TREE_H
+#define FROE_CORE_TREE_H
+#include "core.h"
+#include <froe/query.h>
+
+typedef struct core_tree core_tree;
+
+/** A tree that has just been made, which the object takes. NULL: an exception is set, and the tree is freed. */
+PyObject *core_tree_object(froe_tree *tree);
+
+/** The tree, which lasts until core_tree_leave(), even if it is closed meanwhile. NULL: it is closed, and an exception
+ * is set. */
+const froe_tree *core_tree_use(core_tree *self);
+void core_tree_leave(core_tree *self);
+/** A context of the tree's, and the same as core_tree_use(); core_tree_give() gives both back. */
+froe_query *core_tree_take(core_tree *self);
+void core_tree_give(core_tree *self, froe_query *query);
+
+/** REQUIRES: in use. */
+const froe_tree *core_tree_of(const core_tree *self);
+
+/* Methods of the type. */
+PyObject *core_ask_boxes(PyObject *self, PyObject *const *args, Py_ssize_t count);
+#endif

@@ -1,0 +1,61 @@
+"""Arguments as the extension takes them: C-contiguous float64, uint32 and uint64, without any loss."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from .errors import ArrayError
+
+Doubles = npt.NDArray[np.float64]
+Ids = npt.NDArray[np.int32]
+
+EXACT = 2**53  # whole numbers up to this are doubles
+
+
+def doubles(values: npt.ArrayLike, name: str) -> Doubles:
+    """An array of float64. One that already is is used as it is; others are copied if every number stays the same.
+
+    >>> doubles([1, 2], "values")
+    array([1., 2.])
+    >>> doubles([2**53 + 1], "values")
+    Traceback (most recent call last):
+        ...
+    froe.errors.ArrayError: values has numbers that are no doubles, the first of them 9007199254740993 at (0,).
+    """
+    array = np.asarray(values)
+    if array.dtype != np.float64:
+        array = _converted(array, name)
+    return np.require(array, np.float64, ["C", "A"])
+
+
+def _converted(array: npt.NDArray[Any], name: str) -> Doubles:
+    if array.size == 0 and array.dtype.kind in "fiu":
+        return array.astype(np.float64)
+    if array.dtype.kind not in "fiu":
+        raise ArrayError(f"{name} must be an array of float64, and its type is {array.dtype}.")
+    converted = array.astype(np.float64)
+    lost = (array < -EXACT) | (array > EXACT) if array.dtype.kind in "iu" else converted.astype(array.dtype) != array
+    lost &= array == array
+    if lost.any():
+        where = tuple(int(i) for i in np.argwhere(lost)[0])
+        raise ArrayError(f"{name} has numbers that are no doubles, the first of them {array[where]} at {where}.")
+    converted.flags.writeable = False
+    return converted
+
+
+def rows(values: npt.ArrayLike, name: str, width: int, inner: int) -> Doubles:
+    """An array of rows of `width` numbers: of the shape (n, width), or (n, width / inner, inner).
+
+    >>> rows([[[0, 0], [1, 1]]], "segments", 4, 2).shape
+    (1, 4)
+    """
+    array = doubles(values, name)
+    if array.size == 0 and array.ndim < 3:
+        return array.reshape(0, width)
+    if array.shape[1:] not in ((width,), (width // inner, inner)):
+        shapes = f"(n, {width})" + (f" or (n, {width // inner}, {inner})" if width != inner else "")
+        raise ArrayError(f"{name} must have the shape {shapes}, and has {array.shape}.")
+    return array.reshape(-1, width)

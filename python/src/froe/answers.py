@@ -1,0 +1,65 @@
+"""Answers to many questions: a ragged array."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ._arrays import Doubles, Ids
+
+
+class Answers:
+    """The answers to question i are ``ids[starts[i]:starts[i + 1]]``, which is ``answers[i]``.
+
+    >>> import froe
+    >>> tree = froe.segments([[0, 0, 2, 2], [3, 0, 3, 2]]).build(purpose="query")
+    >>> answers = tree.query([[0, 0, 1, 1], [9, 9, 9, 9], [0, 0, 3, 3]])
+    >>> len(answers), answers.starts.tolist(), sorted(answers[2].tolist())
+    (3, [0, 1, 1, 3], [0, 1])
+
+    :ivar starts: int64, one more than questions
+    :ivar ids: int32, objects (or groups)
+    :ivar values: float64 beside the ids: distances or parameters of rays; None where there are none
+    """
+
+    __slots__ = ("ids", "starts", "values")
+
+    def __init__(self, starts: Any, ids: Any, values: Any = None) -> None:
+        self.starts: npt.NDArray[np.int64] = np.asarray(starts)
+        self.ids: Ids = np.asarray(ids)
+        self.values: Doubles | None = None if values is None else np.asarray(values)
+
+    def __len__(self) -> int:
+        return len(self.starts) - 1
+
+    def __getitem__(self, question: int) -> Ids:
+        count = len(self)
+        if not -count <= question < count:
+            raise IndexError(f"There is no question {question}: there are {count}.")
+        question %= count
+        return self.ids[self.starts[question] : self.starts[question + 1]]
+
+    def __iter__(self) -> Iterator[Ids]:
+        return (self[i] for i in range(len(self)))
+
+    def __repr__(self) -> str:
+        return f"<froe.Answers: {len(self.ids)} to {len(self)} questions>"
+
+    def counts(self) -> npt.NDArray[np.int64]:
+        """How many answers each question has.
+
+        >>> Answers([0, 2, 2], [5, 7]).counts().tolist()
+        [2, 0]
+        """
+        return np.diff(self.starts)
+
+    def pairs(self) -> npt.NDArray[np.int64]:
+        """All answers as an array of two rows, questions and ids, as ``shapely.STRtree.query`` returns them.
+
+        >>> Answers([0, 2, 2, 3], [5, 7, 6]).pairs().tolist()
+        [[0, 0, 2], [5, 7, 6]]
+        """
+        return np.stack([np.repeat(np.arange(len(self)), self.counts()), self.ids.astype(np.int64)])

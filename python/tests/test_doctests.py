@@ -1,0 +1,17 @@
+"""The examples in the documents of all modules."""
+
+import doctest
+import importlib
+import pkgutil
+
+import pytest
+
+import froe
+
+MODULES = ["froe"] + [f"froe.{module.name}" for module in pkgutil.iter_modules(froe.__path__)]
+
+
+@pytest.mark.parametrize("name", [name for name in MODULES if not name.endswith("_core")])
+def test_examples(name):
+    failed, tried = doctest.testmod(importlib.import_module(name), optionflags=doctest.ELLIPSIS)
+    assert not failed
