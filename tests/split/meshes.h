@@ -2,6 +2,7 @@
 #ifndef FROE_TESTS_SPLIT_MESHES_H
 #define FROE_TESTS_SPLIT_MESHES_H
 #include <froe/froe.h>
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -105,6 +106,35 @@ static inline froe_scene *mesh_new(mesh_kind kind, size_t n) {
     double *x = test_malloc(each * n * sizeof *x);
     for (size_t i = 0; i < n; i++) mesh_object(&random, kind, i, n, x + each * i);
     froe_scene *scene = mesh_of(mesh_dim(kind), x, n);
+    test_free(x);
+    return scene;
+}
+
+/** Writes a cube of half width s around c, tilted, as twelve triangles. */
+static inline void mesh_cube(double *x, const double *c, double s) {
+    static const int side[6][4] = {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}};
+    static const double axes[3][3] = {{0.71, 0.43, -0.55}, {-0.32, 0.9, 0.29}, {0.62, -0.03, 0.78}};
+    for (int f = 0; f < 12; f++)
+        for (int k = 0; k < 3; k++, x += 3) {
+            int corner = side[f / 2][k ? k + f % 2 : 0];
+            for (int i = 0; i < 3; i++) {
+                x[i] = c[i];
+                for (int a = 0; a < 3; a++) x[i] += (corner >> a & 1 ? s : -s) * axes[a][i];
+            }
+        }
+}
+
+/** Cubes in one another, each 0.9 as wide as the one around it and off its centre, of twelve triangles each. */
+static inline froe_scene *mesh_shells(size_t cubes) {
+    double *x = test_malloc(108 * cubes * sizeof *x);
+    double at[3] = {0, 0, 0};
+    fuzz_source r = {5};
+    for (size_t i = cubes; i-- > 0;) {
+        const double s = pow(0.9, (double)i);
+        for (int k = 0; k < 3; k++) at[k] += 0.02 * s * (fuzz_unit(&r));
+        mesh_cube(x + 108 * i, at, s);
+    }
+    froe_scene *scene = mesh_of(3, x, 12 * cubes);
     test_free(x);
     return scene;
 }

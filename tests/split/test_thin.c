@@ -18,36 +18,7 @@
 
 /* ------------------------------------------------------------------ scenes -- */
 
-/** Writes a cube of half width s around c, tilted, as twelve triangles. */
-static void put_cube(double *x, const double *c, double s) {
-    static const int side[6][4] = {{0, 1, 3, 2}, {4, 6, 7, 5}, {0, 4, 5, 1}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 5, 7, 3}};
-    static const double axes[3][3] = {{0.71, 0.43, -0.55}, {-0.32, 0.9, 0.29}, {0.62, -0.03, 0.78}};
-    for (int f = 0; f < 12; f++)
-        for (int k = 0; k < 3; k++, x += 3) {
-            int corner = side[f / 2][k ? k + f % 2 : 0];
-            for (int i = 0; i < 3; i++) {
-                x[i] = c[i];
-                for (int a = 0; a < 3; a++) x[i] += (corner >> a & 1 ? s : -s) * axes[a][i];
-            }
-        }
-}
-
-/** Cubes in one another, each 0.9 as wide as the one around it and off its centre, of twelve triangles each. */
-static froe_scene *new_shells(size_t cubes) {
-    double *x = test_malloc(108 * cubes * sizeof *x);
-    double at[3] = {0, 0, 0};
-    fuzz_source r = {5};
-    for (size_t i = cubes; i-- > 0;) {
-        const double s = pow(0.9, (double)i);
-        for (int k = 0; k < 3; k++) at[k] += 0.02 * s * (fuzz_unit(&r));
-        put_cube(x + 108 * i, at, s);
-    }
-    froe_scene *scene = mesh_of(3, x, 12 * cubes);
-    test_free(x);
-    return scene;
-}
-
-/** The same of squares in the plane. */
+/** As mesh_shells(), of squares in the plane. */
 static froe_scene *new_squares(size_t squares) {
     double *x = test_malloc(16 * squares * sizeof *x);
     double at[2] = {0, 0};
@@ -107,7 +78,7 @@ static double pieces_each(froe_scene *scene, const char *settings) {
 /** Without the guards they would be 6.3 and 7.3, and 12 times as many nests 10. */
 static void nests_have_few_pieces_whatever_their_number(void **state) {
     (void)state;
-    const double few = pieces_each(new_shells(85), NULL), more = pieces_each(new_shells(340), NULL);
+    const double few = pieces_each(mesh_shells(85), NULL), more = pieces_each(mesh_shells(340), NULL);
     assert_true(few < 5.2 && more < 5.4);
     assert_true(log(more / few) / log(4) < 0.06);
     assert_true(pieces_each(new_squares(1000), NULL) < 2.6);
@@ -138,7 +109,7 @@ static void other_scenes_are_cut_as_before(void **state) {
 static void the_audit_finds_a_builder_that_does_not_thin_out(void **state) {
     (void)state;
     froe_diagnostic diag = {0};
-    froe_scene *scene = new_shells(85);
+    froe_scene *scene = mesh_shells(85);
     froe_tree *tree = build(scene, "guards=0", 1);
     assert_int_equal(froe_tree_audit(tree, NULL, &diag), FROE_E_AUDIT);
     assert_non_null(strstr(diag.message, "charged_fragments"));
@@ -148,7 +119,7 @@ static void the_audit_finds_a_builder_that_does_not_thin_out(void **state) {
 
 static void trees_do_not_depend_on_threads(void **state) {
     (void)state;
-    froe_scene *scene = new_shells(340);
+    froe_scene *scene = mesh_shells(340);
     froe_tree *one = build(scene, "effort=fast", 1), *three = build(scene, "effort=fast", 3);
     assert_true(one->node_count == three->node_count && one->piece_count == three->piece_count);
     assert_memory_equal(one->nodes, three->nodes, one->node_count * sizeof *one->nodes);
@@ -166,7 +137,7 @@ static split_verdict cut_along_any(const void *config, split_work *work, const s
     return split_any_support(&work->set, cell, cell->path, cut) ? SPLIT_CUT : SPLIT_INSEPARABLE;
 }
 
-enum { COUNT = 100 };
+enum { COUNT = 200 };
 
 typedef struct thinning {
     split_thin_rule rule;

@@ -17,6 +17,9 @@
  * where objects cross, the cubes would have more than THIN_MOST times the fragments of the cell. That is found out by
  * making them once, which is taken back; such a cell is cut as before, and charged no more.
  *
+ * Guards are seen from an input vertex, and each cut is moved to the nearest input vertex on its axis: so they are the
+ * same wherever the scene lies. Cuts that come to separate nothing are left out.
+ *
  * What has been thinned out, or could not be, is never charged again. So each part of space is thinned out once at
  * most, and nothing but the cuts of the guards, which need no search, is made twice. Methods whose cells have rooms
  * (split_method.room) are not served. */
@@ -38,7 +41,7 @@ static inline bool thin_refuses(const split_thin_rule *rule, const split_cell *c
 /** Counts what cubes of rule->guards would come to. Where that is not too much, the cell is pending again, to be cut by
  * them, and *begun. O(m log m) for the guard tree of m fragments, and the cuts down to its leaves. */
 froe_status thin_begin(const split_thin_rule *rule, split_work *work, const split_cell *cell, bool *begun);
-/** Cuts a cell by its node, cell->thin. */
+/** Cuts a cell by its node, cell->thin, or goes on to the next node where that separates nothing. */
 froe_status thin_cut(split_work *work, const split_cell *cell);
 /** Adds what a worker noted. */
 void thin_add_up(split_thin_notes *sum, const split_thin_notes *notes);
