@@ -1,4 +1,4 @@
-/* kinetic.h: segments of the plane that move, exactly. Part of the core library.
+/* kinetic.h: segments of the plane and triangles in space that move, exactly. Part of the core library.
  *
  *     froe_motion *motion;
  *     froe_motion_options w = froe_motion_defaults();
@@ -23,11 +23,12 @@ extern "C" {
 
 /* ------------------------------------------------------------------ motion -- */
 
-/** Moving segments: vertices with flight plans, and objects with two vertices each. */
+/** Vertices with flight plans, and objects that they are the corners of: in the plane segments, in space triangles. */
 typedef struct froe_motion froe_motion;
 
 typedef struct froe_motion_options {
     size_t size;       /**< set by froe_motion_defaults() */
+    unsigned dim;      /**< 2 (default): segments of the plane; 3: triangles in space */
     double begin, end; /**< the window: the time that is considered, begin < end. No default */
     double tick;       /**< the grid of time that a kinetic structure walks on: a power of 2, at most 2^52 of them in
                             the window. 0 (default): 2^31 to 2^32 ticks in the window */
@@ -35,39 +36,40 @@ typedef struct froe_motion_options {
 FROE_API froe_motion_options froe_motion_defaults(void);
 
 /** A motion without objects. alloc is copied; NULL: malloc. FROE_E_OPTIONS, FROE_E_INPUT: the window is empty, endless
- * or NaN. FROE_E_MEMORY. */
+ * or NaN, or there is no such dimension. FROE_E_MEMORY. */
 FROE_API froe_status froe_motion_new(const froe_motion_options *options, const froe_allocator *alloc, froe_motion **out,
                                      froe_diagnostic *diag);
 FROE_API void froe_motion_free(froe_motion *motion);
 
-/** A batch of moving segments, as arrays the caller keeps. Vertex v passes the points
+/** A batch of moving objects, as arrays the caller keeps. In the plane, vertex v passes the points
  *     coords[2 i], coords[2 i + 1]  at  times[i],   i = starts[v] .. starts[v+1]-1,
  * in between on a straight line at constant speed, or, where controls[2 i], controls[2 i + 1] is not NaN, on
  * the parabola with that control point (Bezier's form):
  *     p(t) = ((t1-t)^2 p0 + 2 (t1-t)(t-t0) c + (t-t0)^2 p1) / (t1-t0)^2
  * so a body that starts at p0 with speed s has c = p0 + s (t1-t0) / 2. A vertex with one time never moves.
- * Segment j joins the vertices vertices[2 j] and vertices[2 j + 1] of the batch; segments may share vertices. */
+ * Segment j joins the vertices vertices[2 j] and vertices[2 j + 1] of the batch; segments may share vertices.
+ * In space there are three numbers for each time, and triangle j has the corners vertices[3 j] to vertices[3 j + 2]. */
 typedef struct froe_moving {
     size_t size;              /**< set by froe_moving_defaults() */
     size_t vertex_count;      /**< flight plans */
     const size_t *starts;     /**< vertex_count + 1 offsets into times */
     const double *times;      /**< strictly increasing in each plan */
-    const double *coords;     /**< x, y for each time */
-    const double *controls;   /**< x, y for each time but each plan's last (ignored); NULL: all pieces linear */
-    size_t count;             /**< segments */
-    const uint32_t *vertices; /**< 2 a segment; NULL: 0 1, 2 3, 4 5, ... */
-    const double *births;     /**< count times at which segments appear; NULL: with the window, as is -INFINITY */
+    const double *coords;     /**< x, y (and z) for each time */
+    const double *controls;   /**< as many for each time but each plan's last (ignored); NULL: all pieces linear */
+    size_t count;             /**< objects: segments or triangles */
+    const uint32_t *vertices; /**< 2 a segment, 3 a triangle; NULL: each number once, in order */
+    const double *births;     /**< count times at which objects appear; NULL: with the window, as is -INFINITY */
     const double *deaths;     /**< last times at which they are there; NULL: with the window, as is INFINITY */
     const uint64_t *tags;     /**< the caller's names; NULL: each object's own id */
-    const uint32_t *groups;   /**< group of each segment; NULL: `group` for all */
+    const uint32_t *groups;   /**< group of each object; NULL: `group` for all */
     uint32_t group;           /**< FROE_NONE: no group */
 } froe_moving;
 FROE_API froe_moving froe_moving_defaults(void); /**< none, no groups */
 
 /** Adds a batch: all of it, or on failure none of it. Objects have the ids 0, 1, ... in the order they were added, and
  * so have vertices. FROE_E_INPUT: a coordinate or time is NaN or infinite, times do not increase, a vertex has no plan
- * or one that does not cover the part of the window in which its segments live, a segment dies before it appears.
- * FROE_E_ARG, FROE_E_OPTIONS, FROE_E_LIMIT, FROE_E_MEMORY. O(times + segments). */
+ * or one that does not cover the part of the window in which its objects live, an object dies before it appears, two
+ * corners of a triangle are one vertex. FROE_E_ARG, FROE_E_OPTIONS, FROE_E_LIMIT, FROE_E_MEMORY. O(times + objects). */
 FROE_API froe_status froe_motion_add(froe_motion *motion, const froe_moving *batch, froe_diagnostic *diag);
 
 /** As froe_scene_add_group(). */
@@ -83,7 +85,7 @@ FROE_API froe_motion_options froe_motion_window(const froe_motion *motion);
 
 /** One object, by value. */
 typedef struct froe_moving_object {
-    uint32_t vertices[2]; /**< FROE_NONE for an id out of range */
+    uint32_t vertices[3]; /**< the third of a segment, and all for an id out of range: FROE_NONE */
     double birth, death;  /**< within the window; birth > death: never there */
     uint32_t group;
     uint64_t tag;
@@ -92,16 +94,16 @@ FROE_API froe_moving_object froe_motion_object(const froe_motion *motion, uint32
 
 /** One instant of a vertex's plan. */
 typedef struct froe_moving_knot {
-    double time, at[2];
-    double control[2]; /**< of the piece that begins here; NaN: linear, or the last instant */
+    double time, at[3]; /**< the third of the plane: 0 */
+    double control[3];  /**< of the piece that begins here; NaN: linear, or the last instant */
 } froe_moving_knot;
 FROE_API size_t froe_motion_knot_count(const froe_motion *motion, uint32_t vertex);
 /** REQUIRES: vertex and knot in range. O(1). */
 FROE_API froe_moving_knot froe_motion_knot(const froe_motion *motion, uint32_t vertex, size_t knot);
 
-/** Where a vertex is at a time, for output: x and y, each within a few units in the last place of the greatest
- * coordinate nearby. False (nothing written): its plan does not cover the time. O(log knots). */
-FROE_API bool froe_motion_position(const froe_motion *motion, uint32_t vertex, double time, double at[2]);
+/** Where a vertex is at a time, for output: x, y and, in space, z, each within a few units in the last place of the
+ * greatest coordinate nearby. False (nothing written): its plan does not cover the time. O(log knots). */
+FROE_API bool froe_motion_position(const froe_motion *motion, uint32_t vertex, double time, double *at);
 
 /* ---------------------------------------------------------------- contacts -- */
 

@@ -149,6 +149,8 @@ froe_status froe_kinetic_new(froe_motion *motion, const froe_kinetic_options *op
     BASE_FLOATS_OWN;
     if (!motion || !options || !out) return support_fail_null(diag, __func__);
     if (options->size != sizeof *options) return support_fail_defaults(diag, "froe_kinetic_defaults");
+    if (motion->dim != 2)
+        return support_fail(diag, FROE_E_UNSUPPORTED, "A partition in motion is of segments of the plane.");
     froe_allocator memory = support_allocator(alloc);
     froe_kinetic *k;
     if (new_at(motion, &memory, options, 1, &k)) return support_fail_memory(diag);

@@ -245,6 +245,7 @@ froe_status froe_motion_contacts(const froe_motion *motion, const froe_contact_o
     BASE_FLOATS_OWN;
     const froe_contact_options standard = froe_contact_defaults();
     if (!motion || !fn) return support_fail_null(diag, __func__);
+    if (motion->dim != 2) return support_fail(diag, FROE_E_UNSUPPORTED, "Contacts of triangles are not found yet.");
     contact_search s = {.m = motion, .o = options ? options : &standard};
     froe_status status = check_contact_search(&s, diag);
     if (status) return status;

@@ -11,11 +11,15 @@ enum {
 };
 
 froe_motion_options froe_motion_defaults(void) {
-    return (froe_motion_options){.size = sizeof(froe_motion_options), .begin = NAN, .end = NAN};
+    return (froe_motion_options){.size = sizeof(froe_motion_options), .dim = 2, .begin = NAN, .end = NAN};
 }
 
 froe_moving froe_moving_defaults(void) {
     return (froe_moving){.size = sizeof(froe_moving), .group = FROE_NONE};
+}
+
+const char *motion_noun(const froe_motion *m) {
+    return m->dim == 3 ? "triangle" : "segment";
 }
 
 /* --------------------------------------------------------------------- ticks -- */
@@ -80,7 +84,12 @@ froe_status froe_motion_new(const froe_motion_options *options, const froe_alloc
     if (!options || !out) return support_fail_null(diag, __func__);
     if (options->size != sizeof *options) return support_fail_defaults(diag, "froe_motion_defaults");
     if (num_rounding_check(diag)) return FROE_E_UNSUPPORTED;
-    froe_motion window = {.alloc = support_allocator(alloc), .unit = INT16_MAX, .top = INT16_MIN}; /* nothing yet */
+    if (options->dim != 2 && options->dim != 3)
+        return support_fail(diag, FROE_E_OPTIONS, "A motion has 2 or 3 dimensions, not %u.", options->dim);
+    froe_motion window = {.alloc = support_allocator(alloc),
+                          .dim = (int)options->dim,
+                          .unit = INT16_MAX,
+                          .top = INT16_MIN}; /* nothing yet */
     window.time_unit = INT16_MAX;
     window.time_top = INT16_MIN;
     froe_status status = set_window(&window, options, diag);
@@ -88,7 +97,7 @@ froe_status froe_motion_new(const froe_motion_options *options, const froe_alloc
     froe_motion *m = support_realloc(&window.alloc, NULL, 0, sizeof *m);
     if (!m) return support_fail_memory(diag);
     *m = window;
-    status = froe_scene_new(2, &m->alloc, &m->names);
+    status = froe_scene_new(m->dim, &m->alloc, &m->names);
     if (status) {
         froe_motion_free(m);
         return support_fail_memory(diag);
@@ -134,6 +143,7 @@ size_t froe_motion_vertex_count(const froe_motion *motion) {
 froe_motion_options froe_motion_window(const froe_motion *motion) {
     BASE_FLOATS_OWN;
     froe_motion_options window = froe_motion_defaults();
+    window.dim = (unsigned)motion->dim;
     window.begin = motion->begin;
     window.end = motion->end;
     window.tick = ldexp(1, motion->power);
@@ -142,9 +152,9 @@ froe_motion_options froe_motion_window(const froe_motion *motion) {
 
 froe_moving_object froe_motion_object(const froe_motion *motion, uint32_t object) {
     if (!motion || object >= motion->objects.count)
-        return (froe_moving_object){.vertices = {FROE_NONE, FROE_NONE}, .group = FROE_NONE};
+        return (froe_moving_object){.vertices = {FROE_NONE, FROE_NONE, FROE_NONE}, .group = FROE_NONE};
     const motion_object *o = motion->objects.data + object;
-    return (froe_moving_object){{o->vertices[0], o->vertices[1]}, o->birth, o->death, o->group, o->tag};
+    return (froe_moving_object){{o->vertices[0], o->vertices[1], o->vertices[2]}, o->birth, o->death, o->group, o->tag};
 }
 
 size_t froe_motion_knot_count(const froe_motion *motion, uint32_t vertex) {
@@ -153,5 +163,5 @@ size_t froe_motion_knot_count(const froe_motion *motion, uint32_t vertex) {
 
 froe_moving_knot froe_motion_knot(const froe_motion *motion, uint32_t vertex, size_t knot) {
     const motion_knot *k = motion->knots.data + motion->plans.data[vertex].first + knot;
-    return (froe_moving_knot){k->time, {k->at[0], k->at[1]}, {k->control[0], k->control[1]}};
+    return (froe_moving_knot){k->time, {k->at[0], k->at[1], k->at[2]}, {k->control[0], k->control[1], k->control[2]}};
 }

@@ -6,7 +6,7 @@
  *     ticks   | | | | | | | | | | | | |
  *             1 1 1 1 2 2 2 2 2 3 3 3 3        the piece a tick belongs to: the last that begins at or before it
  *
- * Positions are homogeneous, (X/W, Y/W) with W > 0. A linear piece p0 -> p1 has
+ * Positions are homogeneous, (X/W, Y/W) or (X/W, Y/W, Z/W) with W > 0. A linear piece p0 -> p1 has
  *     X = p0 (t1-t) + p1 (t-t0),   W = t1-t0,
  * a quadratic one Bezier's form with the squares; so knots are met exactly from both sides, and nothing is divided.
  *
@@ -20,7 +20,8 @@
 #include <froe/kinetic.h>
 
 typedef struct motion_knot {
-    double time, at[2], control[2]; /**< control[0] NaN: the piece that begins here is linear */
+    double time, at[3], control[3]; /**< as many as the motion has dimensions, the others 0; control[0] NaN: the piece
+                                         that begins here is linear */
     int64_t tick;                   /**< the first at or after `time`; far away: +- MOTION_FAR */
     int16_t unit, bits; /**< of times while the piece lasts, measured from its ends: whole multiples of 2^unit, below
                              2^bits of them */
@@ -34,7 +35,7 @@ typedef struct motion_plan {
 } motion_plan;
 
 typedef struct motion_object {
-    uint32_t vertices[2];
+    uint32_t vertices[3]; /**< as many as the motion has dimensions, the others FROE_NONE */
     uint32_t group;
     double birth, death; /**< clipped to the window */
     int64_t first, last; /**< ticks at which it is there; first > last: none */
@@ -43,6 +44,7 @@ typedef struct motion_object {
 
 struct froe_motion {
     froe_allocator alloc;
+    int dim; /**< 2: objects are segments, 3: triangles; an object has as many vertices */
     double begin, end;
     int power;               /**< a tick is 2^power, power >= -1074 */
     int64_t last_tick;       /**< the last in the window */
@@ -54,6 +56,9 @@ struct froe_motion {
     ARRAY(motion_object) objects;
     froe_scene *names; /**< a scene of groups alone */
 };
+
+/** "segment" or "triangle": what the objects of a motion are, for messages. */
+const char *motion_noun(const froe_motion *m);
 
 /** The first tick at or after a time / the last at or before it; beyond +-2^62: +-MOTION_FAR. Exact. */
 int64_t motion_tick_after(const froe_motion *m, double time);
@@ -79,30 +84,33 @@ motion_piece motion_piece_at_time(const froe_motion *m, uint32_t vertex, double 
 /** The piece after knot number `knot` of the vertex's plan. */
 motion_piece motion_piece_after(const froe_motion *m, uint32_t vertex, uint32_t knot);
 
-/** X, Y, W in units of 2^unit (of the motion) as stack integers of less than 2^126. False: too wide. */
-bool motion_whole(const froe_motion *m, const motion_piece *piece, int64_t tick, num_short out[3]);
-/** X, Y, W: always there. Takes less than 4000 limbs of the arena, for any finite doubles. */
-void motion_dyadic(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick, num_dyadic out[3]);
-/** X, Y, W with error bounds. */
-void motion_ball(const froe_motion *m, const motion_piece *piece, int64_t tick, num_ball out[3]);
-/** x and y themselves, each no further than the returned error from the truth (infinite if there is no telling). */
-double motion_near(const froe_motion *m, const motion_piece *piece, int64_t tick, double out[2]);
+/* Each coordinate of a place, one after the other, and then its W: dim + 1 numbers. */
+/** In units of 2^unit (of the motion) as stack integers of less than 2^126. False: too wide. */
+bool motion_whole(const froe_motion *m, const motion_piece *piece, int64_t tick, num_short *out);
+/** Always there. Takes less than 6000 limbs of the arena, for any finite doubles. */
+void motion_dyadic(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick, num_dyadic *out);
+/** With error bounds. */
+void motion_ball(const froe_motion *m, const motion_piece *piece, int64_t tick, num_ball *out);
+/** The coordinates themselves, without W, each no further than the returned error from the truth (infinite if there is
+ * no telling). */
+double motion_near(const froe_motion *m, const motion_piece *piece, int64_t tick, double *out);
 
 /** Extends lo .. hi to hold the piece between two times, rounded outwards, to at most +-DBL_MAX. */
-void motion_extend(const froe_motion *m, const motion_piece *piece, double from, double to, double lo[2], double hi[2]);
+void motion_extend(const froe_motion *m, const motion_piece *piece, double from, double to, double *lo, double *hi);
 
 /** The piece as polynomials in ticks s counted from `tick`:
- *     X = x[0] + x[1] s + x[2] s^2,  Y alike,  W = w (constant)
- * for degree + 1 coefficients; the others are 0. The tick may lie anywhere. Less than 8000 limbs. */
+ *     X = x[0] + x[1] s + x[2] s^2,  Y and Z alike,  W = w (constant)
+ * for degree + 1 coefficients; the others are 0, as is Z in the plane. The tick may lie anywhere. Less than
+ * 12000 limbs. */
 typedef struct motion_dyadic_curve {
-    num_dyadic x[3], y[3], w;
+    num_dyadic x[3], y[3], z[3], w;
 } motion_dyadic_curve;
 typedef struct motion_ball_curve {
-    num_ball x[3], y[3], w;
+    num_ball x[3], y[3], z[3], w;
 } motion_ball_curve;
 /** The same in the units of motion_whole(). */
 typedef struct motion_whole_curve {
-    num_short x[3], y[3], w;
+    num_short x[3], y[3], z[3], w;
 } motion_whole_curve;
 /** Each less than 2^126. False: too wide. */
 bool motion_curve_whole(const froe_motion *m, const motion_piece *piece, int64_t tick, motion_whole_curve *out);

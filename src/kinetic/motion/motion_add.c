@@ -86,7 +86,8 @@ static void take_time(plan_adding *a, double time) {
 }
 
 static froe_status take_knot(plan_adding *a, const plan_input *p, size_t i, motion_knot *knot) {
-    *knot = (motion_knot){.time = p->times[i] + 0.0, .control = {NAN, NAN}, .bits = 0};
+    const size_t dim = (size_t)a->motion->dim;
+    *knot = (motion_knot){.time = p->times[i] + 0.0, .control = {NAN, NAN, NAN}, .bits = 0};
     if (!isfinite(knot->time)) return fail_at_knot(a, p, i, "time", knot->time);
     if (i && !(knot->time > knot[-1].time))
         return support_fail_at(a->diag, FROE_E_INPUT, FROE_NONE, p->vertex, FROE_NONE,
@@ -94,12 +95,18 @@ static froe_status take_knot(plan_adding *a, const plan_input *p, size_t i, moti
                                i - 1, knot[-1].time);
     knot->tick = motion_tick_after(a->motion, knot->time);
     take_time(a, knot->time);
-    froe_status status = take_number(a, p, i, "x", p->coords[2 * i], &knot->at[0]);
-    if (!status) status = take_number(a, p, i, "y", p->coords[2 * i + 1], &knot->at[1]);
-    const double *c = p->controls && i + 1 < p->count ? p->controls + 2 * i : knot->control;
-    if (status || (isnan(c[0]) && isnan(c[1]))) return status;
-    status = take_number(a, p, i, "x of control point", c[0], &knot->control[0]);
-    return status ? status : take_number(a, p, i, "y of control point", c[1], &knot->control[1]);
+    static const char *const names[2][3] = {{"x", "y", "z"},
+                                            {"x of control point", "y of control point", "z of control point"}};
+    const double *c = p->controls && i + 1 < p->count ? p->controls + dim * i : knot->control;
+    bool straight = true;
+    froe_status status = FROE_OK;
+    for (size_t k = 0; k < dim && !status; k++) {
+        straight = straight && isnan(c[k]);
+        status = take_number(a, p, i, names[0][k], p->coords[dim * i + k], &knot->at[k]);
+    }
+    for (size_t k = 0; k < dim && !status && !straight; k++)
+        status = take_number(a, p, i, names[1][k], c[k], &knot->control[k]);
+    return status;
 }
 
 /* Appends the knots of a plan. REQUIRES: room. */
@@ -134,66 +141,78 @@ static froe_status check_cover(const plan_adding *a, const motion_plan *plan, ui
                                life_end);
     return support_fail_at(
         a->diag, FROE_E_INPUT, object, vertex, FROE_NONE,
-        "segment %u: The plan of its vertex %u %s at %.17g, %s the segment's time in the window does, at %.17g.",
-        object, vertex, begins, plan_end, after, life_end);
+        "%s %u: The plan of its vertex %u %s at %.17g, %s the %s's time in the window does, at %.17g.",
+        motion_noun(a->motion), object, vertex, begins, plan_end, after, motion_noun(a->motion), life_end);
 }
 
 /* --------------------------------------------------------------------- a batch -- */
 
 static froe_status check_batch(const plan_adding *a) {
     const froe_moving *b = a->batch;
+    const froe_motion *m = a->motion;
     if (b->size != sizeof *b) return support_fail_defaults(a->diag, "froe_moving_defaults");
     if ((b->vertex_count && (!b->starts || !b->times || !b->coords)) || (b->count && !b->vertex_count))
-        return support_fail(a->diag, FROE_E_ARG, "The batch has segments without flight plans.");
-    const froe_motion *m = a->motion;
+        return support_fail(a->diag, FROE_E_ARG, "The batch has %ss without flight plans.", motion_noun(m));
     if (b->vertex_count > LIMIT - m->plans.count || b->count > LIMIT - m->objects.count)
-        return support_fail(a->diag, FROE_E_LIMIT, "There are more than %u vertices or segments.", LIMIT);
+        return support_fail(a->diag, FROE_E_LIMIT, "There are more than %u vertices or %ss.", LIMIT, motion_noun(m));
     for (size_t v = 0; v < b->vertex_count; v++)
         if (b->starts[v] > b->starts[v + 1])
             return support_fail(a->diag, FROE_E_ARG, "The plan of vertex %zu ends before it starts.", v);
     for (uint32_t j = 0; j < b->count; j++) {
         uint32_t group = b->groups ? b->groups[j] : b->group;
         if (group != FROE_NONE && group >= m->names->group_count)
-            return support_fail_at(a->diag, FROE_E_INPUT, j, FROE_NONE, FROE_NONE, "segment %u: There is no group %u.",
-                                   j, group);
+            return support_fail_at(a->diag, FROE_E_INPUT, j, FROE_NONE, FROE_NONE, "%s %u: There is no group %u.",
+                                   motion_noun(m), j, group);
     }
     return FROE_OK;
 }
 
 static froe_status take_vertices(plan_adding *a) {
     const froe_moving *b = a->batch;
+    const size_t dim = (size_t)a->motion->dim;
     for (size_t v = 0; v < b->vertex_count; v++) {
         size_t start = b->starts[v];
-        plan_input plan = {b->starts[v + 1] - start, b->times + start, b->coords + 2 * start, NULL, (uint32_t)v};
-        if (b->controls) plan.controls = b->controls + 2 * start;
+        plan_input plan = {b->starts[v + 1] - start, b->times + start, b->coords + dim * start, NULL, (uint32_t)v};
+        if (b->controls) plan.controls = b->controls + dim * start;
         froe_status status = take_plan(a, &plan, a->motion->plans.data + a->motion->plans.count + v);
         if (status) return status;
     }
     return FROE_OK;
 }
 
-static froe_status take_segment(plan_adding *a, uint32_t j, motion_object *o) {
+/* Vertex k of an object whose life is known. */
+static froe_status take_corner(const plan_adding *a, uint32_t j, uint32_t k, motion_object *o) {
+    const froe_moving *b = a->batch;
+    const froe_motion *m = a->motion;
+    const size_t at = (size_t)m->dim * j + k;
+    const size_t v = b->vertices ? b->vertices[at] : at;
+    if (v >= b->vertex_count)
+        return support_fail_at(a->diag, FROE_E_INPUT, j, FROE_NONE, FROE_NONE, "%s %u: There is no vertex %zu.",
+                               motion_noun(m), j, v);
+    o->vertices[k] = (uint32_t)(m->plans.count + v);
+    for (uint32_t i = 0; i < k && m->dim == 3; i++)
+        if (o->vertices[i] == o->vertices[k])
+            return support_fail_at(a->diag, FROE_E_INPUT, j, (uint32_t)v, FROE_NONE,
+                                   "triangle %u: Two of its corners are the vertex %zu.", j, v);
+    return check_cover(a, m->plans.data + o->vertices[k], (uint32_t)v, j, o->birth, o->death);
+}
+
+static froe_status take_mover(plan_adding *a, uint32_t j, motion_object *o) {
     const froe_moving *b = a->batch;
     const froe_motion *m = a->motion;
     const double birth = b->births ? b->births[j] : m->begin, death = b->deaths ? b->deaths[j] : m->end;
     if (!(birth <= death) || birth == (double)INFINITY || death == -(double)INFINITY)
-        return support_fail_at(a->diag, FROE_E_INPUT, j, FROE_NONE, FROE_NONE,
-                               "segment %u: Its life from %g to %g is none.", j, birth, death);
+        return support_fail_at(a->diag, FROE_E_INPUT, j, FROE_NONE, FROE_NONE, "%s %u: Its life from %g to %g is none.",
+                               motion_noun(m), j, birth, death);
     o->birth = birth > m->begin ? birth + 0.0 : m->begin;
     o->death = death < m->end ? death + 0.0 : m->end;
     take_time(a, o->birth);
     take_time(a, o->death);
     o->first = motion_tick_after(m, o->birth);
     o->last = motion_tick_before(m, o->death);
+    o->vertices[2] = FROE_NONE;
     froe_status status = FROE_OK;
-    for (int k = 0; k < 2 && !status; k++) {
-        uint32_t v = b->vertices ? b->vertices[2 * (size_t)j + (size_t)k] : 2 * j + (uint32_t)k;
-        if (v >= b->vertex_count)
-            return support_fail_at(a->diag, FROE_E_INPUT, j, FROE_NONE, FROE_NONE, "segment %u: There is no vertex %u.",
-                                   j, v);
-        o->vertices[k] = (uint32_t)m->plans.count + v;
-        status = check_cover(a, m->plans.data + o->vertices[k], v, j, o->birth, o->death);
-    }
+    for (uint32_t k = 0; k < (uint32_t)m->dim && !status; k++) status = take_corner(a, j, k, o);
     o->tag = b->tags ? b->tags[j] : m->objects.count + j;
     o->group = b->groups ? b->groups[j] : b->group;
     return status;
@@ -229,7 +248,7 @@ froe_status froe_motion_add(froe_motion *motion, const froe_moving *batch, froe_
         return support_fail_memory(diag);
     status = take_vertices(&a);
     for (uint32_t j = 0; j < batch->count && !status; j++)
-        status = take_segment(&a, j, motion->objects.data + motion->objects.count + j);
+        status = take_mover(&a, j, motion->objects.data + motion->objects.count + j);
     if (status) return status;
     commit(&a);
     motion->plans.count += batch->vertex_count;

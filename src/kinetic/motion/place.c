@@ -60,7 +60,7 @@ static num_short whole_ticks(const froe_motion *m, const motion_piece *piece, in
     return piece->degree ? (num_short)ticks << (m->power - piece->from->unit) : 0;
 }
 
-bool motion_whole(const froe_motion *m, const motion_piece *piece, int64_t tick, num_short out[3]) {
+bool motion_whole(const froe_motion *m, const motion_piece *piece, int64_t tick, num_short *out) {
     enum { MOST = 125 }; /* a sum of three products with weights whose sum is W */
     if (m->top - m->unit + piece->degree * piece->from->bits > MOST) return false;
     place_at_whole(NULL, m, piece, whole_ticks(m, piece, tick), out);
@@ -84,11 +84,11 @@ static num_ball ball_ticks(const froe_motion *m, int64_t ticks) {
     return num_ball_from(ldexp((double)ticks, m->power));
 }
 
-void motion_dyadic(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick, num_dyadic out[3]) {
+void motion_dyadic(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick, num_dyadic *out) {
     place_at_dyadic(arena, m, piece, dyadic_ticks(arena, m, tick), out);
 }
 
-void motion_ball(const froe_motion *m, const motion_piece *piece, int64_t tick, num_ball out[3]) {
+void motion_ball(const froe_motion *m, const motion_piece *piece, int64_t tick, num_ball *out) {
     place_at_ball(NULL, m, piece, ball_ticks(m, tick), out);
 }
 
@@ -142,13 +142,15 @@ static num_ball share_of_piece(const froe_motion *m, const motion_piece *piece, 
     return divide_place(w.b, num_ball_add(w.a, w.b));
 }
 
-double motion_near(const froe_motion *m, const motion_piece *piece, int64_t tick, double out[2]) {
+double motion_near(const froe_motion *m, const motion_piece *piece, int64_t tick, double *out) {
     num_ball share = share_of_piece(m, piece, ball_ticks(m, tick));
-    num_ball x = along(piece, share, share, 0), y = along(piece, share, share, 1);
-    out[0] = x.x;
-    out[1] = y.x;
-    if (!(x.e < (double)INFINITY && y.e < (double)INFINITY)) return (double)INFINITY; /* NaN, too */
-    return x.e > y.e ? x.e : y.e;
+    double error = 0;
+    for (int k = 0; k < m->dim; k++) {
+        const num_ball x = along(piece, share, share, k);
+        out[k] = x.x;
+        if (!(x.e <= error)) error = x.e < (double)INFINITY ? x.e : (double)INFINITY; /* NaN, too */
+    }
+    return error;
 }
 
 static void extend(num_ball x, double *lo, double *hi) {
@@ -158,12 +160,11 @@ static void extend(num_ball x, double *lo, double *hi) {
 }
 
 /* The ends and, of a parabola, the control point of the part (the blossom of both shares). */
-void motion_extend(const froe_motion *m, const motion_piece *piece, double from, double to, double lo[2],
-                   double hi[2]) {
+void motion_extend(const froe_motion *m, const motion_piece *piece, double from, double to, double *lo, double *hi) {
     num_ball begin = num_ball_from(m->begin);
     num_ball s = share_of_piece(m, piece, num_ball_sub(num_ball_from(from), begin));
     num_ball t = share_of_piece(m, piece, num_ball_sub(num_ball_from(to), begin));
-    for (int k = 0; k < 2; k++) {
+    for (int k = 0; k < m->dim; k++) {
         extend(along(piece, s, s, k), &lo[k], &hi[k]);
         extend(along(piece, t, t, k), &lo[k], &hi[k]);
         if (piece->degree == 2) extend(along(piece, s, t, k), &lo[k], &hi[k]);
@@ -214,7 +215,7 @@ motion_piece motion_piece_at_time(const froe_motion *m, uint32_t vertex, double 
     return motion_piece_after(m, vertex, low);
 }
 
-bool froe_motion_position(const froe_motion *m, uint32_t vertex, double time, double at[2]) {
+bool froe_motion_position(const froe_motion *m, uint32_t vertex, double time, double *at) {
     BASE_FLOATS_OWN;
     if (!m || vertex >= m->plans.count || !isfinite(time)) return false;
     motion_piece piece = motion_piece_at_time(m, vertex, time);
@@ -222,6 +223,6 @@ bool froe_motion_position(const froe_motion *m, uint32_t vertex, double time, do
     num_ball share = num_ball_from(0);
     if (piece.degree) /* halves: ends may be as far apart as doubles go */
         share.x = (0.5 * time - 0.5 * piece.from->time) / (0.5 * piece.to->time - 0.5 * piece.from->time);
-    for (int k = 0; k < 2; k++) at[k] = share.x < 1 ? along(&piece, share, share, k).x : piece.to->at[k];
+    for (int k = 0; k < m->dim; k++) at[k] = share.x < 1 ? along(&piece, share, share, k).x : piece.to->at[k];
     return true;
 }
