@@ -1,4 +1,5 @@
-/* isolate.c: bisection by Sturm's counts until a root is alone, by signs from then on. */
+/* isolate.c: bisection until a root is alone, by Descartes' rule with error bounds or else by Sturm's counts; by signs
+ * from then on. */
 #include "num/isolate.h"
 #include <string.h>
 
@@ -151,6 +152,55 @@ static outcome find_root(num_arena *arena, int before, int k, num_isolated *at) 
     return FOUND;
 }
 
+/* ------------------------------------------------------------ by error bounds -- */
+
+/* A polynomial over a half of a half ... of 0 .. 1, as one over 0 .. 1. */
+typedef struct patch {
+    num_ball_poly f;
+    int depth;
+    uint64_t lo; /* of 2^-64 */
+} patch;
+
+/* f(x / 2), or f((x + 1) / 2). */
+static patch half_patch(const patch *p, bool upper) {
+    patch half = {p->f, p->depth + 1, p->lo};
+    for (int i = 1; i <= p->f.degree; i++) half.f.c[i] = num_ball_mul(half.f.c[i], num_ball_from(ldexp(1, -i)));
+    if (!upper) return half;
+    half.lo |= (uint64_t)1 << (64 - half.depth);
+    for (int i = 0; i < p->f.degree; i++)
+        for (int j = p->f.degree - 1; j >= i; j--) half.f.c[j] = num_ball_add(half.f.c[j], half.f.c[j + 1]);
+    return half;
+}
+
+/* Descartes' rule tells for sure of no root or one where the coefficients of Bernstein have sure signs; else halves are
+ * looked at. False: it cannot tell. */
+static bool find_by_balls(num_isolation *out) {
+    enum { MOST = 24 };
+    patch stack[MOST + 2];
+    int count = 1;
+    stack[0] = (patch){out->near, 0, 0};
+    out->count = 0;
+    while (count) {
+        patch p = stack[--count];
+        int sign[NUM_DEGREE + 1];
+        const int changes = num_ball_poly_changes(&p.f, sign);
+        if (sign[0] == NUM_UNSURE || !sign[0] || sign[p.f.degree] == NUM_UNSURE || !sign[p.f.degree]) return false;
+        if (changes == 0) continue;
+        if (changes == 1) {
+            num_isolated *root = &out->root[out->count++];
+            *root = (num_isolated){.of = out, .depth = p.depth, .low_sign = sign[0]};
+            root->lo[NUM_FRACTION_LIMBS - 1] = p.lo;
+            continue;
+        }
+        if (p.depth == MOST) return false;
+        stack[count++] = half_patch(&p, true);
+        stack[count++] = half_patch(&p, false);
+    }
+    return true;
+}
+
+/* --------------------------------------------------------------- by exact counts -- */
+
 /* All roots of the chain's polynomial behind the `exact` ones that are known, until a middle is hit. */
 static outcome find_all(num_arena *arena, num_isolation *out, int exact) {
     int before = num_chain_variations(arena, &out->chain, (num_dyadic){0});
@@ -171,6 +221,11 @@ static outcome find_all(num_arena *arena, num_isolation *out, int exact) {
 void num_isolate(num_arena *arena, const num_poly *f, num_isolation *out) {
     num_poly inside = num_poly_without(arena, f, (num_dyadic){0});
     inside = num_poly_without(arena, &inside, num_dyadic_scaled(arena, 1, 1, 0));
+    out->chain.count = 1;
+    out->chain.p[0] = inside;
+    out->near = num_poly_balls(arena, &inside);
+    out->count = 0;
+    if (inside.degree < 1 || find_by_balls(out)) return;
     outcome found = HIT;
     for (int exact = 0; found == HIT; exact++) {
         if (exact) inside = num_poly_without(arena, &inside, fraction(out->root[exact - 1].lo));

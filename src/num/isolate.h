@@ -25,7 +25,8 @@ typedef struct num_isolated {
 
 /** A polynomial with its roots, ascending. Coefficients live in the arena. Not to be moved. */
 struct num_isolation {
-    num_chain chain; /**< of the polynomial without its roots at 0 and 1 */
+    num_chain
+        chain; /**< of the polynomial without its roots at 0 and 1; only that if its roots are simple and far apart */
     num_ball_poly near;
     int count; /**< -1: two roots are too close */
     num_isolated root[NUM_DEGREE];

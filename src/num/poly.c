@@ -52,33 +52,77 @@ static num_poly product(num_arena *arena, const num_poly *f, const num_poly *g) 
     return fg;
 }
 
-/* A positive multiple of the remainder of a by b, not zero. Each step of pseudo-division takes |lead b| a, less the
- * multiple of b that takes a's leading term away. */
+/* |lead b|^(deg a - deg b + 1) times the remainder of a by b, not zero. Each step of pseudo-division takes |lead b| a,
+ * less the multiple of b that takes a's leading term away. */
 static num_poly remainder_of(num_arena *arena, num_poly a, const num_poly *b) {
-    while (a.degree >= b->degree) {
-        num_dyadic lead = b->c[b->degree], top = a.c[a.degree];
-        if (lead.sign < 0) lead.sign = 1, top.sign = -top.sign;
+    int steps = a.degree - b->degree + 1;
+    num_dyadic lead = b->c[b->degree];
+    const int sign = lead.sign;
+    lead.sign = 1;
+    for (; a.degree >= b->degree; steps--) {
+        num_dyadic top = a.c[a.degree];
+        top.sign *= sign;
         const int shift = a.degree - b->degree;
         for (int i = 0; i < a.degree; i++) a.c[i] = num_dyadic_mul(arena, a.c[i], lead);
         for (int i = 0; i < b->degree; i++)
             a.c[i + shift] = num_dyadic_sub(arena, a.c[i + shift], num_dyadic_mul(arena, top, b->c[i]));
         num_poly_trim(&a, a.degree - 1);
     }
+    for (; steps > 0; steps--)
+        for (int i = 0; i <= a.degree; i++) a.c[i] = num_dyadic_mul(arena, a.c[i], lead);
     return a;
+}
+
+static num_dyadic power_of(num_arena *arena, num_dyadic x, int power) {
+    num_dyadic product = num_dyadic_scaled(arena, 1, 1, 0);
+    for (; power > 0; power--) product = num_dyadic_mul(arena, product, x);
+    return product;
+}
+
+/* What Knuth's algorithm calls g and h, without their signs. */
+typedef struct shrinking {
+    num_dyadic g, h;
+} shrinking;
+
+/* Gives back what was made behind the mark, but for the coefficients, which were made one after the other. */
+static void keep_coefficients(num_arena *arena, size_t mark, num_poly *f) {
+    for (int i = 0; i <= f->degree; i++, mark = arena->top) f->c[i] = num_dyadic_keep(arena, mark, f->c[i]);
+    arena->top = mark;
+}
+
+/* The next of a chain that ends with a, b: -remainder / (g h^(deg a - deg b)); g and h go on to the next step. */
+static num_poly next_in_chain(num_arena *arena, const num_poly *a, const num_poly *b, shrinking *s) {
+    const int drop = a->degree - b->degree;
+    const size_t mark = arena->top;
+    num_poly r = remainder_of(arena, *a, b);
+    const num_dyadic by = num_dyadic_mul(arena, s->g, power_of(arena, s->h, drop));
+    for (int i = 0; i <= r.degree; i++) {
+        r.c[i] = num_dyadic_divide(arena, r.c[i], by);
+        r.c[i].sign = -r.c[i].sign;
+    }
+    keep_coefficients(arena, mark, &r);
+    s->g = b->c[b->degree];
+    s->g.sign = 1;
+    if (drop > 0) {
+        const num_dyadic top = power_of(arena, s->g, drop);
+        s->h = drop > 1 ? num_dyadic_divide(arena, top, power_of(arena, s->h, drop - 1)) : top;
+    }
+    return r;
 }
 
 num_chain num_chain_of(num_arena *arena, const num_poly *f, const num_poly *g) {
     num_chain chain = {1, {*f}};
+    const num_dyadic one = num_dyadic_scaled(arena, 1, 1, 0);
+    shrinking s = {one, one};
     num_poly next = derivative(arena, f);
     if (g) {
         next = product(arena, &next, g);
-        next = remainder_of(arena, next, f); /* which changes no sign at a root of f */
+        if (next.degree >= f->degree) next = remainder_of(arena, next, f); /* which changes no sign at a root of f */
     }
     while (next.degree >= 0) {
         const num_poly *last = &chain.p[chain.count - 1];
         chain.p[chain.count++] = next;
-        next = remainder_of(arena, *last, &chain.p[chain.count - 1]);
-        for (int i = 0; i <= next.degree; i++) next.c[i].sign = -next.c[i].sign;
+        next = next_in_chain(arena, last, &chain.p[chain.count - 1], &s);
     }
     return chain;
 }
@@ -109,10 +153,45 @@ num_poly num_poly_without(num_arena *arena, const num_poly *f, num_dyadic x) {
     return g;
 }
 
-/* A step of pseudo-division by b turns a into |a| + |b| limbs. From degree 4 and coefficients of 1 limb each that gives
- * 1 1 3 7 17 in a chain; f' g, of 2 limbs and degree 7, modulo f makes it 1 6 13 32 77. No polynomial has more than 8
- * coefficients, and the longest are few: all together hold less than 64 times the longest. */
+/* A coefficient of a chain is a determinant of up to 7 rows of coefficients of f and 8 of coefficients of f', or of the
+ * remainder of f' g by f, which have 10 times the limbs of f: 87 times in all. Before it is divided, a pseudo-remainder
+ * has three times as many. 64 such numbers are more than one step needs; the chain itself has 45 of a third. */
 size_t num_poly_arena(size_t limbs, size_t argument) {
-    enum { GROWTH = 77, NUMBERS = 64, DEGREE = 8 };
-    return (size_t)NUMBERS * ((limbs + 2) * GROWTH + DEGREE * (argument + 2));
+    enum { GROWTH = 3 * 87, NUMBERS = 64 };
+    return (size_t)NUMBERS * ((limbs + 2) * GROWTH + NUM_DEGREE * (argument + 2));
+}
+
+/* Coefficient j of Bernstein, times C(n, j): the sum of c[i] C(n - i, j - i). */
+static num_ball bernstein(const num_ball_poly *f, int j) {
+    static const double choose[NUM_DEGREE + 1][NUM_DEGREE + 1] = {{1},
+                                                                  {1, 1},
+                                                                  {1, 2, 1},
+                                                                  {1, 3, 3, 1},
+                                                                  {1, 4, 6, 4, 1},
+                                                                  {1, 5, 10, 10, 5, 1},
+                                                                  {1, 6, 15, 20, 15, 6, 1},
+                                                                  {1, 7, 21, 35, 35, 21, 7, 1},
+                                                                  {1, 8, 28, 56, 70, 56, 28, 8, 1}};
+    num_ball sum = f->c[j];
+    for (int i = 0; i < j; i++)
+        sum = num_ball_add(sum, num_ball_mul(num_ball_from(choose[f->degree - i][j - i]), f->c[i]));
+    return sum;
+}
+
+int num_ball_poly_sign_throughout(const num_ball_poly *f) {
+    const int sign = f->degree < 0 ? 0 : num_ball_sign(f->c[0]);
+    for (int j = 1; j <= f->degree && sign != NUM_UNSURE; j++)
+        if (num_ball_sign(bernstein(f, j)) != sign) return NUM_UNSURE;
+    return sign ? sign : NUM_UNSURE;
+}
+
+int num_ball_poly_changes(const num_ball_poly *f, int sign[NUM_DEGREE + 1]) {
+    int changes = 0, last = 0;
+    for (int j = 0; j <= f->degree; j++) {
+        sign[j] = num_ball_sign(bernstein(f, j));
+        if (sign[j] == NUM_UNSURE) changes = NUM_DEGREE + 1;
+        if (changes <= NUM_DEGREE) changes += sign[j] * last < 0;
+        if (sign[j]) last = sign[j];
+    }
+    return changes;
 }

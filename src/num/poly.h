@@ -1,6 +1,8 @@
 /* poly.h: polynomials of low degree with dyadic coefficients: signs, and how many roots lie where, exactly.
  *
- * Only + - * are used: remainders are pseudo-remainders, scaled by positive numbers. Roots are counted by Sturm's
+ * Remainders are pseudo-remainders, scaled by positive numbers; what is known to divide them is divided out, so that
+ * coefficients grow in proportion to the degree (subresultants: Knuth, The Art of Computer Programming, volume 2, 3rd
+ * edition, 4.6.1, algorithm C). Roots are counted by Sturm's
  * theorem, and signs at roots by Tarski's generalisation of it (Basu, Pollack, Roy: Algorithms in Real Algebraic
  * Geometry, 2006, section 2.2.2): with the signed remainder sequence f, f'g, ... and V its variations in sign,
  *     V(lo) - V(hi)  =  sum of sign g(x) over the roots x of f between lo and hi,
@@ -11,7 +13,7 @@
 #include "num/dyadic.h"
 
 enum {
-    NUM_DEGREE = 4, /* of polynomials that callers give */
+    NUM_DEGREE = 8, /* of polynomials that callers give */
     NUM_COEFFICIENTS = 2 * NUM_DEGREE
 };
 
@@ -35,6 +37,13 @@ int num_poly_sign(num_arena *arena, const num_poly *f, num_dyadic x); /**< of f(
 
 /** f divided by X - x as often as x is a root. */
 num_poly num_poly_without(num_arena *arena, const num_poly *f, num_dyadic x);
+
+/** The sign of f all over 0 .. 1, if the coefficients of Bernstein have one and the same, else NUM_UNSURE. A zero is
+ * never sure. */
+int num_ball_poly_sign_throughout(const num_ball_poly *f);
+/** The signs of all coefficients of Bernstein, and how often they change; NUM_DEGREE + 1: not all are known. The
+ * polynomial has no root between 0 and 1 with no change, and one with one (Descartes' rule). */
+int num_ball_poly_changes(const num_ball_poly *f, int sign[NUM_DEGREE + 1]);
 
 /** A signed remainder sequence. */
 typedef struct num_chain {
