@@ -107,9 +107,9 @@ FROE_API bool froe_motion_position(const froe_motion *motion, uint32_t vertex, d
 
 /* ---------------------------------------------------------------- contacts -- */
 
-/** Two objects meet, as closed segments, from one instant to another: a maximal interval. Its ends are certain: between
- * the two doubles given for each, which are equal where the instant is known exactly and neighbours or nearly so
- * otherwise. */
+/** Two objects meet, as closed segments or triangles, from one instant to another: a maximal interval. Its ends are
+ * certain: between the two doubles given for each, which are equal where the instant is known exactly and neighbours or
+ * nearly so otherwise. */
 typedef struct froe_contact {
     uint32_t a, b;             /**< objects, a < b */
     double begin[2], end[2];   /**< low <= true time <= high; neither of begin above that of end */
@@ -119,7 +119,7 @@ typedef struct froe_contact {
 } froe_contact;
 
 typedef struct froe_contact_statistics {
-    uint64_t boxes;      /**< boxes in the plane and in time that the objects were put in */
+    uint64_t boxes;      /**< boxes in the plane or space, and in time, that the objects were put in */
     uint64_t candidates; /**< pairs of them that touch */
     uint64_t exact;      /**< of these, not decided by doubles with error bounds */
 } froe_contact_statistics;
@@ -141,10 +141,11 @@ FROE_API froe_contact_options froe_contact_defaults(void); /**< all contacts in 
 typedef bool froe_contact_fn(void *user, const froe_contact *contact);
 
 /** All contacts between moving objects, in the order of their beginnings (low, high, a, b). None is missed, however
- * short, grazing ones included: candidates come from boxes in the plane and in time, times from the roots of exact
- * polynomials (degree up to 4). Objects that share a vertex always meet there, and are left out. options NULL:
- * the defaults. FROE_E_OPTIONS: from > to, or outside the window. FROE_E_LIMIT: two things happen within 2^-2047 of the
- * time between two knots. FROE_E_MEMORY, FROE_E_CANCELLED. O(n log^2 n + candidates). */
+ * short, grazing ones included: candidates come from boxes in space and time, times from the roots of exact polynomials
+ * (degree up to 4 in the plane; in space 3, and 6 where vertices fly along parabolas). Triangles may lie in one plane,
+ * and may have no area, at an instant or always. Objects that share a vertex always meet there, and are left out.
+ * options NULL: the defaults. FROE_E_OPTIONS: from > to, or outside the window. FROE_E_LIMIT: two things happen within
+ * 2^-2047 of the time between two knots. FROE_E_MEMORY, FROE_E_CANCELLED. O(n log^2 n + candidates). */
 FROE_API froe_status froe_motion_contacts(const froe_motion *motion, const froe_contact_options *options,
                                           froe_contact_fn *fn, void *user, froe_diagnostic *diag);
 

@@ -19,7 +19,7 @@
 #include "support/fail.h"
 
 enum {
-    AXES = 3,
+    AXES = 4,
     SMALL = 64,           /* lists shorter than this are scanned at once */
     LEVELS = 33,          /* of one axis: ranges of 32-bit ranks halve */
     POLL = 1 << 16,       /* pairs between two polls for cancellation */

@@ -47,8 +47,9 @@ typedef struct contact_search {
 
 /* Not of objects that share a vertex, nor, if groups are to be kept apart, of two of one group. */
 static bool is_asked_for(const contact_search *s, const motion_object *a, const motion_object *b) {
-    for (int i = 0; i < 4; i++)
-        if (a->vertices[i / 2] == b->vertices[i % 2]) return false;
+    const int dim = s->m->dim;
+    for (int i = 0; i < dim * dim; i++)
+        if (a->vertices[i / dim] == b->vertices[i % dim]) return false;
     return !s->o->apart || a->group == FROE_NONE || a->group != b->group;
 }
 
@@ -100,14 +101,14 @@ static froe_status find_spans(contact_search *s, froe_diagnostic *diag) {
     froe_status status = s->workers ? FROE_OK : FROE_E_MEMORY;
     for (unsigned i = 0; i < threads && !status; i++) status = meet_worker_new(s->m, &s->workers[i].meet);
     if (!status)
-        status = geom_box_pairs(&s->m->alloc, &s->task, 1, 3, (uint32_t)s->slices.slices.count, s->slices.lo.data,
-                                s->slices.hi.data, look_at_slices, s);
+        status = geom_box_pairs(&s->m->alloc, &s->task, 1, s->m->dim + 1, (uint32_t)s->slices.slices.count,
+                                s->slices.lo.data, s->slices.hi.data, look_at_slices, s);
     for (unsigned i = 0; s->workers && i < threads; i++) {
         const contact_worker *w = s->workers + i;
         if (w->status == FROE_E_LIMIT)
             return support_fail_at(diag, w->status, w->failed[0], FROE_NONE, FROE_NONE,
-                                   "segments %u and %u: Two events happen too close to be told apart.", w->failed[0],
-                                   w->failed[1]);
+                                   "%ss %u and %u: Two events happen too close to be told apart.", motion_noun(s->m),
+                                   w->failed[0], w->failed[1]);
         if (w->status) status = w->status;
     }
     return status;
@@ -245,14 +246,12 @@ froe_status froe_motion_contacts(const froe_motion *motion, const froe_contact_o
     BASE_FLOATS_OWN;
     const froe_contact_options standard = froe_contact_defaults();
     if (!motion || !fn) return support_fail_null(diag, __func__);
-    if (motion->dim != 2) return support_fail(diag, FROE_E_UNSUPPORTED, "Contacts of triangles are not found yet.");
     contact_search s = {.m = motion, .o = options ? options : &standard};
     froe_status status = check_contact_search(&s, diag);
     if (status) return status;
     base_task_init(&s.task, s.o->threads, s.o->progress, s.o->user);
     status = slices_find(motion, s.from, s.to, &s.slices);
-    if (status == FROE_E_LIMIT)
-        return support_fail(diag, status, "More than 2^31 boxes in the plane and in time are needed.");
+    if (status == FROE_E_LIMIT) return support_fail(diag, status, "More than 2^31 boxes in space and time are needed.");
     if (!status) status = find_spans(&s, diag);
     if (!status) status = make_contacts(&s);
     if (!status) status = tell_contacts(&s, fn, user);

@@ -11,51 +11,64 @@ enum {
 typedef struct slicing {
     const froe_motion *m;
     slices_table *out;
-    double spacing; /* the side of a square that an object has for itself */
+    double spacing; /* the side of a square or cube that an object has for itself */
 } slicing;
+
+/* A box that holds nothing yet. */
+static void empty_box(double lo[3], double hi[3]) {
+    for (int k = 0; k < 3; k++) lo[k] = (double)INFINITY, hi[k] = -(double)INFINITY;
+}
+
+/* The side of a square or cube of this size. y = (x y)^(1/4) converges to the cube root of x. */
+static double typical_side(int dim, double size) {
+    double y = sqrt(size);
+    for (int i = 0; i < 16 && dim == 3; i++) y = sqrt(sqrt(size * y));
+    return y;
+}
 
 /* What the objects have for themselves, roughly: the scene's extent is that of all knots. */
 static double typical_spacing(const froe_motion *m) {
-    double lo[2] = {DBL_MAX, DBL_MAX}, hi[2] = {-DBL_MAX, -DBL_MAX};
+    double lo[3], hi[3], widest = 0, room = 1;
+    empty_box(lo, hi);
     for (size_t i = 0; i < m->knots.count; i++)
-        for (int k = 0; k < 2; k++) {
-            double x = m->knots.data[i].at[k];
+        for (int k = 0; k < m->dim; k++) {
+            const double x = m->knots.data[i].at[k];
             if (x < lo[k]) lo[k] = x;
             if (x > hi[k]) hi[k] = x;
         }
-    double width = hi[0] - lo[0], height = hi[1] - lo[1], n = (double)(m->objects.count + 1);
-    return sqrt((width / n + DBL_MIN) * (height > width / 16 ? height : width / 16));
+    for (int k = 0; k < m->dim; k++)
+        if (hi[k] - lo[k] > widest) widest = hi[k] - lo[k];
+    for (int k = 0; k < m->dim; k++) /* in units of the widest, as products of lengths may be no doubles */
+        room *= hi[k] - lo[k] > widest / 16 ? (hi[k] - lo[k]) / widest : 1.0 / 16;
+    return typical_side(m->dim, room / (double)(m->objects.count + 1)) * widest + DBL_MIN;
 }
 
-static bool put_slice(slicing *s, uint32_t object, const motion_piece piece[2], double from, double to) {
-    double lo[2] = {(double)INFINITY, (double)INFINITY}, hi[2] = {-(double)INFINITY, -(double)INFINITY};
-    for (int i = 0; i < 2; i++) motion_extend(s->m, &piece[i], from, to, lo, hi);
+static bool put_slice(slicing *s, uint32_t object, const motion_piece piece[3], double from, double to) {
+    const int dim = s->m->dim;
+    double lo[4], hi[4];
+    empty_box(lo, hi);
+    for (int i = 0; i < dim; i++) motion_extend(s->m, &piece[i], from, to, lo, hi);
+    lo[dim] = from, hi[dim] = to;
     const froe_allocator *alloc = &s->m->alloc;
     slices_table *out = s->out;
-    if (!array_reserve(alloc, &out->lo, 3) || !array_reserve(alloc, &out->hi, 3)) return false;
-    if (!array_push(alloc, &out->slices, (slices_entry){object, from, to})) return false;
-    const double low[3] = {lo[0], lo[1], from}, high[3] = {hi[0], hi[1], to};
-    for (int k = 0; k < 3; k++) {
-        out->lo.data[out->lo.count++] = low[k];
-        out->hi.data[out->hi.count++] = high[k];
-    }
-    return true;
+    return array_append(alloc, &out->lo, lo, (size_t)dim + 1) && array_append(alloc, &out->hi, hi, (size_t)dim + 1) &&
+           array_push(alloc, &out->slices, (slices_entry){object, from, to});
 }
 
-/* Cuts a time in which neither vertex changes its piece. */
-static bool cut_piece(slicing *s, uint32_t object, const motion_piece piece[2], double from, double to) {
+/* Cuts a time in which no vertex changes its piece. */
+static bool cut_piece(slicing *s, uint32_t object, const motion_piece piece[3], double from, double to) {
     const froe_motion *m = s->m;
-    double way = 0, size = s->spacing, at[2][2];
-    for (int i = 0; i < 2; i++) {
-        double lo[2] = {(double)INFINITY, (double)INFINITY}, hi[2] = {-(double)INFINITY, -(double)INFINITY};
-        motion_extend(m, &piece[i], from, to, lo, hi);
-        for (int k = 0; k < 2; k++) {
-            if (hi[k] - lo[k] > way) way = hi[k] - lo[k];
-            at[i][k] = lo[k];
-        }
+    double way = 0, size = s->spacing, at[3][3];
+    for (int i = 0; i < m->dim; i++) {
+        double hi[3];
+        empty_box(at[i], hi);
+        motion_extend(m, &piece[i], from, to, at[i], hi);
+        for (int k = 0; k < m->dim; k++)
+            if (hi[k] - at[i][k] > way) way = hi[k] - at[i][k];
     }
-    for (int k = 0; k < 2; k++)
-        if (fabs(at[0][k] - at[1][k]) > size) size = fabs(at[0][k] - at[1][k]);
+    for (int i = 1; i < m->dim; i++)
+        for (int k = 0; k < m->dim; k++)
+            if (fabs(at[0][k] - at[i][k]) > size) size = fabs(at[0][k] - at[i][k]);
     /* as many cuts as the way of the vertices is longer than the object is large */
     double cuts = way / size, step = m->end - m->begin, next = from;
     if (!(cuts < MOST_CUTS)) cuts = MOST_CUTS;
@@ -75,9 +88,9 @@ static bool slice_object(slicing *s, uint32_t object, double from, double to) {
     if (o->birth > from) from = o->birth;
     if (o->death < to) to = o->death;
     while (from <= to) {
-        motion_piece piece[2];
+        motion_piece piece[3];
         double end = to;
-        for (int i = 0; i < 2; i++) {
+        for (int i = 0; i < s->m->dim; i++) {
             piece[i] = motion_piece_at_time(s->m, o->vertices[i], from);
             if (piece[i].degree && piece[i].to->time > from && piece[i].to->time < end) end = piece[i].to->time;
         }

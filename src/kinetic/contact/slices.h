@@ -1,7 +1,7 @@
-/* slices.h: moving objects in boxes of the plane and of time.
+/* slices.h: moving objects in boxes of the plane or of space, and of time.
  *
  *      x |        ____
- *        |   ____|   /|        an object's life is cut at the knots of its two vertices, and where it moves far
+ *        |   ____|   /|        an object's life is cut at the knots of its vertices, and where it moves far
  *        |  |  _/|_/__|        compared with its size also at binary fractions of the window, which are the
  *        |__|_/__|_________ t  same for all objects; each slice gets its bounding box */
 #ifndef FROE_KINETIC_SLICES_H
@@ -15,7 +15,7 @@ typedef struct slices_entry {
 
 typedef struct slices_table {
     ARRAY(slices_entry) slices;
-    ARRAY(double) lo; /**< x, y, t of each slice's box */
+    ARRAY(double) lo; /**< x, y (, z), t of each slice's box */
     ARRAY(double) hi;
 } slices_table;
 

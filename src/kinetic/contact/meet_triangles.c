@@ -1,0 +1,289 @@
+/* meet_triangles.c: when two moving triangles meet in space.
+ *
+ * Of two closed triangles a and b, 15 signs are asked for: on which side of the plane of the other each corner is (6),
+ * and how each edge of a passes each edge of b (9): orient3d of corners all of them. Edge pq of one crosses the other
+ * if
+ *     p and q are not on one side of its plane, nor both on it, and pq does not pass two of its edges differently.
+ * Then pq meets the plane in one point, and that lies in the triangle. If the six corners are not in one plane, the
+ * triangles meet iff one of the six edges crosses: a point of both that is a corner of what they have in common lies on
+ * an edge, and where an edge lies in the plane of the other triangle, another edge of one of them ends in that point
+ * and leaves the plane. Triangles without area have no plane and all is 0; nothing of what was said needs more.
+ *
+ * The corners are in one plane iff all 15 signs are 0. Then the triangles meet iff they do in all three views along the
+ * axes: in one of them the plane is not upright, or the line, if they lie in one, and the view is faithful. In a view
+ * they meet iff two edges do, or a corner of one is within the other: by turns, and where points are in one line by
+ * differences of coordinates, as segments of the plane.
+ *
+ * Degrees in time: corners on straight lines 3, on parabolas 6. */
+#include "kinetic/contact/walk.h"
+
+enum {
+    SIDES = 0,  /* + 3 of + i: of corner i of the other, of the plane of triangle `of` */
+    PASSES = 6, /* + 3 i + j: of edges i and j */
+    IN_SPACE = 15,
+    TURNS = 15, /* + 18 axis + 9 of + 3 edge + corner */
+    GAPS = 69,  /* + 9 axis + 3 i + j */
+    ALL = WALK_POLYNOMIALS
+};
+
+#define T num_ball
+#define CURVE motion_ball_curve
+#define POLY num_ball_poly
+#define FORMULA(f) f##_ball
+#define ADD(a, b) num_ball_add(a, b)
+#define SUB(a, b) num_ball_sub(a, b)
+#define MUL(a, b) num_ball_mul(a, b)
+#define FROM(x) num_ball_from(x)
+#define MARK (void)arena
+#define KEEP(a) (a)
+#include "kinetic/contact/triangles_body.inc"
+
+#define T num_dyadic
+#define CURVE motion_dyadic_curve
+#define POLY num_poly
+#define FORMULA(f) f##_dyadic
+#define ADD(a, b) num_dyadic_add(arena, a, b)
+#define SUB(a, b) num_dyadic_sub(arena, a, b)
+#define MUL(a, b) num_dyadic_mul(arena, a, b)
+#define FROM(x) num_dyadic_from(arena, x)
+#define MARK const size_t mark = arena->top
+#define KEEP(a) num_dyadic_keep(arena, mark, a)
+#define EXACT
+#include "kinetic/contact/triangles_body.inc"
+
+typedef struct encounter {
+    const froe_motion *m;
+    num_arena *arena;
+    walk_room *w;
+    motion_piece piece[2][3];
+    double origin[3];
+    bool may_cross[6]; /* edge i of the first the second; 3 + j: edge j of the second the first */
+    bool may_be_flat;  /* the corners may be in one plane, at some time */
+} encounter;
+
+/* The corners and passes that tell whether an edge crosses: two sides and three passes. */
+static void crossing_signs(int edge, int out[5]) {
+    const int of = edge < 3, e = edge % 3; /* of: whose plane it is */
+    out[0] = SIDES + 3 * of + e;
+    out[1] = SIDES + 3 * of + (e + 1) % 3;
+    for (int i = 0; i < 3; i++) out[2 + i] = PASSES + (of ? 3 * e + i : 3 * i + e);
+}
+
+/* --------------------------------------------------------------- error bounds -- */
+
+static bool same_times(const motion_piece piece[3]) {
+    for (int i = 1; i < 3; i++)
+        if (piece[i].degree != piece->degree ||
+            (piece->degree && (piece[i].from->time != piece->from->time || piece[i].to->time != piece->to->time)))
+            return false;
+    return true;
+}
+
+static void shape_by_balls(const encounter *g, int of, trio_ball *out) {
+    motion_ball_curve curve[3];
+    int degree[3];
+    for (int i = 0; i < 3; i++) {
+        motion_span_ball(g->m, &g->piece[of][i], g->w->from, g->w->to, &curve[i]);
+        degree[i] = g->piece[of][i].degree;
+    }
+    corners_of_ball(NULL, curve, degree, same_times(g->piece[of]), g->origin, out);
+    finish_shape_ball(NULL, out);
+}
+
+static bool surely_no_crossing(const signed char *sign, int edge) {
+    int of[5];
+    bool left = false, right = false;
+    crossing_signs(edge, of);
+    if (sign[of[0]] != NUM_UNSURE && sign[of[0]] == sign[of[1]]) return true;
+    for (int i = 2; i < 5; i++) {
+        left = left || sign[of[i]] == -1;
+        right = right || sign[of[i]] == 1;
+    }
+    return left && right;
+}
+
+/* Finds the signs that stay, and which edges may cross. */
+static bool surely_apart(encounter *g) {
+    signed char *sign = g->w->sign;
+    trios_ball p;
+    num_ball_poly f, of[2][3];
+    for (int i = 0; i < 2; i++) shape_by_balls(g, i, &p.shape[i]);
+    finish_pair_ball(NULL, &p);
+    for (int i = 0; i < 2; i++) {
+        for (int k = 0; k < 3; k++) {
+            side_ball(NULL, &p, i, k, &f);
+            sign[SIDES + 3 * i + k] = (signed char)num_ball_poly_sign_throughout(&f);
+        }
+        const signed char *s = sign + SIDES + 3 * i;
+        if (s[0] != NUM_UNSURE && s[0] == s[1] && s[0] == s[2]) return true;
+    }
+    for (int j = 0; j < 3; j++) {
+        line_ball(NULL, &p, j, of);
+        for (int i = 0; i < 3; i++) {
+            pass_ball(NULL, p.shape, i, of, &f);
+            sign[PASSES + 3 * i + j] = (signed char)num_ball_poly_sign_throughout(&f);
+        }
+    }
+    bool apart = true;
+    g->may_be_flat = true;
+    for (int i = 0; i < IN_SPACE; i++) g->may_be_flat = g->may_be_flat && sign[i] == NUM_UNSURE;
+    for (int i = 0; i < 6; i++) {
+        g->may_cross[i] = !surely_no_crossing(sign, i);
+        apart = apart && !g->may_cross[i];
+    }
+    return apart && !g->may_be_flat;
+}
+
+/* ------------------------------------------------------------------- exactly -- */
+
+static void shape_exactly(const encounter *g, int of, trio_dyadic *out) {
+    motion_dyadic_curve curve[3];
+    int degree[3];
+    for (int i = 0; i < 3; i++) {
+        motion_span_dyadic(g->arena, g->m, &g->piece[of][i], g->w->from, g->w->to, &curve[i]);
+        degree[i] = g->piece[of][i].degree;
+    }
+    corners_of_dyadic(g->arena, curve, degree, same_times(g->piece[of]), g->origin, out);
+    finish_shape_dyadic(g->arena, out);
+}
+
+static void take_in_space(const encounter *g, const trios_dyadic *p, const bool needed[IN_SPACE]) {
+    num_poly *f = g->w->f, of[2][3];
+    for (int i = 0; i < 6; i++)
+        if (needed[SIDES + i]) side_dyadic(g->arena, p, i / 3, i % 3, &f[SIDES + i]);
+    for (int j = 0; j < 3; j++) {
+        if (!needed[PASSES + j] && !needed[PASSES + 3 + j] && !needed[PASSES + 6 + j]) continue;
+        line_dyadic(g->arena, p, j, of);
+        for (int i = 0; i < 3; i++)
+            if (needed[PASSES + 3 * i + j]) pass_dyadic(g->arena, p->shape, i, of, &f[PASSES + 3 * i + j]);
+    }
+}
+
+static void take_in_plane(const encounter *g, const trios_dyadic *p) {
+    num_poly *f = g->w->f;
+    for (int axis = 0; axis < 3; axis++) {
+        for (int i = 0; i < 18; i++)
+            flat_turn_dyadic(g->arena, p, i / 9, i / 3 % 3, i % 3, axis, &f[TURNS + 18 * axis + i]);
+        for (int i = 0; i < 9; i++) flat_gap_dyadic(g->arena, p, i / 3, i % 3, axis, &f[GAPS + 9 * axis + i]);
+    }
+    for (int i = TURNS; i < ALL; i++) num_poly_trim(&f[i], f[i].degree);
+}
+
+/* Are the corners in one plane at an instant? */
+static bool flat_at(const encounter *g, const walk_moment *at) {
+    for (int i = 0; i < IN_SPACE && g->may_be_flat; i++)
+        if (walk_sign(g->arena, g->w, at, i)) return false;
+    return g->may_be_flat;
+}
+
+/* At any of the instants that count? */
+static bool flat_at_times(const encounter *g) {
+    const walk_moment start = walk_start(), end = walk_end(g->arena);
+    bool flat = flat_at(g, &start) || flat_at(g, &end);
+    for (int k = 0; k < g->w->event_count && !flat; k++) {
+        flat = g->may_be_flat;
+        for (int i = 0; i < IN_SPACE && flat; i++)
+            flat = g->w->f[i].degree < 0 || (g->w->events[k].vanishing[0] >> i & 1);
+    }
+    return flat;
+}
+
+/* Takes the polynomials that count; their roots are events: of those in space, or in the plane if all stay in one. */
+static bool list_events(const encounter *g) {
+    walk_room *w = g->w;
+    bool needed[IN_SPACE] = {false}, told = true, always_flat = g->may_be_flat;
+    trios_dyadic p;
+    for (int i = 0; i < 2; i++) shape_exactly(g, i, &p.shape[i]);
+    finish_pair_dyadic(g->arena, &p);
+    for (int edge = 0; edge < 6; edge++) {
+        int of[5];
+        crossing_signs(edge, of);
+        for (int i = 0; i < 5 && (g->may_cross[edge] || g->may_be_flat); i++)
+            needed[of[i]] = w->sign[of[i]] == NUM_UNSURE;
+    }
+    take_in_space(g, &p, needed);
+    for (int i = 0; i < IN_SPACE; i++)
+        if (needed[i]) {
+            num_poly_trim(&w->f[i], w->f[i].degree);
+            always_flat = always_flat && w->f[i].degree < 0;
+        }
+    for (int i = 0; i < IN_SPACE && told && w->from < w->to && !always_flat; i++)
+        if (needed[i]) told = walk_list(g->arena, w, i);
+    if (!told || !(always_flat || flat_at_times(g))) return told;
+    take_in_plane(g, &p);
+    for (int i = TURNS; i < ALL && told && w->from < w->to && always_flat; i++) told = walk_list(g->arena, w, i);
+    return told;
+}
+
+/* --------------------------------------------------------------------- signs -- */
+
+static bool edge_crosses(const encounter *g, const walk_moment *at, int edge) {
+    int of[5], sides[2];
+    bool left = false, right = false;
+    crossing_signs(edge, of);
+    for (int i = 0; i < 2; i++) sides[i] = walk_sign(g->arena, g->w, at, of[i]);
+    if ((!sides[0] && !sides[1]) || sides[0] * sides[1] > 0) return false;
+    for (int i = 2; i < 5 && !(left && right); i++) {
+        const int sign = walk_sign(g->arena, g->w, at, of[i]);
+        left = left || sign < 0;
+        right = right || sign > 0;
+    }
+    return !(left && right);
+}
+
+/* Are edges i and j, seen along an axis in one line, apart in one of the other two coordinates? */
+static bool boxes_apart(const encounter *g, const walk_moment *at, int axis, int i, int j) {
+    for (int k = 0; k < 3; k++) {
+        if (k == axis) continue;
+        int first = 0, alike = 0;
+        for (int n = 0; n < 4; n++) {
+            const int gap = GAPS + 9 * k + 3 * ((i + n / 2) % 3) + (j + n % 2) % 3;
+            const int sign = walk_sign(g->arena, g->w, at, gap);
+            if (!n) first = sign;
+            alike += sign == first;
+        }
+        if (first && alike == 4) return true;
+    }
+    return false;
+}
+
+/* Seen along an axis: do edges i and j meet? */
+static bool edges_meet(const encounter *g, const walk_moment *at, int axis, int i, int j) {
+    const int first = TURNS + 18 * axis + 3 * i, second = TURNS + 18 * axis + 9 + 3 * j;
+    const int a = walk_sign(g->arena, g->w, at, first + j), b = walk_sign(g->arena, g->w, at, first + (j + 1) % 3);
+    if (a * b > 0) return false;
+    const int c = walk_sign(g->arena, g->w, at, second + i), d = walk_sign(g->arena, g->w, at, second + (i + 1) % 3);
+    if (c * d > 0) return false;
+    return a || b || c || d || !boxes_apart(g, at, axis, i, j);
+}
+
+/* Seen along an axis: does triangle `of` have the first corner of the other within? */
+static bool has_corner_within(const encounter *g, const walk_moment *at, int axis, int of) {
+    const int first = TURNS + 18 * axis + 9 * of, sign = walk_sign(g->arena, g->w, at, first);
+    return sign && walk_sign(g->arena, g->w, at, first + 3) == sign && walk_sign(g->arena, g->w, at, first + 6) == sign;
+}
+
+static bool views_meet(const encounter *g, const walk_moment *at, int axis) {
+    for (int i = 0; i < 9; i++)
+        if (edges_meet(g, at, axis, i / 3, i % 3)) return true;
+    return has_corner_within(g, at, axis, 0) || has_corner_within(g, at, axis, 1);
+}
+
+static bool do_meet(void *user, const walk_moment *at) {
+    const encounter *g = user;
+    for (int edge = 0; edge < 6; edge++)
+        if (g->may_cross[edge] && edge_crosses(g, at, edge)) return true;
+    return flat_at(g, at) && views_meet(g, at, 0) && views_meet(g, at, 1) && views_meet(g, at, 2);
+}
+
+bool meet_triangles(const froe_motion *m, meet_worker *worker, const motion_object *p, const motion_object *q) {
+    encounter g = {.m = m, .arena = &worker->arena, .w = worker->room};
+    for (int i = 0; i < 3; i++) {
+        g.piece[0][i] = motion_piece_at_time(m, p->vertices[i], g.w->from);
+        g.piece[1][i] = motion_piece_at_time(m, q->vertices[i], g.w->from);
+    }
+    for (int k = 0; k < 3; k++) g.origin[k] = g.piece[0][0].from->at[k];
+    if (surely_apart(&g)) return true;
+    worker->stats.exact++;
+    return list_events(&g) && walk_through(g.arena, g.w, do_meet, &g);
+}

@@ -1,0 +1,144 @@
+/* walk.c: see walk.h. */
+#include "kinetic/contact/walk.h"
+
+void walk_begin(walk_room *w, double from, double to) {
+    w->from = from;
+    w->to = to;
+    w->root_count = w->event_count = w->span_count = 0;
+    for (int i = 0; i < WALK_POLYNOMIALS; i++) {
+        w->sign[i] = NUM_UNSURE;
+        w->listed[i] = w->has_near[i] = false;
+    }
+}
+
+/* -------------------------------------------------------------------- events -- */
+
+/* Puts a root among the events. */
+static bool put_event(num_arena *arena, walk_room *w, num_isolated *root, int i) {
+    int k = w->event_count, order = 1;
+    for (; k > 0; k--) {
+        order = num_isolated_compare(arena, root, w->events[k - 1].at);
+        if (order == NUM_UNSURE) return false;
+        if (order >= 0) break;
+    }
+    if (order) {
+        for (int j = w->event_count++; j > k; j--) w->events[j] = w->events[j - 1];
+        w->events[k] = (walk_event){.at = root};
+    } else {
+        k--;
+    }
+    w->events[k].vanishing[i / 64] |= (uint64_t)1 << (i % 64);
+    return true;
+}
+
+bool walk_list(num_arena *arena, walk_room *w, int i) {
+    w->listed[i] = true;
+    if (w->f[i].degree < 0) return true;
+    num_isolation *r = &w->roots[w->root_count++];
+    num_isolate(arena, &w->f[i], r);
+    for (int k = 0; k < r->count; k++)
+        if (!put_event(arena, w, &r->root[k], i)) return false;
+    return r->count >= 0;
+}
+
+/* --------------------------------------------------------------------- signs -- */
+
+int walk_sign(num_arena *arena, walk_room *w, const walk_moment *at, int i) {
+    if (w->sign[i] != NUM_UNSURE) return w->sign[i];
+    if (w->f[i].degree < 0) return 0;
+    if (at->event && !w->listed[i]) {
+        if (!w->has_near[i]) w->near[i] = num_poly_balls(arena, &w->f[i]);
+        w->has_near[i] = true;
+        return num_isolated_sign(arena, at->event->at, &w->f[i], &w->near[i]);
+    }
+    if (at->event && (at->event->vanishing[i / 64] >> (i % 64) & 1)) return 0;
+    return num_poly_sign(arena, &w->f[i], at->share);
+}
+
+walk_moment walk_start(void) {
+    return (walk_moment){.share = {0}};
+}
+
+walk_moment walk_end(num_arena *arena) {
+    return (walk_moment){.share = num_dyadic_scaled(arena, 1, 1, 0)};
+}
+
+/* ------------------------------------------------------------------- between -- */
+
+/* The middle between the upper end of one interval and the lower end of the next; NULL: 0 and 1. False: too close. */
+static bool middle_between(num_arena *arena, num_isolated *before, num_isolated *after, num_dyadic *out) {
+    for (;;) {
+        const size_t mark = arena->top;
+        const num_dyadic low = before ? num_isolated_high(arena, before) : (num_dyadic){0};
+        const num_dyadic high = after ? num_isolated_low(after) : num_dyadic_scaled(arena, 1, 1, 0);
+        if (num_dyadic_compare(low, high) < 0) {
+            const num_dyadic sum = num_dyadic_add(arena, low, high);
+            *out = num_dyadic_mul(arena, sum, num_dyadic_scaled(arena, 1, 1, -1));
+            return true;
+        }
+        arena->top = mark;
+        bool refined = false;
+        if (before && !before->exact) refined = num_isolated_refine(arena, before);
+        if (after && !after->exact) refined = num_isolated_refine(arena, after) || refined;
+        if (!refined) return false;
+    }
+}
+
+/* From share to time: an enclosure of two doubles. */
+static bool time_of_root(num_arena *arena, const walk_room *w, num_isolated *root, meet_time *out) {
+    int length, size;
+    frexp(w->to - w->from, &length);
+    frexp(fabs(w->from) > fabs(w->to) ? w->from : w->to, &size);
+    const int depth = length - size + 55; /* a quarter of the last place of the greater end */
+    if (!num_isolated_narrow(arena, root, depth > 1 ? depth : 1)) return false;
+    const num_ball from = num_ball_from(w->from), span = num_ball_sub(num_ball_from(w->to), from);
+    const num_ball t = num_ball_add(from, num_ball_mul(span, num_isolated_ball(root)));
+    double low = t.x - t.e, high = t.x + t.e;
+    if (t.e > 0) low = nextafter(low, -(double)INFINITY), high = nextafter(high, (double)INFINITY);
+    *out = (meet_time){low > w->from ? low : w->from, high < w->to ? high : w->to};
+    return true;
+}
+
+/* An instant at which they meet or not. What is before it has been seen. */
+static void pass_instant(walk_room *w, bool *now, bool meets, meet_time at) {
+    if (meets && !*now) w->spans[w->span_count++] = (meet_span){.begin = at, .instant = true};
+    if (meets) w->spans[w->span_count - 1].end = at;
+    *now = meets;
+}
+
+static bool walk_events(num_arena *arena, walk_room *w, walk_fn *meets, void *user) {
+    walk_moment at = walk_start();
+    bool now = false;
+    pass_instant(w, &now, meets(user, &at), (meet_time){w->from, w->from});
+    for (int k = 0; k <= w->event_count; k++) {
+        num_isolated *before = k ? w->events[k - 1].at : NULL, *after = k < w->event_count ? w->events[k].at : NULL;
+        meet_time then = {w->to, w->to};
+        const size_t mark = arena->top;
+        if (!middle_between(arena, before, after, &at.share) || (after && !time_of_root(arena, w, after, &then)))
+            return false;
+        at.event = NULL;
+        now = meets(user, &at); /* in the gap: contacts are closed, they begin and end in instants */
+        if (now) w->spans[w->span_count - 1].instant = false;
+        at.event = after ? &w->events[k] : NULL;
+        if (!after) at = walk_end(arena);
+        pass_instant(w, &now, meets(user, &at), then);
+        arena->top = mark;
+    }
+    return true;
+}
+
+bool walk_through(num_arena *arena, walk_room *w, walk_fn *meets, void *user) {
+    const walk_moment start = walk_start(), end = walk_end(arena);
+    const bool at_start = meets(user, &start), at_end = meets(user, &end);
+    if (w->from < w->to) {
+        if (!walk_events(arena, w, meets, user)) return false;
+    } else if (at_start) { /* an instant alone */
+        const meet_time at = {w->from, w->from};
+        w->spans[w->span_count++] = (meet_span){.begin = at, .end = at, .instant = true};
+    }
+    for (int i = 0; i < w->span_count; i++) {
+        w->spans[i].from_start = at_start && i == 0;
+        w->spans[i].to_end = at_end && i == w->span_count - 1;
+    }
+    return true;
+}

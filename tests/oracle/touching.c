@@ -1,0 +1,200 @@
+/* touching.c: see touching.h. */
+#include "oracle/touching.h"
+#include <math.h>
+
+/* --------------------------------------------------------------------- places -- */
+
+int oracle_compare_time(const mpq_t time, double x) {
+    mpq_t other;
+    mpq_init(other);
+    mpq_set_d(other, x);
+    const int order = mpq_cmp(time, other);
+    mpq_clear(other);
+    return order;
+}
+
+/* to = from + s (to - from) */
+static void go_between(const mpq_t from, mpq_t to, const mpq_t s) {
+    mpq_sub(to, to, from);
+    mpq_mul(to, to, s);
+    mpq_add(to, to, from);
+}
+
+/* The share of the time between two knots that has passed. */
+static void share_between(mpq_t out, double from, double to, const mpq_t time) {
+    mpq_t length;
+    mpq_init(length);
+    mpq_set_d(out, from);
+    mpq_set_d(length, to);
+    mpq_sub(length, length, out);
+    mpq_sub(out, time, out);
+    mpq_div(out, out, length);
+    mpq_clear(length);
+}
+
+/* De Casteljau. */
+static void on_piece(const froe_moving_knot *p, const froe_moving_knot *q, const mpq_t s, mpq_t out[3]) {
+    mpq_t from, middle, last;
+    mpq_inits(from, middle, last, NULL);
+    for (int k = 0; k < 3; k++) {
+        mpq_set_d(from, p->at[k]);
+        mpq_set_d(out[k], q->at[k]);
+        if (isnan(p->control[0])) {
+            go_between(from, out[k], s);
+            continue;
+        }
+        mpq_set_d(middle, p->control[k]);
+        mpq_set(last, middle);
+        go_between(from, middle, s);
+        go_between(last, out[k], s);
+        go_between(middle, out[k], s);
+    }
+    mpq_clears(from, middle, last, NULL);
+}
+
+void oracle_corner(const froe_motion *m, uint32_t vertex, const mpq_t time, mpq_t out[3]) {
+    const size_t count = froe_motion_knot_count(m, vertex);
+    size_t i = 0;
+    while (i + 2 < count && oracle_compare_time(time, froe_motion_knot(m, vertex, i + 1).time) > 0) i++;
+    const froe_moving_knot p = froe_motion_knot(m, vertex, i);
+    for (int k = 0; k < 3; k++) mpq_set_d(out[k], p.at[k]);
+    if (count == 1) return;
+    const froe_moving_knot q = froe_motion_knot(m, vertex, i + 1);
+    mpq_t share;
+    mpq_init(share);
+    share_between(share, p.time, q.time, time);
+    on_piece(&p, &q, share, out);
+    mpq_clear(share);
+}
+
+/* ------------------------------------------------------------- linear programs -- */
+
+enum { ROWS = 8, COLUMNS = 12, WIDTH = COLUMNS + ROWS + 1 /* artificial variables, and the right side */ };
+
+/* Rows 0 .. ROWS-1: equations with right sides >= 0, and each an artificial variable; the last: minus their sum, which
+ * is to become 0. */
+typedef struct program {
+    mpq_t cell[ROWS + 1][WIDTH];
+    int basis[ROWS];
+} program;
+
+static void add_multiple(mpq_t *row, const mpq_t *other, const mpq_t factor) {
+    mpq_t product;
+    mpq_init(product);
+    for (int j = 0; j < WIDTH; j++) {
+        if (!mpq_sgn(other[j])) continue;
+        mpq_mul(product, other[j], factor);
+        mpq_sub(row[j], row[j], product);
+    }
+    mpq_clear(product);
+}
+
+/* The row that leaves for a column; of equal quotients, that of the least variable (Bland). -1: none. */
+static int leaving(const program *p, int column) {
+    int best = -1;
+    mpq_t least, quotient;
+    mpq_inits(least, quotient, NULL);
+    for (int i = 0; i < ROWS; i++) {
+        if (mpq_sgn(p->cell[i][column]) <= 0) continue;
+        mpq_div(quotient, p->cell[i][WIDTH - 1], p->cell[i][column]);
+        const int order = best < 0 ? -1 : mpq_cmp(quotient, least);
+        if (order < 0 || (!order && p->basis[i] < p->basis[best])) best = i, mpq_set(least, quotient);
+    }
+    mpq_clears(least, quotient, NULL);
+    return best;
+}
+
+static void pivot(program *p, int row, int column) {
+    mpq_t factor;
+    mpq_init(factor);
+    mpq_set(factor, p->cell[row][column]);
+    for (int j = 0; j < WIDTH; j++) mpq_div(p->cell[row][j], p->cell[row][j], factor);
+    for (int i = 0; i <= ROWS; i++) {
+        mpq_set(factor, p->cell[i][column]);
+        if (i != row && mpq_sgn(factor)) add_multiple(p->cell[i], p->cell[row], factor);
+    }
+    p->basis[row] = column;
+    mpq_clear(factor);
+}
+
+/* Has it a solution? */
+static bool solve(program *p) {
+    for (int i = 0; i < ROWS; i++) {
+        if (mpq_sgn(p->cell[i][WIDTH - 1]) < 0)
+            for (int j = 0; j < WIDTH; j++) mpq_neg(p->cell[i][j], p->cell[i][j]);
+        for (int j = 0; j < WIDTH; j++) mpq_sub(p->cell[ROWS][j], p->cell[ROWS][j], p->cell[i][j]);
+        p->basis[i] = COLUMNS + i;
+        mpq_set_ui(p->cell[i][COLUMNS + i], 1, 1);
+    }
+    for (;;) {
+        int column = 0;
+        while (column < COLUMNS && mpq_sgn(p->cell[ROWS][column]) >= 0) column++;
+        if (column == COLUMNS) return mpq_sgn(p->cell[ROWS][WIDTH - 1]) == 0;
+        const int row = leaving(p, column);
+        if (row < 0) return false; /* unbounded: not of a sum that is at least 0 */
+        pivot(p, row, column);
+    }
+}
+
+/* ------------------------------------------------------------------ triangles -- */
+
+static bool boxes_meet(mpq_t v[6][3], const mpq_t slack) {
+    mpq_t low, high;
+    bool meet = true;
+    mpq_inits(low, high, NULL);
+    for (int k = 0; k < 3 && meet; k++)
+        for (int t = 0; t < 2 && meet; t++) { /* is all of triangle t below all of the other? */
+            mpq_set(high, v[3 * t][k]);
+            mpq_set(low, v[3 * !t][k]);
+            for (int i = 1; i < 3; i++) {
+                if (mpq_cmp(v[3 * t + i][k], high) > 0) mpq_set(high, v[3 * t + i][k]);
+                if (mpq_cmp(v[3 * !t + i][k], low) < 0) mpq_set(low, v[3 * !t + i][k]);
+            }
+            mpq_add(high, high, slack);
+            meet = mpq_cmp(high, low) >= 0;
+        }
+    mpq_clears(low, high, NULL);
+    return meet;
+}
+
+/* Means  sum x_i a_i  and  sum x_(3+j) b_j,  x >= 0, sums 1; in each coordinate  a - b + x_(6+k) = slack,
+ * x_(6+k) + x_(9+k) = 2 slack. */
+static bool means_meet(mpq_t v[6][3], const mpq_t slack) {
+    program p;
+    for (int i = 0; i <= ROWS; i++)
+        for (int j = 0; j < WIDTH; j++) mpq_init(p.cell[i][j]);
+    for (int t = 0; t < 2; t++) {
+        for (int i = 0; i < 3; i++) {
+            mpq_set_ui(p.cell[6 + t][3 * t + i], 1, 1);
+            for (int k = 0; k < 3; k++)
+                if (t)
+                    mpq_neg(p.cell[k][3 + i], v[3 + i][k]);
+                else
+                    mpq_set(p.cell[k][i], v[i][k]);
+        }
+        mpq_set_ui(p.cell[6 + t][WIDTH - 1], 1, 1);
+    }
+    for (int k = 0; k < 3; k++) {
+        mpq_set_ui(p.cell[k][6 + k], 1, 1);
+        mpq_set(p.cell[k][WIDTH - 1], slack);
+        mpq_set_ui(p.cell[3 + k][6 + k], 1, 1);
+        mpq_set_ui(p.cell[3 + k][9 + k], 1, 1);
+        mpq_add(p.cell[3 + k][WIDTH - 1], slack, slack);
+    }
+    const bool meet = solve(&p);
+    for (int i = 0; i <= ROWS; i++)
+        for (int j = 0; j < WIDTH; j++) mpq_clear(p.cell[i][j]);
+    return meet;
+}
+
+bool oracle_triangles_meet(const froe_motion *m, uint32_t a, uint32_t b, const mpq_t time, const mpq_t slack) {
+    mpq_t v[6][3];
+    for (int i = 0; i < 6; i++) {
+        for (int k = 0; k < 3; k++) mpq_init(v[i][k]);
+        oracle_corner(m, froe_motion_object(m, i < 3 ? a : b).vertices[i % 3], time, v[i]);
+    }
+    const bool meet = boxes_meet(v, slack) && means_meet(v, slack);
+    for (int i = 0; i < 6; i++)
+        for (int k = 0; k < 3; k++) mpq_clear(v[i][k]);
+    return meet;
+}
