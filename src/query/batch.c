@@ -168,12 +168,14 @@ static double distance_of(const froe_query *q, size_t i) {
 
 /* Names the first bad question of a chunk, before any is answered. */
 static froe_status check_all(const batch *b, froe_query *q, size_t first, size_t end, froe_diagnostic *diag) {
+    const int dim = q->tree->scene->dim;
     for (size_t i = first; i < end; i++) {
         const double *x = point_of(b, b->points, i);
         const froe_status status = b->ask == ask_vertical ? query_vertical_check(q, x, b->direction, diag)
                                    : b->ask == ask_near   ? query_near_check(q, x, b->limit, diag)
-                                   : b->directions ? query_ray_take(q, x, point_of(b, b->directions, i), b->limit, diag)
-                                                   : query_check_point(x, q->tree->scene->dim, "a point", diag);
+                                   : b->directions
+                                       ? query_ray_check(dim, x, point_of(b, b->directions, i), b->limit, diag)
+                                       : query_check_point(x, dim, "a point", diag);
         if (status) diag->object = (uint32_t)i;
         if (status) return status;
     }

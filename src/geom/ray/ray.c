@@ -280,6 +280,14 @@ static bool meets_polygon(num_context *context, const geom_ray *ray, const geom_
     return true;
 }
 
+geom_hit geom_ray_through(const geom_body *body) {
+    return (geom_hit){.source = GEOM_PLANE,
+                      .p = geom_body_point(body, 0),
+                      .q = geom_body_point(body, 1),
+                      .r = geom_body_point(body, 2),
+                      .t = {0, INFINITY}};
+}
+
 /* A triangle of space, by filters: 1, 0, or NUM_UNSURE. A ray that passes all edges the same way crosses the plane
  * within them, at n . (p - o) / n . d. */
 static int meets_triangle(const geom_ray *ray, const geom_body *body, geom_hit *first) {
@@ -295,16 +303,9 @@ static int meets_triangle(const geom_ray *ray, const geom_body *body, geom_hit *
     const int above = filter_sign(top), along = filter_sign(bottom);
     if (above == NUM_UNSURE || along == NUM_UNSURE) return NUM_UNSURE;
     if (above != along) return 0; /* it is behind */
-    *first = (geom_hit){.source = GEOM_PLANE, .p = p[0], .q = p[1], .r = p[2], .t = filter_div(top, bottom)};
+    *first = geom_ray_through(body);
+    first->t = filter_div(top, bottom);
     return 1;
-}
-
-geom_hit geom_ray_through(const geom_body *body) {
-    return (geom_hit){.source = GEOM_PLANE,
-                      .p = geom_body_point(body, 0),
-                      .q = geom_body_point(body, 1),
-                      .r = geom_body_point(body, 2),
-                      .t = {0, INFINITY}};
 }
 
 bool geom_ray_meets(num_context *context, const geom_ray *ray, const geom_body *body, geom_hit *first) {

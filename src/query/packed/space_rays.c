@@ -50,8 +50,9 @@ static froe_status launch_ray(ray_batch *f, space_ray_state *r, bool *flies) {
     while (f->next < f->count && !*flies) {
         r->at = f->next++;
         r->ray.dim = 3;
-        memcpy(r->ray.o, f->origins + 3 * r->at, 3 * sizeof(double));
-        memcpy(r->ray.d, f->directions + 3 * r->at, 3 * sizeof(double));
+        const double *origin = f->origins + 3 * r->at, *direction = f->directions + 3 * r->at;
+        memcpy(r->ray.o, origin, 3 * sizeof *origin);
+        memcpy(r->ray.d, direction, 3 * sizeof *direction);
         r->limit = f->t_max;
         r->best.object = r->pending = FROE_NONE;
         r->walked = false;
@@ -60,7 +61,7 @@ static froe_status launch_ray(ray_batch *f, space_ray_state *r, bool *flies) {
         if (*flies) break;
         /* A ray whose numbers single precision cannot hold: the general walk answers it. */
         const froe_status status =
-            query_ray_walked(f->query, r->ray.o, r->ray.d, f->t_max, f->hits ? f->hits + r->at : NULL,
+            query_ray_walked(f->query, origin, direction, f->t_max, f->hits ? f->hits + r->at : NULL,
                              f->hits ? NULL : f->objects + r->at, f->diag);
         if (status) return status;
     }
@@ -117,25 +118,31 @@ static void answer_ray(const ray_batch *f, const space_ray_state *r) {
     if (r->best.object != FROE_NONE) f->hits[r->at].t = geom_hit_round(&f->query->numbers, &r->ray, &r->best.hit);
 }
 
-froe_status space_rays(froe_query *q, const double *origins, const double *directions, size_t count, double t_max,
-                       froe_hit *hits, uint32_t *objects, froe_diagnostic *diag) {
-    const uint64_t exact = q->numbers.stats.exact;
-    ray_batch f = {q, origins, directions, t_max, hits, objects, count, 0, diag};
-    if (!q->space->batch) q->space->batch = support_calloc(&q->alloc, RAYS_AT_ONCE, sizeof *q->space->batch);
-    if (!q->space->batch) return support_fail_memory(diag);
-    /* The next ray takes the place of one that is answered; where none is left, the last ray of the batch does. */
-    space_ray_state *rays = q->space->batch;
+/* One ray alone, up to its end. */
+static froe_status answer_alone(ray_batch *f, space_ray_state *r) {
+    bool flies;
+    const froe_status status = launch_ray(f, r, &flies);
+    if (status || !flies) return status;
+    space_step did = SPACE_ON;
+    while (did == SPACE_ON) did = step_ray(f, r, true);
+    if (did == SPACE_NO_MEMORY) return support_fail_memory(f->diag);
+    answer_ray(f, r);
+    return FROE_OK;
+}
+
+/* The next ray takes the place of one that is answered; where none is left, the last ray of the batch does. */
+static froe_status answer_in_turns(ray_batch *f, space_ray_state *rays) {
     size_t flying = 0;
     bool flies = true;
     froe_status status = FROE_OK;
-    for (; flying < RAYS_AT_ONCE && flies && !status; flying += flies) status = launch_ray(&f, rays + flying, &flies);
+    for (; flying < RAYS_AT_ONCE && flies && !status; flying += flies) status = launch_ray(f, rays + flying, &flies);
     for (size_t i = 0; flying && !status; i = i + 1 < flying ? i + 1 : 0) {
         space_ray_state *r = rays + i;
-        const space_step did = step_ray(&f, r, count == 1);
-        if (did == SPACE_NO_MEMORY) return support_fail_memory(diag);
+        const space_step did = step_ray(f, r, false);
+        if (did == SPACE_NO_MEMORY) return support_fail_memory(f->diag);
         if (did != SPACE_END) continue;
-        answer_ray(&f, r);
-        status = launch_ray(&f, r, &flies);
+        answer_ray(f, r);
+        status = launch_ray(f, r, &flies);
         if (flies || status) continue;
         if (i == --flying) {
             i = 0;
@@ -145,6 +152,17 @@ froe_status space_rays(froe_query *q, const double *origins, const double *direc
         *r = rays[flying];
         rays[flying] = gone;
     }
+    return status;
+}
+
+froe_status space_rays(froe_query *q, const double *origins, const double *directions, size_t count, double t_max,
+                       froe_hit *hits, uint32_t *objects, froe_diagnostic *diag) {
+    const uint64_t exact = q->numbers.stats.exact;
+    ray_batch f = {q, origins, directions, t_max, hits, objects, count, 0, diag};
+    if (!q->space->batch) q->space->batch = support_calloc(&q->alloc, RAYS_AT_ONCE, sizeof *q->space->batch);
+    if (!q->space->batch) return support_fail_memory(diag);
+    space_ray_state *rays = q->space->batch;
+    const froe_status status = count == 1 ? answer_alone(&f, rays) : answer_in_turns(&f, rays);
     q->stats.exact += q->numbers.stats.exact - exact;
     return status;
 }

@@ -20,17 +20,27 @@ void query_ray_free(query_ray *r, const froe_allocator *alloc) {
     array_free(alloc, &r->hits);
 }
 
-froe_status query_ray_take(froe_query *q, const double *origin, const double *direction, double t_max,
-                           froe_diagnostic *diag) {
-    const int dim = q->tree->scene->dim;
+froe_status query_ray_check(int dim, const double *origin, const double *direction, double t_max,
+                            froe_diagnostic *diag) {
+    double none = 0, size = 0; /* what is no finite number makes the first NaN */
+    for (int k = 0; k < dim; k++) {
+        none += (origin[k] - origin[k]) + (direction[k] - direction[k]);
+        size += fabs(direction[k]);
+    }
+    if (none == 0 && size > 0 && t_max >= 0) return FROE_OK;
     froe_status status = query_check_point(origin, dim, "the origin of a ray", diag);
     if (!status) status = query_check_point(direction, dim, "the direction of a ray", diag);
     if (status) return status;
     if (!(t_max >= 0))
         return support_fail(diag, FROE_E_INPUT, "The end of a ray, t = %g, is not a number >= 0.", t_max);
-    bool goes = false;
-    for (int k = 0; k < dim; k++) goes = goes || direction[k] != 0;
-    if (!goes) return support_fail(diag, FROE_E_INPUT, "The direction of a ray is 0.");
+    return support_fail(diag, FROE_E_INPUT, "The direction of a ray is 0.");
+}
+
+froe_status query_ray_take(froe_query *q, const double *origin, const double *direction, double t_max,
+                           froe_diagnostic *diag) {
+    const int dim = q->tree->scene->dim;
+    const froe_status status = query_ray_check(dim, origin, direction, t_max, diag);
+    if (status) return status;
     q->ray.ray = (geom_ray){.dim = dim};
     memcpy(q->ray.ray.o, origin, (size_t)dim * sizeof *origin);
     memcpy(q->ray.ray.d, direction, (size_t)dim * sizeof *direction);
@@ -113,7 +123,7 @@ froe_status query_ray_walked(froe_query *q, const double *origin, const double *
 static froe_status ask_one(froe_query *q, const double *origin, const double *direction, double t_max, froe_hit *hit,
                            uint32_t *object, froe_diagnostic *diag) {
     if (!q->space || !q->tree->packed.wide) return query_ray_walked(q, origin, direction, t_max, hit, object, diag);
-    const froe_status status = query_ray_take(q, origin, direction, t_max, diag);
+    const froe_status status = query_ray_check(3, origin, direction, t_max, diag);
     return status ? status : space_rays(q, origin, direction, 1, t_max, hit, object, diag);
 }
 

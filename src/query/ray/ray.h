@@ -37,6 +37,9 @@ typedef struct query_ray {
 struct froe_query;
 struct tree_objects;
 void query_ray_free(query_ray *r, const froe_allocator *alloc);
+/** Is the origin finite, the direction too and not 0, and t_max >= 0? */
+froe_status query_ray_check(int dim, const double *origin, const double *direction, double t_max,
+                            froe_diagnostic *diag);
 /** Checks a ray and prepares query->ray for it. */
 froe_status query_ray_take(struct froe_query *query, const double *origin, const double *direction, double t_max,
                            froe_diagnostic *diag);
