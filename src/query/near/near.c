@@ -85,7 +85,8 @@ static froe_status find_neighbours(froe_query *q, size_t k, double bound, froe_d
                 if (query_near_box(&q->near, s->dim, lo, hi) > q->near.limit) continue;
             }
             const geom_body body = scene_body(s, object);
-            query_neighbour x = {.square = NAN, .object = object};
+            query_neighbour x;
+            x.square = NAN, x.object = object;
             if (measure_neighbour(q, &body, bound, &x) && !take_neighbour(q, &x, k)) return FROE_E_MEMORY;
         }
     }

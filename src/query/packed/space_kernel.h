@@ -36,6 +36,7 @@ typedef struct space_ray {
 /** A point; keys are squared distances in the coordinates of the wide tree. */
 typedef struct space_point {
     const tree_wide *wide;
+    bool one;    /**< only the nearest object is wanted */
     double x[3]; /**< the caller's */
     double at[3];
 } space_point;

@@ -51,8 +51,8 @@ static void powers_of_2(double x, double *above, double *inverse) {
 
 /* Along which axis the ray moves most, and by how much along the others meanwhile. */
 static void shear_ray(space_ray *r) {
-    int last = fabs(r->d[1]) > fabs(r->d[0]) ? 1 : 0;
-    if (fabs(r->d[2]) > fabs(r->d[last])) last = 2;
+    const double x = fabs(r->d[0]), y = fabs(r->d[1]), z = fabs(r->d[2]);
+    const int last = z > (y > x ? y : x) ? 2 : y > x;
     r->axis[0] = last == 0;
     r->axis[1] = 2 - (last == 2);
     r->axis[2] = last;
@@ -91,6 +91,7 @@ froe_status space_walk_near(froe_query *q, space_walk *w, bool *begun) {
     space_point *p = &w->point;
     *begun = wide;
     p->wide = wide;
+    p->one = q->near.one;
     for (int k = 0; *begun && k < 3; k++) {
         p->x[k] = q->near.point[k];
         p->at[k] = (p->x[k] - wide->middle[k]) * wide->scale;

@@ -24,7 +24,8 @@ static bool answer_space_window(froe_query *q, const space_header *h, const spac
 
 froe_status space_range(froe_query *q, const double *lo, const double *hi, bool any) {
     const tree_wide *wide = q->tree->packed.wide;
-    space_window window = {.wide = wide};
+    space_window window;
+    window.wide = wide;
     for (int k = 0; k < 3; k++) {
         window.lo[k] = lo[k], window.hi[k] = hi[k];
         window.from[k] = (lo[k] - wide->middle[k]) * wide->scale;
