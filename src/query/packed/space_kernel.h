@@ -15,7 +15,6 @@ typedef double space_doubles __attribute__((vector_size(32)));
 typedef int64_t space_longs __attribute__((vector_size(32)));
 typedef float space_floats __attribute__((vector_size(16)));
 typedef int32_t space_ints __attribute__((vector_size(16)));
-typedef uint8_t space_bytes __attribute__((vector_size(4)));
 
 /** A ray o + u d in the coordinates of a wide tree, in whose box it is for u >= start only. Keys are u - start. Fourth
  * components are 0, since kernels load four. */
@@ -27,7 +26,8 @@ typedef struct space_ray {
     double start;
     double largest; /**< component of d */
     float step[4];  /**< 1 / d */
-    float rest[4];  /**< slack, and what floats may cost */
+    float slope[4]; /**< |step| 2^-13: what floats may cost beside a unit of a node */
+    float rest[4];  /**< slack, and what they may cost beside the start */
     float shear[2]; /**< other components / largest */
     int axis[3];    /**< that of the largest component last */
     int up[3];      /**< 1 where it goes up, otherwise 0 */
