@@ -43,14 +43,11 @@ froe_status space_range(froe_query *q, const double *lo, const double *hi, bool 
             return FROE_E_MEMORY;
         for (uint32_t bits = w->kernels->window_node(n, &window); bits; bits &= bits - 1) {
             const uint32_t child = n->child[__builtin_ctz(bits)];
-            if (child & WIDE_LEAF) {
-                const uint8_t *block = q->tree->packed.blocks + (size_t)(child & WIDE_INDEX) * PACKED_BLOCK;
-                for (int at = 0; at < 512; at += 64) __builtin_prefetch(block + at);
+            space_prefetch(q->tree, child);
+            if (child & WIDE_LEAF)
                 w->others.data[w->others.count++] = child & WIDE_INDEX;
-            } else {
-                __builtin_prefetch(wide->nodes + child);
+            else
                 w->objects.data[w->objects.count++] = child;
-            }
         }
     }
     for (size_t i = 0; i < q->space->others.count && !(any && q->found.count); i++)
