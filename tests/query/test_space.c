@@ -529,6 +529,116 @@ static void few_triangles_of_windows_are_left_to_exact_tests(void **state) {
     froe_tree_free(t);
 }
 
+/* Walls at x = 0, 50, 100, ..., each of two triangles; `twice`: each is there again, divided along its other diagonal. */
+static froe_tree *tree_of_walls(bool twice) {
+    static const double square[4][2] = {{0, 0}, {1000, 0}, {1000, 1000}, {0, 1000}};
+    froe_scene *scene;
+    froe_tree *tree;
+    froe_build_options o = froe_build_defaults();
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    for (int wall = 0; wall < 12; wall++)
+        for (int i = 0; i < (twice ? 4 : 2); i++) {
+            double c[9];
+            for (int j = 0; j < 3; j++) {
+                const int corner = (i / 2 + (j ? i % 2 + j : 0)) % 4;
+                c[3 * j] = 50 * wall, c[3 * j + 1] = square[corner][0], c[3 * j + 2] = square[corner][1];
+            }
+            assert_int_equal(trees_add(scene, FROE_POLYGON, 1, c, NULL, NULL), FROE_OK);
+        }
+    o.method = "index";
+    assert_int_equal(froe_build(scene, &o, &tree, NULL), FROE_OK);
+    froe_scene_free(scene);
+    return tree;
+}
+
+/* From between two walls. */
+static froe_query_stats ask_along_walls(const froe_tree *t, bool any, uint64_t count) {
+    froe_query *q;
+    assert_int_equal(froe_query_new(t, &q, NULL), FROE_OK);
+    for (uint64_t draw = 0; draw < count; draw++) {
+        const double at = 10 * trees_unit(41, 3 * draw);
+        const double origin[3] = {50 * at, 400 + trees_unit(41, 3 * draw + 1), 300 + trees_unit(41, 3 * draw + 2)};
+        const double direction[3] = {0.5, 1, 0.3 * trees_unit(42, draw)};
+        const uint32_t ahead = (uint32_t)floor(at) + 1;
+        froe_hit hit = {.object = FROE_NONE};
+        uint32_t object = FROE_NONE;
+        if (any)
+            assert_int_equal(froe_query_ray_any(q, origin, direction, INFINITY, &object, NULL), FROE_OK);
+        else
+            assert_int_equal(froe_query_ray(q, origin, direction, INFINITY, &hit, NULL), FROE_OK);
+        const uint32_t each = t->scene->object_count / 12;
+        if (any)
+            assert_true(object / each >= ahead && object / each < 12);
+        else
+            assert_int_equal(hit.object / each, ahead);
+    }
+    const froe_query_stats stats = froe_query_statistics(q);
+    froe_query_free(q);
+    return stats;
+}
+
+/* Seen from within, a wall reaches before and behind the origin; where the ray crosses its plane says which it is. */
+static void walls_behind_a_ray_are_not_decided(void **state) {
+    froe_tree *t = tree_of_walls(false);
+    (void)state;
+    for (int any = 0; any < 2; any++) {
+        const uint64_t tests = ask_along_walls(t, any, 400).tests;
+        if (tests > 20) fail_msg("%d tests", (int)tests);
+    }
+    froe_tree_free(t);
+}
+
+static void walls_in_one_plane_need_no_exact_numbers(void **state) {
+    froe_tree *t = tree_of_walls(true);
+    (void)state;
+    const froe_query_stats stats = ask_along_walls(t, false, 400);
+    assert_true(stats.tests >= 400);
+    assert_int_equal(stats.exact, 0);
+    froe_tree_free(t);
+}
+
+/* Of a leaf, what is certainly further away than something else is left out; whatever may be the nearest stays. */
+static void check_one(const space_kernels *kernels, const space_header *h, space_point *point, size_t kept[2]) {
+    uint32_t objects[2][512];
+    float keys[2][512], ends[2][512], least = (float)INFINITY;
+    space_found found[2];
+    for (int one = 0; one < 2; one++) {
+        found[one] = (space_found){objects[one], keys[one], ends[one], 0};
+        point->one = one;
+        kernels->near(h, point, 0, (float)INFINITY, found + one);
+        kept[one] += found[one].count;
+    }
+    for (size_t i = 0; i < found[0].count; i++) least = ends[0][i] < least ? ends[0][i] : least;
+    for (size_t i = 0, at = 0; i < found[0].count; i++) {
+        const bool there = at < found[1].count && objects[1][at] == objects[0][i];
+        assert_true(there || keys[0][i] > least);
+        if (there) assert_true(keys[1][at] == keys[0][i] && ends[1][at] == ends[0][i]);
+        at += there;
+    }
+}
+
+static void of_one_leaf_only_what_may_be_nearest_is_kept(void **state) {
+    froe_tree *t = tree_of(kinds);
+    froe_query *q;
+    (void)state;
+    assert_int_equal(froe_query_new(t, &q, NULL), FROE_OK);
+    q->near.scale = 1;
+    for (size_t kernel = 0; space_kernels_at(kernel); kernel++) {
+        size_t kept[2] = {0, 0};
+        for (uint64_t draw = 0; draw < 40; draw++) {
+            bool begun;
+            odd_point(t, draw, q->near.point);
+            assert_int_equal(space_walk_near(q, &q->space->walk, &begun), FROE_OK);
+            for (uint32_t n = 0; begun && n < t->node_count; n++)
+                if (tree_is_leaf(t->nodes + n))
+                    check_one(space_kernels_at(kernel), space_block(t, t->nodes[n].child), &q->space->walk.point, kept);
+        }
+        assert_true(4 * kept[1] < kept[0]);
+    }
+    froe_query_free(q);
+    froe_tree_free(t);
+}
+
 /* -------------------------------------------------------------------- blocks -- */
 
 /* Every byte of a block changed in turn: refused, or found by the audit, or of no consequence for answers. */
@@ -659,6 +769,9 @@ int main(void) {
         cmocka_unit_test(kernels_are_sure_only_of_what_is_met),
         cmocka_unit_test(what_is_a_unit_from_the_truth_is_decided_exactly),
         cmocka_unit_test(few_triangles_of_windows_are_left_to_exact_tests),
+        cmocka_unit_test(walls_behind_a_ray_are_not_decided),
+        cmocka_unit_test(walls_in_one_plane_need_no_exact_numbers),
+        cmocka_unit_test(of_one_leaf_only_what_may_be_nearest_is_kept),
         cmocka_unit_test(damaged_blocks_are_noticed),
         cmocka_unit_test(boxes_larger_than_their_objects_are_found),
         cmocka_unit_test(corners_just_outside_of_boxes_are_found),

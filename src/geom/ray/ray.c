@@ -93,12 +93,26 @@ static int compare_hits_exactly(num_arena *arena, const geom_ray *ray, const geo
     return a->source == GEOM_SPHERE ? -sign : sign;
 }
 
+/* The axis along which all corners of a PLANE in space have one coordinate; -1: there is none. Walls and floors of
+ * models are such. */
+static int wall_axis(const geom_ray *ray, const geom_hit *h) {
+    for (int k = 0; h->source == GEOM_PLANE && ray->dim == 3 && k < 3; k++)
+        if (h->p[k] == h->q[k] && h->p[k] == h->r[k]) return k;
+    return -1;
+}
+
+/* Do the sources alone say that both are equal? Walls of two bodies that touch lie in one plane. */
+static bool same_source(const geom_ray *ray, const geom_hit *a, const geom_hit *b) {
+    if (a->source == GEOM_START && b->source == GEOM_START) return true;
+    const int axis = wall_axis(ray, a);
+    return axis >= 0 && axis == wall_axis(ray, b) && a->p[axis] == b->p[axis];
+}
+
 int geom_hit_compare(num_context *context, const geom_ray *ray, const geom_hit *a, const geom_hit *b) {
     int sign;
-    const bool both_start = a->source == GEOM_START && b->source == GEOM_START;
     context->stats.calls++;
     return NUM_LADDER(context, sign, filter_sign(filter_sub(a->t, b->t)),
-                      both_start ? num_by_id(context, 0) : NUM_UNSURE, NUM_UNSURE,
+                      same_source(ray, a, b) ? num_by_id(context, 0) : NUM_UNSURE, NUM_UNSURE,
                       compare_hits_exactly(num_fresh(context), ray, a, b));
 }
 
@@ -125,6 +139,23 @@ int geom_hit_compare_to(num_context *context, const geom_ray *ray, const geom_hi
                       hit_beyond_exactly(num_fresh(context), ray, a, t));
 }
 
+/* Are sizes such that pairs of doubles neither overflow nor underflow? */
+static bool is_moderate(double size) {
+    return size > 0x1p-300 && size < 0x1p200;
+}
+
+/* The parameter of a wall, (c - o) / d along its axis, by pairs of doubles: one difference, which is exact, and one
+ * quotient, off by less than 2^-98 of itself. Triangles as thin as they may be do not matter here. */
+static bool round_wall(const geom_ray *ray, const geom_hit *h, double *out) {
+    const int axis = wall_axis(ray, h);
+    if (axis < 0) return false;
+    const double d = ray->d[axis];
+    const num_pair gap = num_pair_sum(h->p[axis], -ray->o[axis]), t = num_pair_div(gap, (num_pair){d, 0});
+    const double error = 0x1p-96 * t.hi;
+    *out = t.hi + (t.lo - error);
+    return *out == t.hi + (t.lo + error) && t.hi > 0x1p-200 && is_moderate(fabs(gap.hi)) && is_moderate(fabs(d));
+}
+
 /* The parameter of a PLANE, if pairs of doubles can tell how it is to be rounded. With sizes as sums of coordinates, a
  * product of three vectors is off by less than 2^-96 |e| |f| |v|. */
 static bool round_plane(const geom_ray *ray, const geom_hit *h, double *out) {
@@ -145,7 +176,9 @@ double geom_hit_round(num_context *context, const geom_ray *ray, const geom_hit 
     num_arena *arena = num_fresh(context);
     double rounded;
     if (a->source == GEOM_START) return 0;
-    if (a->source == GEOM_PLANE && context->first < NUM_EXACT && round_plane(ray, a, &rounded)) return rounded;
+    if (a->source == GEOM_PLANE && context->first < NUM_EXACT &&
+        (round_wall(ray, a, &rounded) || round_plane(ray, a, &rounded)))
+        return rounded;
     if (a->source != GEOM_SPHERE) {
         num_ratio t = exact_quotient(arena, ray, a);
         return num_dyadic_quotient(arena, t.top, t.bottom);
