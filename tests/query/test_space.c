@@ -529,7 +529,7 @@ static void few_triangles_of_windows_are_left_to_exact_tests(void **state) {
     froe_tree_free(t);
 }
 
-/* Walls at x = 0, 50, 100, ..., each of two triangles; `twice`: each is there again, divided along its other diagonal. */
+/* Walls at x = 0, 50, 100, ..., each of two triangles; twice: each is there again, divided along the other diagonal. */
 static froe_tree *tree_of_walls(bool twice) {
     static const double square[4][2] = {{0, 0}, {1000, 0}, {1000, 1000}, {0, 1000}};
     froe_scene *scene;

@@ -66,6 +66,8 @@ typedef struct space_answers {
 /** An entry of a stack: what waits, below the key from which it may be met, so that entries are in the order of keys. A
  * wide node; a leaf, WIDE_LEAF; or an object, SPACE_ITEM_OBJECT. */
 #define SPACE_ITEM_OBJECT 0x40000000u
+/** Entries that a ray's walk may add for each level of wide nodes (space_ray.inc). */
+enum { SPACE_ROOM = 2 * WIDE_CHILDREN };
 static inline uint64_t space_entry(float key, uint32_t what) {
     uint32_t bits;
     memcpy(&bits, &key, sizeof bits); /* of numbers that are not negative: in their order */
@@ -93,7 +95,7 @@ typedef struct space_kernels {
     bool (*aim)(space_ray *ray, const double *from, const double *way, double per, bool *meets);
     /** Replaces nodes on top of the stack by their children that may be met with a key up to the limit, until something
      * else is on top, or, with `once`, one node; drops what is beyond the limit. What is left of the stack, which has
-     * room for SPACE_ROOM more. Children are prefetched unless it is once. */
+     * room for SPACE_ROOM more a level. Children are prefetched unless it is once. */
     size_t (*ray_nodes)(const froe_tree *tree, const space_ray *ray, float limit, bool once, uint64_t *stack,
                         size_t count, uint64_t *nodes);
     /** Children that may be met with a key up to the limit, as bits; their keys. */

@@ -137,7 +137,7 @@ static void sort_top(space_walk *w, size_t from) {
 /* Replaces nodes along a ray, until a leaf or an object is on top; or one of them. False without memory. */
 static bool descend_along_ray(froe_query *q, space_walk *w, bool once) {
     uint64_t nodes = 0;
-    if (!array_reserve(&q->alloc, &w->stack, w->ray.wide->levels * WIDE_CHILDREN)) return false;
+    if (!array_reserve(&q->alloc, &w->stack, w->ray.wide->levels * SPACE_ROOM)) return false;
     w->stack.count =
         q->space->kernels->ray_nodes(q->tree, &w->ray, w->limit, once, w->stack.data, w->stack.count, &nodes);
     q->stats.nodes += nodes;
