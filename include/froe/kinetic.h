@@ -41,6 +41,30 @@ FROE_API froe_status froe_motion_new(const froe_motion_options *options, const f
                                      froe_diagnostic *diag);
 FROE_API void froe_motion_free(froe_motion *motion);
 
+/** A rigid body in space: at times[i] its centre is at coords[3 i ..], and it is turned by the quaternion
+ * turns[4 i ..] = x, y, z, w. Between two times the centre moves as a vertex does (froe_moving), and the turn goes
+ * along a rational arc: with u from 0 to 1 in proportion to time, by the quaternion
+ *     q(u) = (1 - u) q0 + u q1,   divided by its length.
+ * It passes the same orientations as a spherical interpolation ("slerp"), about one axis, and is ahead of it or behind
+ * by at most 0.04 degrees where q0 and q1 are 30 degrees apart, 0.3 at 60 and 1 at 90. Of q1 and -q1, which turn alike,
+ * that one counts whose product with q0 is positive. */
+typedef struct froe_body {
+    size_t size;            /**< set by froe_body_defaults() */
+    size_t count;           /**< times, at least 1 */
+    const double *times;    /**< strictly increasing */
+    const double *coords;   /**< of the centre: x, y, z for each time */
+    const double *controls; /**< as in froe_moving; NULL: straight */
+    const double *turns;    /**< x, y, z, w for each time; NULL: it does not turn */
+} froe_body;
+FROE_API froe_body froe_body_defaults(void);
+/** Adds a body, which is nothing but a place for vertices (froe_moving.bodies); *id: 0, 1, ... FROE_E_INPUT: a number
+ * is NaN or infinite; times do not increase; the square of a quaternion's length, x x + y y + z z + w w in doubles from
+ * left to right, is not within 2^-20 of 1; two turns that follow one another are half a turn apart, which does not tell
+ * the way: their product, computed alike, is within 2^-20 of 0. FROE_E_UNSUPPORTED: the motion is of the plane.
+ * FROE_E_ARG, FROE_E_OPTIONS, FROE_E_LIMIT, FROE_E_MEMORY. */
+FROE_API froe_status froe_motion_add_body(froe_motion *motion, const froe_body *body, uint32_t *id,
+                                          froe_diagnostic *diag);
+
 /** A batch of moving objects, as arrays the caller keeps. In the plane, vertex v passes the points
  *     coords[2 i], coords[2 i + 1]  at  times[i],   i = starts[v] .. starts[v+1]-1,
  * in between on a straight line at constant speed, or, where controls[2 i], controls[2 i + 1] is not NaN, on
@@ -48,7 +72,9 @@ FROE_API void froe_motion_free(froe_motion *motion);
  *     p(t) = ((t1-t)^2 p0 + 2 (t1-t)(t-t0) c + (t-t0)^2 p1) / (t1-t0)^2
  * so a body that starts at p0 with speed s has c = p0 + s (t1-t0) / 2. A vertex with one time never moves.
  * Segment j joins the vertices vertices[2 j] and vertices[2 j + 1] of the batch; segments may share vertices.
- * In space there are three numbers for each time, and triangle j has the corners vertices[3 j] to vertices[3 j + 2]. */
+ * In space there are three numbers for each time, and triangle j has the corners vertices[3 j] to vertices[3 j + 2]. A
+ * vertex of a body has one time, which does not matter: its coordinates are those in the body, from the centre, before
+ * the turn. The corners of a triangle are all of one body, or of none. */
 typedef struct froe_moving {
     size_t size;              /**< set by froe_moving_defaults() */
     size_t vertex_count;      /**< flight plans */
@@ -58,6 +84,7 @@ typedef struct froe_moving {
     const double *controls;   /**< as many for each time but each plan's last (ignored); NULL: all pieces linear */
     size_t count;             /**< objects: segments or triangles */
     const uint32_t *vertices; /**< 2 a segment, 3 a triangle; NULL: each number once, in order */
+    const uint32_t *bodies;   /**< of each vertex, or FROE_NONE; NULL: none */
     const double *births;     /**< count times at which objects appear; NULL: with the window, as is -INFINITY */
     const double *deaths;     /**< last times at which they are there; NULL: with the window, as is INFINITY */
     const uint64_t *tags;     /**< the caller's names; NULL: each object's own id */
@@ -69,7 +96,8 @@ FROE_API froe_moving froe_moving_defaults(void); /**< none, no groups */
 /** Adds a batch: all of it, or on failure none of it. Objects have the ids 0, 1, ... in the order they were added, and
  * so have vertices. FROE_E_INPUT: a coordinate or time is NaN or infinite, times do not increase, a vertex has no plan
  * or one that does not cover the part of the window in which its objects live, an object dies before it appears, two
- * corners of a triangle are one vertex. FROE_E_ARG, FROE_E_OPTIONS, FROE_E_LIMIT, FROE_E_MEMORY. O(times + objects). */
+ * corners of a triangle are one vertex or of two bodies, there is no such body, a vertex of a body has a plan of its
+ * own. FROE_E_ARG, FROE_E_OPTIONS, FROE_E_LIMIT, FROE_E_MEMORY. O(times + objects). */
 FROE_API froe_status froe_motion_add(froe_motion *motion, const froe_moving *batch, froe_diagnostic *diag);
 
 /** As froe_scene_add_group(). */
@@ -80,6 +108,9 @@ FROE_API size_t froe_motion_group_count(const froe_motion *motion);
 
 FROE_API size_t froe_motion_object_count(const froe_motion *motion);
 FROE_API size_t froe_motion_vertex_count(const froe_motion *motion);
+FROE_API size_t froe_motion_body_count(const froe_motion *motion);
+/** The body that a vertex belongs to, or FROE_NONE. */
+FROE_API uint32_t froe_motion_vertex_body(const froe_motion *motion, uint32_t vertex);
 /** The window, and the length of a tick. */
 FROE_API froe_motion_options froe_motion_window(const froe_motion *motion);
 
@@ -98,8 +129,17 @@ typedef struct froe_moving_knot {
     double control[3];  /**< of the piece that begins here; NaN: linear, or the last instant */
 } froe_moving_knot;
 FROE_API size_t froe_motion_knot_count(const froe_motion *motion, uint32_t vertex);
-/** REQUIRES: vertex and knot in range. O(1). */
+/** Of a vertex of a body, knot 0 is where it is in the body. REQUIRES: vertex and knot in range. O(1). */
 FROE_API froe_moving_knot froe_motion_knot(const froe_motion *motion, uint32_t vertex, size_t knot);
+
+/** One instant of a body. */
+typedef struct froe_body_knot {
+    double time, at[3], control[3]; /**< as of a vertex */
+    double turn[4];                 /**< x, y, z, w: as given, or negated */
+} froe_body_knot;
+FROE_API size_t froe_motion_body_knot_count(const froe_motion *motion, uint32_t body);
+/** REQUIRES: body and knot in range. O(1). */
+FROE_API froe_body_knot froe_motion_body_knot(const froe_motion *motion, uint32_t body, size_t knot);
 
 /** Where a vertex is at a time, for output: x, y and, in space, z, each within a few units in the last place of the
  * greatest coordinate nearby. False (nothing written): its plan does not cover the time. O(log knots). */
@@ -142,10 +182,11 @@ typedef bool froe_contact_fn(void *user, const froe_contact *contact);
 
 /** All contacts between moving objects, in the order of their beginnings (low, high, a, b). None is missed, however
  * short, grazing ones included: candidates come from boxes in space and time, times from the roots of exact polynomials
- * (degree up to 4 in the plane; in space 3, and 6 where vertices fly along parabolas). Triangles may lie in one plane,
- * and may have no area, at an instant or always. Objects that share a vertex always meet there, and are left out.
- * options NULL: the defaults. FROE_E_OPTIONS: from > to, or outside the window. FROE_E_LIMIT: two things happen within
- * 2^-2047 of the time between two knots. FROE_E_MEMORY, FROE_E_CANCELLED. O(n log^2 n + candidates). */
+ * (degree up to 4 in the plane; in space 3, with bodies that turn 5, along parabolas 6, of a body and a triangle whose
+ * corners fly along parabolas each for itself 8). Triangles may lie in one plane, and may have no area, at an instant
+ * or always. Objects that share a vertex always meet there, and are left out, as are two of one body. options NULL: the
+ * defaults. FROE_E_OPTIONS: from > to, or outside the window. FROE_E_LIMIT: two things happen within 2^-2047 of the
+ * time between two knots. FROE_E_MEMORY, FROE_E_CANCELLED. O(n log^2 n + candidates). */
 FROE_API froe_status froe_motion_contacts(const froe_motion *motion, const froe_contact_options *options,
                                           froe_contact_fn *fn, void *user, froe_diagnostic *diag);
 

@@ -45,21 +45,25 @@ typedef enum scene_kind {
     LINED,     /* all corners on one line */
     LIVES,     /* lattice motions that begin and end at whole times */
     FAR,       /* lattice, 2^40 from the origin */
+    BODIES,    /* each a body of its own that turns, by right angles and others */
+    FALLING,   /* the same along parabolas, and shapes that are no bodies */
     SCENES
 } scene_kind;
 
 typedef struct scene {
     size_t starts[3 * MOST + 1], count;
     double times[3 * MOST * KNOTS], at[9 * MOST * KNOTS], controls[9 * MOST * KNOTS], births[MOST], deaths[MOST];
+    uint32_t bodies[3 * MOST];
 } scene;
 
 static double number(fuzz_source *r, scene_kind kind) {
     return kind == RANDOM || kind == CURVED ? fuzz_int(r, -64, 64) * 0x1p-6 : fuzz_int(r, 0, 3);
 }
 
-static size_t times_of(fuzz_source *r, scene_kind kind, double *times) {
+static size_t times_of(fuzz_source *r, scene_kind kind, bool in_body, double *times) {
     size_t count = 0;
     times[count++] = 0;
+    if (in_body) return count;
     if (kind != RIGID && kind != STACKED && fuzz_int(r, 0, 1))
         times[count++] = kind == RANDOM ? fuzz_int(r, 1, 255) / 32.0 : fuzz_int(r, 1, 7);
     times[count++] = WINDOW;
@@ -81,11 +85,13 @@ static void corner(fuzz_source *r, scene_kind kind, const scene *s, size_t v, si
 }
 
 static froe_moving make(fuzz_source *r, scene_kind kind, size_t n, scene *s) {
-    const bool curved = kind == CURVED || kind == PARABOLIC;
+    const bool curved = kind == CURVED || kind == PARABOLIC || kind == FALLING;
     size_t at = 0;
     for (size_t v = 0; v < 3 * n; v++) {
         s->starts[v] = at;
-        const size_t count = times_of(r, kind, s->times + at);
+        const bool in_body = kind == BODIES || (kind == FALLING && v / 3 % 2);
+        const size_t count = times_of(r, kind, in_body, s->times + at);
+        s->bodies[v] = in_body ? (uint32_t)(v / 3) : FROE_NONE;
         for (size_t i = 0; i < count; i++, at++) {
             corner(r, kind, s, v, i, s->at + 3 * at);
             const bool straight = !curved || fuzz_int(r, 0, 1);
@@ -100,13 +106,40 @@ static froe_moving make(fuzz_source *r, scene_kind kind, size_t n, scene *s) {
     froe_moving b = froe_moving_defaults();
     b.vertex_count = 3 * n, b.count = n, b.starts = s->starts, b.times = s->times, b.coords = s->at;
     b.controls = s->controls, b.births = s->births, b.deaths = s->deaths;
+    if (kind >= BODIES) b.bodies = s->bodies;
     return b;
+}
+
+/* n bodies that turn in 1 or 2 steps. */
+static froe_status add_bodies(froe_motion *m, uint32_t n, bool falling, uint64_t seed) {
+    static const double turns[][4] = {{0, 0, 0, 1},          {0.5, 0.5, 0.5, 0.5},    {0.6, 0, 0, 0.8},
+                                      {0, -0.6, 0, 0.8},     {0, 0, 0.28, 0.96},      {0.5, -0.5, 0.5, 0.5},
+                                      {-0.48, 0.36, 0, 0.8}, {-0.5, -0.5, -0.5, -0.5}};
+    fuzz_source r = {seed};
+    froe_status status = FROE_OK;
+    for (uint32_t i = 0; i < n && !status; i++) {
+        double times[3] = {0, fuzz_int(&r, 1, 7), WINDOW}, at[9], controls[9], turn[12];
+        froe_body body = froe_body_defaults();
+        body.count = (size_t)fuzz_int(&r, 1, 3);
+        times[body.count - 1] = body.count > 1 ? WINDOW : 0;
+        for (size_t k = 0; k < 9; k++) {
+            at[k] = fuzz_int(&r, 0, 3);
+            controls[k] = falling && i % 2 ? (double)fuzz_int(&r, 0, 4) : (double)NAN;
+        }
+        for (size_t k = 0; k < 3; k++) memcpy(turn + 4 * k, turns[fuzz_int(&r, 0, 7)], sizeof turns[0]);
+        body.times = times, body.coords = at, body.controls = controls, body.turns = turn;
+        status = froe_motion_add_body(m, &body, NULL, NULL);
+    }
+    return status;
 }
 
 static froe_status motion_in_space(const froe_moving *batch, const froe_allocator *alloc, froe_motion **out) {
     froe_motion_options o = froe_motion_defaults();
     o.dim = 3, o.begin = 0, o.end = WINDOW;
     froe_status status = froe_motion_new(&o, alloc, out, NULL);
+    if (!status && batch->bodies)
+        status = add_bodies(*out, (uint32_t)batch->count, batch->bodies[0] == FROE_NONE,
+                            (uint64_t)(batch->coords[0] + 8 * batch->coords[4] + 64 * batch->coords[8]));
     return status ? status : froe_motion_add(*out, batch, NULL);
 }
 
@@ -226,13 +259,14 @@ static void contacts_are_those_of_linear_programs(void **state) {
     for (int kind = 0; kind < SCENES; kind++) {
         tally t = {0, 0, 0, 0, 0};
         for (int round = 0; round < 3; round++) {
-            const froe_moving batch = make(&r, (scene_kind)kind, 5, &s);
+            const froe_moving batch = make(&r, (scene_kind)kind, kind < BODIES ? 5 : MOST, &s);
             froe_motion *m = motion_of(&batch);
             check_motion(m, &t);
             froe_motion_free(m);
         }
         assert_true(t.contacts >= 12);
-        if (kind >= LATTICE && kind != LINED && kind != LIVES) assert_true(t.instants > 5 && t.known > 5);
+        if (kind >= LATTICE && kind != LINED && kind != LIVES && kind < BODIES)
+            assert_true(t.instants > 5 && t.known > 5);
         if (kind != STACKED) assert_true(t.lasting > 8);
     }
 }
@@ -391,7 +425,7 @@ static void nasty_coordinates_stay_within_the_arena(void **state) {
     static scene s;
     fuzz_source r = {5};
     for (int kind = 0; kind < FUZZ_CLASSES; kind++) {
-        const froe_moving batch = make(&r, kind % 2 ? PARABOLIC : LATTICE, 2, &s);
+        const froe_moving batch = make(&r, kind % 3 == 0 ? PARABOLIC : kind % 3 == 1 ? BODIES : FALLING, 2, &s);
         fuzz_points(&r, (fuzz_class)kind, 3, s.at, s.starts[6]);
         for (size_t i = 0; i < 3 * s.starts[6]; i++)
             if (!isnan(s.controls[i])) s.controls[i] = fuzz_coordinate(&r, (fuzz_class)kind);

@@ -52,12 +52,64 @@ static void on_piece(const froe_moving_knot *p, const froe_moving_knot *q, const
     mpq_clears(from, middle, last, NULL);
 }
 
+/* v + 2 r x (r x v + w v) / |q|^2, with q = (r, w). */
+static void turn(mpq_t q[4], mpq_t v[3]) {
+    mpq_t cross[3], square, product;
+    mpq_inits(cross[0], cross[1], cross[2], square, product, NULL);
+    for (int k = 0; k < 3; k++) {
+        mpq_mul(cross[k], q[(k + 1) % 3], v[(k + 2) % 3]);
+        mpq_mul(product, q[(k + 2) % 3], v[(k + 1) % 3]);
+        mpq_sub(cross[k], cross[k], product);
+        mpq_mul(product, q[3], v[k]);
+        mpq_add(cross[k], cross[k], product);
+    }
+    for (int k = 0; k < 4; k++) {
+        mpq_mul(product, q[k], q[k]);
+        mpq_add(square, square, product);
+    }
+    mpq_div_2exp(square, square, 1);
+    mpq_t once;
+    mpq_init(once);
+    for (int k = 0; k < 3; k++) {
+        mpq_mul(once, q[(k + 1) % 3], cross[(k + 2) % 3]);
+        mpq_mul(product, q[(k + 2) % 3], cross[(k + 1) % 3]);
+        mpq_sub(once, once, product);
+        mpq_div(once, once, square);
+        mpq_add(v[k], v[k], once);
+    }
+    mpq_clears(cross[0], cross[1], cross[2], square, product, once, NULL);
+}
+
+/* Where a place in a body is. */
+static void in_body(const froe_motion *m, uint32_t body, const mpq_t time, mpq_t v[3]) {
+    const size_t count = froe_motion_body_knot_count(m, body);
+    size_t i = 0;
+    while (i + 2 < count && oracle_compare_time(time, froe_motion_body_knot(m, body, i + 1).time) > 0) i++;
+    const froe_body_knot a = froe_motion_body_knot(m, body, i), b = froe_motion_body_knot(m, body, i + (count > 1));
+    froe_moving_knot p = {.time = a.time}, q = {.time = b.time};
+    mpq_t share, from, to[4], centre[3];
+    mpq_inits(share, from, to[0], to[1], to[2], to[3], centre[0], centre[1], centre[2], NULL);
+    for (int k = 0; k < 3; k++) p.at[k] = a.at[k], q.at[k] = b.at[k], p.control[k] = a.control[k];
+    if (count > 1) share_between(share, a.time, b.time, time);
+    on_piece(&p, &q, share, centre);
+    for (int k = 0; k < 4; k++) {
+        mpq_set_d(from, a.turn[k]);
+        mpq_set_d(to[k], b.turn[k]);
+        go_between(from, to[k], share);
+    }
+    turn(to, v);
+    for (int k = 0; k < 3; k++) mpq_add(v[k], v[k], centre[k]);
+    mpq_clears(share, from, to[0], to[1], to[2], to[3], centre[0], centre[1], centre[2], NULL);
+}
+
 void oracle_corner(const froe_motion *m, uint32_t vertex, const mpq_t time, mpq_t out[3]) {
     const size_t count = froe_motion_knot_count(m, vertex);
     size_t i = 0;
     while (i + 2 < count && oracle_compare_time(time, froe_motion_knot(m, vertex, i + 1).time) > 0) i++;
     const froe_moving_knot p = froe_motion_knot(m, vertex, i);
     for (int k = 0; k < 3; k++) mpq_set_d(out[k], p.at[k]);
+    const uint32_t body = froe_motion_vertex_body(m, vertex);
+    if (body != FROE_NONE) in_body(m, body, time, out);
     if (count == 1) return;
     const froe_moving_knot q = froe_motion_knot(m, vertex, i + 1);
     mpq_t share;

@@ -45,11 +45,13 @@ typedef struct contact_search {
 
 /* ------------------------------------------------------------------- one pair -- */
 
-/* Not of objects that share a vertex, nor, if groups are to be kept apart, of two of one group. */
+/* Not of objects that share a vertex or a body, nor, if groups are to be kept apart, of two of one group. */
 static bool is_asked_for(const contact_search *s, const motion_object *a, const motion_object *b) {
     const int dim = s->m->dim;
     for (int i = 0; i < dim * dim; i++)
         if (a->vertices[i / dim] == b->vertices[i % dim]) return false;
+    const uint32_t body = s->m->plans.data[a->vertices[0]].body;
+    if (body != FROE_NONE && body == s->m->plans.data[b->vertices[0]].body) return false;
     return !s->o->apart || a->group == FROE_NONE || a->group != b->group;
 }
 

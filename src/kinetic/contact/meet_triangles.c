@@ -14,7 +14,8 @@
  * they meet iff two edges do, or a corner of one is within the other: by turns, and where points are in one line by
  * differences of coordinates, as segments of the plane.
  *
- * Degrees in time: corners on straight lines 3, on parabolas 6. */
+ * Degrees in time: corners on straight lines 3, bodies that turn 5, either along parabolas 6, corners on parabolas of
+ * their own and a body that turns 8. */
 #include "kinetic/contact/walk.h"
 
 enum {
@@ -80,13 +81,22 @@ static bool same_times(const motion_piece piece[3]) {
 }
 
 static void shape_by_balls(const encounter *g, int of, trio_ball *out) {
+    const motion_piece *piece = g->piece[of];
     motion_ball_curve curve[3];
     int degree[3];
-    for (int i = 0; i < 3; i++) {
-        motion_span_ball(g->m, &g->piece[of][i], g->w->from, g->w->to, &curve[i]);
-        degree[i] = g->piece[of][i].degree;
+    if (piece->corner) {
+        num_ball turn[4][2];
+        const double *const v[3] = {piece[0].corner, piece[1].corner, piece[2].corner};
+        motion_span_ball(g->m, piece, g->w->from, g->w->to, curve);
+        const int turning = motion_turn_ball(g->m, piece, g->w->from, g->w->to, turn);
+        body_of_ball(NULL, curve, piece->degree, turn, turning, v, out);
+        return;
     }
-    corners_of_ball(NULL, curve, degree, same_times(g->piece[of]), g->origin, out);
+    for (int i = 0; i < 3; i++) {
+        motion_span_ball(g->m, &piece[i], g->w->from, g->w->to, &curve[i]);
+        degree[i] = piece[i].degree;
+    }
+    corners_of_ball(NULL, curve, degree, same_times(piece), g->origin, out);
     finish_shape_ball(NULL, out);
 }
 
@@ -137,13 +147,22 @@ static bool surely_apart(encounter *g) {
 /* ------------------------------------------------------------------- exactly -- */
 
 static void shape_exactly(const encounter *g, int of, trio_dyadic *out) {
+    const motion_piece *piece = g->piece[of];
     motion_dyadic_curve curve[3];
     int degree[3];
-    for (int i = 0; i < 3; i++) {
-        motion_span_dyadic(g->arena, g->m, &g->piece[of][i], g->w->from, g->w->to, &curve[i]);
-        degree[i] = g->piece[of][i].degree;
+    if (piece->corner) {
+        num_dyadic turn[4][2];
+        const double *const v[3] = {piece[0].corner, piece[1].corner, piece[2].corner};
+        motion_span_dyadic(g->arena, g->m, piece, g->w->from, g->w->to, curve);
+        const int turning = motion_turn_dyadic(g->arena, g->m, piece, g->w->from, g->w->to, turn);
+        body_of_dyadic(g->arena, curve, piece->degree, turn, turning, v, out);
+        return;
     }
-    corners_of_dyadic(g->arena, curve, degree, same_times(g->piece[of]), g->origin, out);
+    for (int i = 0; i < 3; i++) {
+        motion_span_dyadic(g->arena, g->m, &piece[i], g->w->from, g->w->to, &curve[i]);
+        degree[i] = piece[i].degree;
+    }
+    corners_of_dyadic(g->arena, curve, degree, same_times(piece), g->origin, out);
     finish_shape_dyadic(g->arena, out);
 }
 
@@ -282,7 +301,8 @@ bool meet_triangles(const froe_motion *m, meet_worker *worker, const motion_obje
         g.piece[0][i] = motion_piece_at_time(m, p->vertices[i], g.w->from);
         g.piece[1][i] = motion_piece_at_time(m, q->vertices[i], g.w->from);
     }
-    for (int k = 0; k < 3; k++) g.origin[k] = g.piece[0][0].from->at[k];
+    const motion_piece *near = g.piece[g.piece[0]->corner != NULL]; /* a triangle of no body, if there is one */
+    for (int k = 0; k < 3; k++) g.origin[k] = near->from->at[k];
     if (surely_apart(&g)) return true;
     worker->stats.exact++;
     return list_events(&g) && walk_through(g.arena, g.w, do_meet, &g);

@@ -14,6 +14,10 @@ froe_motion_options froe_motion_defaults(void) {
     return (froe_motion_options){.size = sizeof(froe_motion_options), .dim = 2, .begin = NAN, .end = NAN};
 }
 
+froe_body froe_body_defaults(void) {
+    return (froe_body){.size = sizeof(froe_body)};
+}
+
 froe_moving froe_moving_defaults(void) {
     return (froe_moving){.size = sizeof(froe_moving), .group = FROE_NONE};
 }
@@ -112,6 +116,8 @@ void froe_motion_free(froe_motion *m) {
     array_free(&alloc, &m->knots);
     array_free(&alloc, &m->plans);
     array_free(&alloc, &m->objects);
+    array_free(&alloc, &m->bodies);
+    array_free(&alloc, &m->turns);
     froe_scene_free(m->names);
     support_free(&alloc, m, sizeof *m);
 }
@@ -138,6 +144,28 @@ size_t froe_motion_object_count(const froe_motion *motion) {
 
 size_t froe_motion_vertex_count(const froe_motion *motion) {
     return motion ? motion->plans.count : 0;
+}
+
+size_t froe_motion_body_count(const froe_motion *motion) {
+    return motion ? motion->bodies.count : 0;
+}
+
+uint32_t froe_motion_vertex_body(const froe_motion *motion, uint32_t vertex) {
+    return motion && vertex < motion->plans.count ? motion->plans.data[vertex].body : FROE_NONE;
+}
+
+size_t froe_motion_body_knot_count(const froe_motion *motion, uint32_t body) {
+    return motion && body < motion->bodies.count ? motion->bodies.data[body].plan.count : 0;
+}
+
+froe_body_knot froe_motion_body_knot(const froe_motion *motion, uint32_t body, size_t knot) {
+    const motion_body *b = motion->bodies.data + body;
+    const motion_knot *k = motion->knots.data + b->plan.first + knot;
+    const double *q = motion->turns.data[b->turns + knot].q;
+    return (froe_body_knot){k->time,
+                            {k->at[0], k->at[1], k->at[2]},
+                            {k->control[0], k->control[1], k->control[2]},
+                            {q[0], q[1], q[2], q[3]}};
 }
 
 froe_motion_options froe_motion_window(const froe_motion *motion) {

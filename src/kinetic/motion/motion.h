@@ -32,7 +32,18 @@ typedef struct motion_knot {
 typedef struct motion_plan {
     size_t first;   /**< knot */
     uint32_t count; /**< knots, >= 1 */
+    uint32_t body;  /**< FROE_NONE, or it is one knot, whose place is that in the body */
 } motion_plan;
+
+typedef struct motion_turn {
+    double q[4]; /**< x, y, z, w; its product with the one before is positive */
+} motion_turn;
+
+/** The flight of the centre, and as many turns as it has knots. */
+typedef struct motion_body {
+    motion_plan plan;
+    size_t turns; /**< the first */
+} motion_body;
 
 typedef struct motion_object {
     uint32_t vertices[3]; /**< as many as the motion has dimensions, the others FROE_NONE */
@@ -54,6 +65,8 @@ struct froe_motion {
     ARRAY(motion_knot) knots;
     ARRAY(motion_plan) plans; /**< [vertex] */
     ARRAY(motion_object) objects;
+    ARRAY(motion_body) bodies;
+    ARRAY(motion_turn) turns;
     froe_scene *names; /**< a scene of groups alone */
 };
 
@@ -75,6 +88,8 @@ typedef struct motion_piece {
     const motion_knot *from, *to; /**< equal: it stands still */
     int degree;                   /**< 0, 1 or 2 */
     int64_t last;                 /**< the last tick that belongs to it; MOTION_FAR: it ends with the plan */
+    const double *corner;         /**< NULL, or the place in a body whose centre flies as said */
+    const motion_turn *turn;      /**< of that body at `from` (and, if to is not from, then at `to`) */
 } motion_piece;
 
 /** The piece a tick belongs to. REQUIRES: the plan covers it. O(log knots). */
@@ -121,4 +136,10 @@ void motion_curve_ball(const froe_motion *m, const motion_piece *piece, int64_t 
 void motion_span_dyadic(num_arena *arena, const froe_motion *m, const motion_piece *piece, double from, double to,
                         motion_dyadic_curve *out);
 void motion_span_ball(const froe_motion *m, const motion_piece *piece, double from, double to, motion_ball_curve *out);
+
+/* Bodies. All above is then about the centre, but for motion_extend(). A quaternion x, y, z, w that turns in proportion
+ * to q, as polynomials in shares of the time:  q[i] = c[i][0] + c[i][1] s.  Returns the degree, 0 or 1. */
+int motion_turn_dyadic(num_arena *arena, const froe_motion *m, const motion_piece *piece, double from, double to,
+                       num_dyadic c[4][2]);
+int motion_turn_ball(const froe_motion *m, const motion_piece *piece, double from, double to, num_ball c[4][2]);
 #endif

@@ -62,12 +62,13 @@ static void measure_knot(const froe_motion *m, motion_knot *knot, const motion_k
 typedef struct plan_input {
     size_t count;
     const double *times, *coords, *controls;
-    uint32_t vertex; /* for messages */
+    uint32_t vertex; /* for messages: of the batch, or the number of a body */
+    const char *noun;
 } plan_input;
 
 static froe_status fail_at_knot(plan_adding *a, const plan_input *p, size_t i, const char *what, double value) {
     return support_fail_at(a->diag, FROE_E_INPUT, FROE_NONE, p->vertex, FROE_NONE,
-                           "vertex %u: Its %s %zu is %g, not a finite number.", p->vertex, what, i, value);
+                           "%s %u: Its %s %zu is %g, not a finite number.", p->noun, p->vertex, what, i, value);
 }
 
 /* One finite number of the plan; -0 becomes +0. */
@@ -91,8 +92,8 @@ static froe_status take_knot(plan_adding *a, const plan_input *p, size_t i, moti
     if (!isfinite(knot->time)) return fail_at_knot(a, p, i, "time", knot->time);
     if (i && !(knot->time > knot[-1].time))
         return support_fail_at(a->diag, FROE_E_INPUT, FROE_NONE, p->vertex, FROE_NONE,
-                               "vertex %u: Time %zu, %.17g, is not after time %zu, %.17g.", p->vertex, i, knot->time,
-                               i - 1, knot[-1].time);
+                               "%s %u: Time %zu, %.17g, is not after time %zu, %.17g.", p->noun, p->vertex, i,
+                               knot->time, i - 1, knot[-1].time);
     knot->tick = motion_tick_after(a->motion, knot->time);
     take_time(a, knot->time);
     static const char *const names[2][3] = {{"x", "y", "z"},
@@ -112,11 +113,11 @@ static froe_status take_knot(plan_adding *a, const plan_input *p, size_t i, moti
 /* Appends the knots of a plan. REQUIRES: room. */
 static froe_status take_plan(plan_adding *a, const plan_input *p, motion_plan *plan) {
     if (!p->count)
-        return support_fail_at(a->diag, FROE_E_INPUT, FROE_NONE, p->vertex, FROE_NONE,
-                               "vertex %u: It has no flight plan.", p->vertex);
+        return support_fail_at(a->diag, FROE_E_INPUT, FROE_NONE, p->vertex, FROE_NONE, "%s %u: It has no flight plan.",
+                               p->noun, p->vertex);
     if (p->count > LIMIT)
-        return support_fail(a->diag, FROE_E_LIMIT, "vertex %u: There are more than %u times.", p->vertex, LIMIT);
-    *plan = (motion_plan){a->motion->knots.count + a->knots, (uint32_t)p->count};
+        return support_fail(a->diag, FROE_E_LIMIT, "%s %u: There are more than %u times.", p->noun, p->vertex, LIMIT);
+    *plan = (motion_plan){a->motion->knots.count + a->knots, (uint32_t)p->count, FROE_NONE};
     motion_knot *knots = a->motion->knots.data + plan->first;
     for (size_t i = 0; i < p->count; i++) {
         froe_status status = take_knot(a, p, i, knots + i);
@@ -167,14 +168,28 @@ static froe_status check_batch(const plan_adding *a) {
     return FROE_OK;
 }
 
+/* A vertex that a body carries. */
+static froe_status take_into_body(const plan_adding *a, size_t v, motion_plan *plan) {
+    const uint32_t body = plan->body = a->batch->bodies[v];
+    if (body >= a->motion->bodies.count)
+        return support_fail_at(a->diag, FROE_E_INPUT, FROE_NONE, (uint32_t)v, FROE_NONE,
+                               "vertex %zu: There is no body %u.", v, body);
+    if (plan->count == 1) return FROE_OK;
+    return support_fail_at(a->diag, FROE_E_INPUT, FROE_NONE, (uint32_t)v, FROE_NONE,
+                           "vertex %zu: It belongs to body %u, and has a plan of its own.", v, body);
+}
+
 static froe_status take_vertices(plan_adding *a) {
     const froe_moving *b = a->batch;
     const size_t dim = (size_t)a->motion->dim;
     for (size_t v = 0; v < b->vertex_count; v++) {
         size_t start = b->starts[v];
-        plan_input plan = {b->starts[v + 1] - start, b->times + start, b->coords + dim * start, NULL, (uint32_t)v};
+        plan_input plan = {
+            b->starts[v + 1] - start, b->times + start, b->coords + dim * start, NULL, (uint32_t)v, "vertex"};
         if (b->controls) plan.controls = b->controls + dim * start;
-        froe_status status = take_plan(a, &plan, a->motion->plans.data + a->motion->plans.count + v);
+        motion_plan *taken = a->motion->plans.data + a->motion->plans.count + v;
+        froe_status status = take_plan(a, &plan, taken);
+        if (!status && b->bodies && b->bodies[v] != FROE_NONE) status = take_into_body(a, v, taken);
         if (status) return status;
     }
     return FROE_OK;
@@ -194,7 +209,12 @@ static froe_status take_corner(const plan_adding *a, uint32_t j, uint32_t k, mot
         if (o->vertices[i] == o->vertices[k])
             return support_fail_at(a->diag, FROE_E_INPUT, j, (uint32_t)v, FROE_NONE,
                                    "triangle %u: Two of its corners are the vertex %zu.", j, v);
-    return check_cover(a, m->plans.data + o->vertices[k], (uint32_t)v, j, o->birth, o->death);
+    const motion_plan *plan = m->plans.data + o->vertices[k];
+    if (m->plans.data[o->vertices[0]].body != plan->body)
+        return support_fail_at(a->diag, FROE_E_INPUT, j, (uint32_t)v, FROE_NONE,
+                               "triangle %u: Its corners do not belong to the same body.", j);
+    if (plan->body != FROE_NONE) plan = &m->bodies.data[plan->body].plan;
+    return check_cover(a, plan, (uint32_t)v, j, o->birth, o->death);
 }
 
 static froe_status take_mover(plan_adding *a, uint32_t j, motion_object *o) {
@@ -256,10 +276,65 @@ froe_status froe_motion_add(froe_motion *motion, const froe_moving *batch, froe_
     return FROE_OK;
 }
 
+/* -------------------------------------------------------------------- bodies -- */
+
+static double product_of_turns(const double *p, const double *q) {
+    return p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3];
+}
+
+/* Turn i of a body; of q and -q, that which is nearer to the one before. */
+static froe_status take_turn(plan_adding *a, const plan_input *p, const double *q, size_t i, motion_turn *out) {
+    static const char *const names[4] = {"x of turn", "y of turn", "z of turn", "w of turn"};
+    const double near = 0x1p-20;
+    froe_status status = FROE_OK;
+    for (size_t k = 0; k < 4 && !status; k++) status = take_number(a, p, i, names[k], q[k], &out->q[k]);
+    if (status) return status;
+    const double square = product_of_turns(out->q, out->q);
+    if (!(fabs(square - 1) <= near))
+        return support_fail(a->diag, FROE_E_INPUT,
+                            "body %u: The quaternion of turn %zu, %g %g %g %g, has not the length 1.", p->vertex, i,
+                            q[0], q[1], q[2], q[3]);
+    const double along = i ? product_of_turns(out[-1].q, out->q) : 1;
+    if (fabs(along) <= near)
+        return support_fail(a->diag, FROE_E_INPUT,
+                            "body %u: Turns %zu and %zu are half a turn apart, which does not tell the way.", p->vertex,
+                            i - 1, i);
+    for (int k = 0; k < 4 && along < 0; k++) out->q[k] = 0.0 - out->q[k];
+    return FROE_OK;
+}
+
+froe_status froe_motion_add_body(froe_motion *m, const froe_body *body, uint32_t *id, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
+    static const double upright[4] = {0, 0, 0, 1};
+    if (!m || !body) return support_fail_null(diag, __func__);
+    if (body->size != sizeof *body) return support_fail_defaults(diag, "froe_body_defaults");
+    if (m->dim != 3) return support_fail(diag, FROE_E_UNSUPPORTED, "The plane has no bodies.");
+    if (!body->times || !body->coords) return support_fail_null(diag, __func__);
+    plan_adding a = begin_adding(m, NULL, diag);
+    const plan_input input = {body->count, body->times, body->coords, body->controls, (uint32_t)m->bodies.count,
+                              "body"};
+    if (m->bodies.count >= LIMIT) return support_fail(diag, FROE_E_LIMIT, "There are more than %u bodies.", LIMIT);
+    m->edition++;
+    if (!array_reserve(&m->alloc, &m->knots, body->count) || !array_reserve(&m->alloc, &m->turns, body->count) ||
+        !array_reserve(&m->alloc, &m->bodies, 1))
+        return support_fail_memory(diag);
+    motion_body *out = m->bodies.data + m->bodies.count;
+    out->turns = m->turns.count;
+    froe_status status = take_plan(&a, &input, &out->plan);
+    for (size_t i = 0; i < body->count && !status; i++)
+        status = take_turn(&a, &input, body->turns ? body->turns + 4 * i : upright, i, m->turns.data + out->turns + i);
+    if (status) return status;
+    commit(&a);
+    m->turns.count += body->count;
+    if (id) *id = (uint32_t)m->bodies.count;
+    m->bodies.count++;
+    return FROE_OK;
+}
+
 froe_status motion_replan(froe_motion *m, uint32_t vertex, size_t count, const double *times, const double *coords,
                           const double *controls, const double life[2], froe_diagnostic *diag) {
     plan_adding a = begin_adding(m, NULL, diag);
-    plan_input input = {count, times, coords, controls, vertex};
+    plan_input input = {count, times, coords, controls, vertex, "vertex"};
     motion_plan plan;
     m->edition++;
     if (!array_reserve(&m->alloc, &m->knots, count)) return support_fail_memory(diag);

@@ -8,6 +8,7 @@
 #include <string.h>
 
 #define T num_dyadic
+#define TURN
 #define CURVE motion_dyadic_curve
 #define FORMULA(f) f##_dyadic
 #define POINT(x) num_dyadic_from(arena, x)
@@ -19,6 +20,7 @@
 #include "kinetic/motion/place_body.inc"
 
 #define T num_ball
+#define TURN
 #define CURVE motion_ball_curve
 #define FORMULA(f) f##_ball
 #define POINT(x) num_ball_from(x)
@@ -113,6 +115,18 @@ void motion_span_ball(const froe_motion *m, const motion_piece *piece, double fr
     curve_ball(NULL, m, piece, num_ball_sub(a, num_ball_from(m->begin)), num_ball_sub(b, a), out);
 }
 
+int motion_turn_dyadic(num_arena *arena, const froe_motion *m, const motion_piece *piece, double from, double to,
+                       num_dyadic c[4][2]) {
+    const num_dyadic a = num_dyadic_from(arena, from), b = num_dyadic_from(arena, to);
+    const num_dyadic begin = num_dyadic_from(arena, m->begin);
+    return turn_curve_dyadic(arena, m, piece, num_dyadic_sub(arena, a, begin), num_dyadic_sub(arena, b, a), c);
+}
+
+int motion_turn_ball(const froe_motion *m, const motion_piece *piece, double from, double to, num_ball c[4][2]) {
+    const num_ball a = num_ball_from(from), b = num_ball_from(to);
+    return turn_curve_ball(NULL, m, piece, num_ball_sub(a, num_ball_from(m->begin)), num_ball_sub(b, a), c);
+}
+
 /* --------------------------------------------------------------- in doubles -- */
 
 /* a / b, b > 0. */
@@ -159,11 +173,45 @@ static void extend(num_ball x, double *lo, double *hi) {
     if (!(high <= *hi)) *hi = high <= DBL_MAX ? high : DBL_MAX;
 }
 
+/* The quaternion at a share of the piece. */
+static void quaternion_at(const motion_piece *piece, num_ball share, num_ball q[4]) {
+    const motion_turn *to = piece->turn + (piece->from != piece->to);
+    for (int i = 0; i < 4; i++) q[i] = ball_between(piece->turn->q[i], to->q[i], share);
+}
+
+/* Coordinate k of a place in a body, turned: the bilinear form whose square is |q|^2 times the turned place, divided by
+ * p . q. For p = q that is the place; for two instants it is where the tangents of the arc between them meet. */
+static num_ball turned(const num_ball p[4], const num_ball q[4], const double *v, int k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    num_ball dot[4], mixed[4]; /* mixed: twice the means */
+    for (int n = 0; n < 4; n++) dot[n] = num_ball_mul(p[n], q[n]);
+    const int pairs[4][2] = {{k, i}, {k, j}, {3, i}, {3, j}};
+    for (int n = 0; n < 4; n++)
+        mixed[n] =
+            num_ball_add(num_ball_mul(p[pairs[n][0]], q[pairs[n][1]]), num_ball_mul(p[pairs[n][1]], q[pairs[n][0]]));
+    const num_ball own = num_ball_sub(num_ball_add(dot[3], dot[k]), num_ball_add(dot[i], dot[j]));
+    const num_ball whole = num_ball_add(num_ball_add(dot[3], dot[k]), num_ball_add(dot[i], dot[j]));
+    num_ball sum = num_ball_mul(own, num_ball_from(v[k]));
+    sum = num_ball_add(sum, num_ball_mul(num_ball_sub(mixed[0], mixed[3]), num_ball_from(v[i])));
+    sum = num_ball_add(sum, num_ball_mul(num_ball_add(mixed[1], mixed[2]), num_ball_from(v[j])));
+    return divide_place(sum, whole);
+}
+
+/* The arc of a vertex of a body between two shares lies between its ends and where its tangents meet. */
+static void extend_by_turn(const motion_piece *piece, num_ball s, num_ball t, double lo[3], double hi[3]) {
+    num_ball from[4], to[4];
+    quaternion_at(piece, s, from);
+    quaternion_at(piece, t, to);
+    for (int k = 0; k < 3; k++) {
+        extend(turned(from, from, piece->corner, k), &lo[k], &hi[k]);
+        extend(turned(to, to, piece->corner, k), &lo[k], &hi[k]);
+        extend(turned(from, to, piece->corner, k), &lo[k], &hi[k]);
+    }
+}
+
 /* The ends and, of a parabola, the control point of the part (the blossom of both shares). */
-void motion_extend(const froe_motion *m, const motion_piece *piece, double from, double to, double *lo, double *hi) {
-    num_ball begin = num_ball_from(m->begin);
-    num_ball s = share_of_piece(m, piece, num_ball_sub(num_ball_from(from), begin));
-    num_ball t = share_of_piece(m, piece, num_ball_sub(num_ball_from(to), begin));
+static void extend_by_flight(const froe_motion *m, const motion_piece *piece, num_ball s, num_ball t, double *lo,
+                             double *hi) {
     for (int k = 0; k < m->dim; k++) {
         extend(along(piece, s, s, k), &lo[k], &hi[k]);
         extend(along(piece, t, t, k), &lo[k], &hi[k]);
@@ -171,24 +219,53 @@ void motion_extend(const froe_motion *m, const motion_piece *piece, double from,
     }
 }
 
+/* A sum of bounds, of which a greatest double may stand for more. */
+static double bound_sum(double a, double b) {
+    return fabs(b) == DBL_MAX ? b : a + b;
+}
+
+void motion_extend(const froe_motion *m, const motion_piece *piece, double from, double to, double *lo, double *hi) {
+    num_ball begin = num_ball_from(m->begin);
+    num_ball s = share_of_piece(m, piece, num_ball_sub(num_ball_from(from), begin));
+    num_ball t = share_of_piece(m, piece, num_ball_sub(num_ball_from(to), begin));
+    double arm_lo[3], arm_hi[3], centre_lo[3], centre_hi[3];
+    if (!piece->corner) {
+        extend_by_flight(m, piece, s, t, lo, hi);
+        return;
+    }
+    for (int k = 0; k < 3; k++) arm_lo[k] = centre_lo[k] = DBL_MAX, arm_hi[k] = centre_hi[k] = -DBL_MAX;
+    extend_by_flight(m, piece, s, t, centre_lo, centre_hi);
+    extend_by_turn(piece, s, t, arm_lo, arm_hi);
+    for (int k = 0; k < 3; k++) {
+        extend((num_ball){bound_sum(centre_lo[k], arm_lo[k]), 0}, &lo[k], &hi[k]);
+        extend((num_ball){bound_sum(centre_hi[k], arm_hi[k]), 0}, &lo[k], &hi[k]);
+    }
+}
+
 /* -------------------------------------------------------------------- pieces -- */
 
-static motion_piece piece_of(const motion_knot *from, bool alone) {
-    motion_piece piece = {from, alone ? from : from + 1, 0, MOTION_FAR};
-    if (!alone) piece.degree = isnan(from->control[0]) ? 1 : 2;
-    return piece;
+/* The plan that a vertex flies by: its own, or that of its body. */
+static const motion_plan *plan_of(const froe_motion *m, uint32_t vertex) {
+    const motion_plan *plan = m->plans.data + vertex;
+    return plan->body == FROE_NONE ? plan : &m->bodies.data[plan->body].plan;
 }
 
 motion_piece motion_piece_after(const froe_motion *m, uint32_t vertex, uint32_t knot) {
-    const motion_plan *plan = m->plans.data + vertex;
+    const motion_plan *own = m->plans.data + vertex, *plan = plan_of(m, vertex);
     const motion_knot *from = m->knots.data + plan->first + knot;
-    motion_piece piece = piece_of(from, plan->count == 1);
+    const bool alone = plan->count == 1;
+    motion_piece piece = {.from = from, .to = alone ? from : from + 1, .last = MOTION_FAR};
+    if (!alone) piece.degree = isnan(from->control[0]) ? 1 : 2;
     if (knot + 2 < plan->count) piece.last = from[1].tick - 1;
+    if (plan != own) {
+        piece.corner = m->knots.data[own->first].at;
+        piece.turn = m->turns.data + m->bodies.data[own->body].turns + knot;
+    }
     return piece;
 }
 
 motion_piece motion_piece_at(const froe_motion *m, uint32_t vertex, int64_t tick) {
-    const motion_plan *plan = m->plans.data + vertex;
+    const motion_plan *plan = plan_of(m, vertex);
     const motion_knot *knots = m->knots.data + plan->first;
     uint32_t low = 0, high = plan->count > 1 ? plan->count - 1 : 1; /* of the knots that begin pieces */
     while (high - low > 1) {
@@ -202,7 +279,7 @@ motion_piece motion_piece_at(const froe_motion *m, uint32_t vertex, int64_t tick
 }
 
 motion_piece motion_piece_at_time(const froe_motion *m, uint32_t vertex, double time) {
-    const motion_plan *plan = m->plans.data + vertex;
+    const motion_plan *plan = plan_of(m, vertex);
     const motion_knot *knots = m->knots.data + plan->first;
     uint32_t low = 0, high = plan->count > 1 ? plan->count - 1 : 1;
     while (high - low > 1) {
@@ -223,6 +300,11 @@ bool froe_motion_position(const froe_motion *m, uint32_t vertex, double time, do
     num_ball share = num_ball_from(0);
     if (piece.degree) /* halves: ends may be as far apart as doubles go */
         share.x = (0.5 * time - 0.5 * piece.from->time) / (0.5 * piece.to->time - 0.5 * piece.from->time);
-    for (int k = 0; k < m->dim; k++) at[k] = share.x < 1 ? along(&piece, share, share, k).x : piece.to->at[k];
+    num_ball turn[4];
+    if (piece.corner) quaternion_at(&piece, share, turn);
+    for (int k = 0; k < m->dim; k++) {
+        at[k] = share.x < 1 ? along(&piece, share, share, k).x : piece.to->at[k];
+        if (piece.corner) at[k] += turned(turn, turn, piece.corner, k).x;
+    }
     return true;
 }
