@@ -57,6 +57,8 @@ froe_status froe_animate(const froe_motion *motion, const froe_contact *contacts
                          const froe_animation_options *options, const char *path, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
     if (!motion || !path || (count && !contacts)) return support_fail_null(diag, __func__);
+    if (froe_motion_window(motion).dim != 2)
+        return support_fail(diag, FROE_E_UNSUPPORTED, "Motions in space are not drawn.");
     formats_animation a = {.motion = motion, .contacts = contacts, .count = count};
     a.options = options ? *options : froe_animation_defaults();
     a.begin = froe_motion_window(motion).begin;

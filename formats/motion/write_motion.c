@@ -118,6 +118,8 @@ static void put_feature(formats_writer *w, const chain *c) {
 froe_status froe_write_motion(const froe_motion *motion, const char *path, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
     if (!motion || !path) return support_fail_null(diag, __func__);
+    if (froe_motion_window(motion).dim != 2)
+        return support_fail(diag, FROE_E_UNSUPPORTED, "Motions in space are not written.");
     uint32_t count = (uint32_t)froe_motion_object_count(motion);
     for (uint32_t i = 0; i < count;) {
         chain c = chain_at(motion, i);

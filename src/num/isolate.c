@@ -161,15 +161,9 @@ typedef struct patch {
     uint64_t lo; /* of 2^-64 */
 } patch;
 
-/* f(x / 2), or f((x + 1) / 2). */
 static patch half_patch(const patch *p, bool upper) {
-    patch half = {p->f, p->depth + 1, p->lo};
-    for (int i = 1; i <= p->f.degree; i++) half.f.c[i] = num_ball_mul(half.f.c[i], num_ball_from(ldexp(1, -i)));
-    if (!upper) return half;
-    half.lo |= (uint64_t)1 << (64 - half.depth);
-    for (int i = 0; i < p->f.degree; i++)
-        for (int j = p->f.degree - 1; j >= i; j--) half.f.c[j] = num_ball_add(half.f.c[j], half.f.c[j + 1]);
-    return half;
+    const int depth = p->depth + 1;
+    return (patch){num_ball_poly_half(&p->f, upper), depth, p->lo | (upper ? (uint64_t)1 << (64 - depth) : 0)};
 }
 
 /* Descartes' rule tells for sure of no root or one where the coefficients of Bernstein have sure signs; else halves are

@@ -185,6 +185,14 @@ int num_ball_poly_sign_throughout(const num_ball_poly *f) {
     return sign ? sign : NUM_UNSURE;
 }
 
+num_ball_poly num_ball_poly_half(const num_ball_poly *f, bool upper) {
+    num_ball_poly half = {.degree = f->degree};
+    for (int i = 0; i <= f->degree; i++) half.c[i] = num_ball_mul(f->c[i], num_ball_from(ldexp(1, -i)));
+    for (int i = 0; i < f->degree && upper; i++)
+        for (int j = f->degree - 1; j >= i; j--) half.c[j] = num_ball_add(half.c[j], half.c[j + 1]);
+    return half;
+}
+
 int num_ball_poly_changes(const num_ball_poly *f, int sign[NUM_DEGREE + 1]) {
     int changes = 0, last = 0;
     for (int j = 0; j <= f->degree; j++) {

@@ -41,6 +41,8 @@ num_poly num_poly_without(num_arena *arena, const num_poly *f, num_dyadic x);
 /** The sign of f all over 0 .. 1, if the coefficients of Bernstein have one and the same, else NUM_UNSURE. A zero is
  * never sure. */
 int num_ball_poly_sign_throughout(const num_ball_poly *f);
+/** f(x / 2), or f((x + 1) / 2): over a half of 0 .. 1. */
+num_ball_poly num_ball_poly_half(const num_ball_poly *f, bool upper);
 /** The signs of all coefficients of Bernstein, and how often they change; NUM_DEGREE + 1: not all are known. The
  * polynomial has no root between 0 and 1 with no change, and one with one (Descartes' rule). */
 int num_ball_poly_changes(const num_ball_poly *f, int sign[NUM_DEGREE + 1]);

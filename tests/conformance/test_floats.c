@@ -558,6 +558,31 @@ static void ask_kinetic(floats_run *r, froe_motion *motion, double end) {
     froe_kinetic_free(w.kinetic);
 }
 
+/* A body that turns falls on another that rests. */
+static void move_bodies(floats_run *r) {
+    static const double times[] = {0, 8, 0, 0, 0, 0, 0, 0}, centres[] = {0.1, 0.3, 5, 0.2, 0.4, -4};
+    static const double controls[] = {0.3, 0.1, 7, 0, 0, 0}, turns[] = {0, 0, 0, 1, 0.6, 0, 0, 0.8};
+    static const double corners[] = {-1, -1, 0.1, 1, -1, 0.2, 0, 1, 0x1p-1070, -3, -3, 0.3, 3, -3, 0.7, 0, 3, 0.1};
+    static const size_t starts[] = {0, 1, 2, 3, 4, 5, 6};
+    static const uint32_t bodies[] = {0, 0, 0, FROE_NONE, FROE_NONE, FROE_NONE};
+    const froe_allocator memory = {floats_memory, r};
+    froe_motion_options window = froe_motion_defaults();
+    froe_moving b = froe_moving_defaults();
+    froe_body body = froe_body_defaults();
+    froe_motion *motion;
+    double at[3] = {0, 0, 0};
+    window.dim = 3, window.begin = 0, window.end = 8;
+    body.count = 2, body.times = times, body.coords = centres, body.controls = controls, body.turns = turns;
+    b.vertex_count = 6, b.count = 2, b.starts = starts, b.times = times + 2, b.coords = corners, b.bodies = bodies;
+    MUST(r, froe_motion_new(&window, &memory, &motion, NULL));
+    MUST(r, froe_motion_add_body(motion, &body, NULL, NULL));
+    MUST(r, froe_motion_add(motion, &b, NULL));
+    TELL(r, froe_motion_position(motion, 0, 3.7, at));
+    floats_note(r, at, sizeof at);
+    MUST(r, froe_motion_contacts(motion, NULL, note_contact, r, NULL));
+    froe_motion_free(motion);
+}
+
 static void motions(floats_run *r, void *user) {
     static const char *const kinds[] = {"moving", "moving-quadratic", "moving-lattice"};
     (void)user;
@@ -579,6 +604,7 @@ static void motions(floats_run *r, void *user) {
         ask_kinetic(r, motion, window.end);
         froe_motion_free(motion);
     }
+    move_bodies(r);
 }
 
 static void motion_is_the_same(void **state) {

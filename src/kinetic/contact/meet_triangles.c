@@ -17,6 +17,7 @@
  * Degrees in time: corners on straight lines 3, bodies that turn 5, either along parabolas 6, corners on parabolas of
  * their own and a body that turns 8. */
 #include "kinetic/contact/walk.h"
+#include <string.h>
 
 enum {
     SIDES = 0,  /* + 3 of + i: of corner i of the other, of the plane of triangle `of` */
@@ -112,36 +113,66 @@ static bool surely_no_crossing(const signed char *sign, int edge) {
     return left && right;
 }
 
-/* Finds the signs that stay, and which edges may cross. */
+/* Finds the signs that stay, and which edges may cross. False: none, nor can all corners be in one plane. */
+static bool may_meet(const num_ball_poly f[IN_SPACE], signed char sign[IN_SPACE], bool may_cross[6],
+                     bool *may_be_flat) {
+    bool may = *may_be_flat = true;
+    for (int i = 0; i < IN_SPACE; i++) {
+        sign[i] = (signed char)num_ball_poly_sign_throughout(&f[i]);
+        *may_be_flat = *may_be_flat && sign[i] == NUM_UNSURE;
+    }
+    may = *may_be_flat;
+    for (int i = 0; i < 6; i++) {
+        may_cross[i] = !surely_no_crossing(sign, i);
+        may = may || may_cross[i];
+    }
+    return may;
+}
+
+typedef struct ball_patch {
+    num_ball_poly f[IN_SPACE]; /* over a part of the time */
+    int depth;
+} ball_patch;
+
+/* The same for halves of halves of the time, one by one. */
+static bool may_meet_in_parts(const num_ball_poly f[IN_SPACE]) {
+    enum { MOST_HALVINGS = 4 };
+    ball_patch stack[MOST_HALVINGS + 1], p;
+    int count = 1;
+    memcpy(stack[0].f, f, sizeof stack[0].f);
+    stack[0].depth = 0;
+    while (count) {
+        signed char sign[IN_SPACE];
+        bool may_cross[6], flat;
+        p = stack[--count];
+        if (p.depth && !may_meet(p.f, sign, may_cross, &flat)) continue;
+        if (p.depth == MOST_HALVINGS) return true;
+        for (int upper = 1; upper >= 0; upper--, count++) {
+            stack[count].depth = p.depth + 1;
+            for (int i = 0; i < IN_SPACE; i++) stack[count].f[i] = num_ball_poly_half(&p.f[i], upper);
+        }
+    }
+    return false;
+}
+
 static bool surely_apart(encounter *g) {
-    signed char *sign = g->w->sign;
     trios_ball p;
-    num_ball_poly f, of[2][3];
+    num_ball_poly f[IN_SPACE], of[2][3];
     for (int i = 0; i < 2; i++) shape_by_balls(g, i, &p.shape[i]);
     finish_pair_ball(NULL, &p);
     for (int i = 0; i < 2; i++) {
-        for (int k = 0; k < 3; k++) {
-            side_ball(NULL, &p, i, k, &f);
-            sign[SIDES + 3 * i + k] = (signed char)num_ball_poly_sign_throughout(&f);
-        }
-        const signed char *s = sign + SIDES + 3 * i;
-        if (s[0] != NUM_UNSURE && s[0] == s[1] && s[0] == s[2]) return true;
+        num_ball_poly *s = f + SIDES + 3 * i;
+        for (int k = 0; k < 3; k++) side_ball(NULL, &p, i, k, &s[k]);
+        const int sign = num_ball_poly_sign_throughout(s);
+        if (sign != NUM_UNSURE && sign == num_ball_poly_sign_throughout(s + 1) &&
+            sign == num_ball_poly_sign_throughout(s + 2))
+            return true;
     }
     for (int j = 0; j < 3; j++) {
         line_ball(NULL, &p, j, of);
-        for (int i = 0; i < 3; i++) {
-            pass_ball(NULL, p.shape, i, of, &f);
-            sign[PASSES + 3 * i + j] = (signed char)num_ball_poly_sign_throughout(&f);
-        }
+        for (int i = 0; i < 3; i++) pass_ball(NULL, p.shape, i, of, &f[PASSES + 3 * i + j]);
     }
-    bool apart = true;
-    g->may_be_flat = true;
-    for (int i = 0; i < IN_SPACE; i++) g->may_be_flat = g->may_be_flat && sign[i] == NUM_UNSURE;
-    for (int i = 0; i < 6; i++) {
-        g->may_cross[i] = !surely_no_crossing(sign, i);
-        apart = apart && !g->may_cross[i];
-    }
-    return apart && !g->may_be_flat;
+    return !may_meet(f, g->w->sign, g->may_cross, &g->may_be_flat) || !may_meet_in_parts(f);
 }
 
 /* ------------------------------------------------------------------- exactly -- */
