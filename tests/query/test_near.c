@@ -227,6 +227,39 @@ static void walls_in_one_plane_are_equally_near_without_exact_numbers(void **sta
     mpq_clears(exact, coordinate, NULL);
 }
 
+/* Edges of a turned model are on one line but for the last digits of their corners: which is nearer, doubles cannot
+ * tell, and pairs of doubles can. */
+static void edges_nearly_on_one_line_need_no_exact_numbers(void **state) {
+    const double near = 0x1p-42 + 0x1p-75, far = 0x1.8p-41 + 0x1p-75;
+    const double corners[18] = {1, 0, 0, 1, 4, 0x1p-40, 2, 1, 1, 1, 1, near, 1, 3, far, 2, 1.25, -1};
+    froe_build_options o = froe_build_defaults();
+    froe_scene *scene;
+    froe_tree *tree;
+    froe_query *q, *exact;
+    froe_neighbours found, wanted;
+    (void)state;
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    assert_int_equal(trees_add(scene, FROE_POLYGON, 2, corners, NULL, NULL), FROE_OK);
+    o.method = "index";
+    assert_int_equal(froe_build(scene, &o, &tree, NULL), FROE_OK);
+    assert_int_equal(froe_query_new(tree, &q, NULL), FROE_OK);
+    assert_int_equal(froe_query_new(tree, &exact, NULL), FROE_OK);
+    exact->numbers.first = NUM_EXACT;
+    for (uint64_t i = 0; i < 200; i++) {
+        const double x[3] = {0.8 * trees_unit(61, i), 1.2 + 1.6 * trees_unit(62, i), 0.05 + 0.1 * trees_unit(63, i)};
+        assert_int_equal(froe_query_near(q, x, 1, INFINITY, &found, NULL), FROE_OK);
+        assert_int_equal(froe_query_near(exact, x, 1, INFINITY, &wanted, NULL), FROE_OK);
+        assert_int_equal(found.items[0].object, wanted.items[0].object);
+        assert_true(found.items[0].distance == wanted.items[0].distance);
+    }
+    assert_true(exact->numbers.stats.exact > 200);
+    assert_int_equal(q->numbers.stats.exact, 0);
+    froe_query_free(q);
+    froe_query_free(exact);
+    froe_tree_free(tree);
+    froe_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(neighbours_in_generated_scenes),
@@ -237,6 +270,7 @@ int main(void) {
         cmocka_unit_test(neighbours_in_scenes_of_one_object_or_none),
         cmocka_unit_test(bad_questions_are_refused_and_change_nothing),
         cmocka_unit_test(walls_in_one_plane_are_equally_near_without_exact_numbers),
+        cmocka_unit_test(edges_nearly_on_one_line_need_no_exact_numbers),
         cmocka_unit_test(every_allocation_may_fail),
     };
     int failed = cmocka_run_group_tests_name("query/near", tests, NULL, NULL);

@@ -74,6 +74,87 @@ num_ball geom_distance_image(const geom_distance *a) {
     return a->radius > 0 ? filter_sub(d, num_ball_from(a->radius)) : d;
 }
 
+/* -------------------------------------------------------- pairs of doubles -- */
+
+/* A distance x without a radius, off by e at most. */
+typedef struct pair_root {
+    num_pair x;
+    double e;
+} pair_root;
+
+/* sqrt(s) errs by 2^-94 of itself, and by `error`. */
+static bool root_of_square(num_pair s, double error, pair_root *out) {
+    if (!(s.hi > 0x1p-400)) return false;
+    out->x = num_pair_sqrt(s);
+    out->e = error + 0x1p-94 * out->x.hi;
+    return true;
+}
+
+/* From a point or a box. The sum of squares errs by less than 2^-96 of itself, and by underflows, which are nothing
+ * beside 2^-400. */
+static bool root_from_box(const double *point, const geom_distance *a, pair_root *out) {
+    num_pair s = {0, 0};
+    for (int k = 0; k < a->dim; k++) {
+        const double x = point[k], nearest = x < a->lo[k] ? a->lo[k] : x > a->hi[k] ? a->hi[k] : x;
+        const num_pair gap = num_pair_sum(nearest, -x);
+        if (!(fabs(gap.hi) < 0x1p100)) return false;
+        s = num_pair_add(s, num_pair_mul(gap, gap));
+    }
+    return root_of_square(s, 0, out);
+}
+
+/* Are sizes such that pairs of doubles neither overflow nor underflow? */
+static bool is_moderate(double size) {
+    return size > 0x1p-100 && size < 0x1p100;
+}
+
+/* From a corner or the line of a segment of the plane: as root_from_simplex() below, without what is 0. */
+static bool root_from_flat(const double *point, const geom_distance *a, pair_root *out) {
+    const double *p = a->corner[0], *q = a->corner[1];
+    const num_pair x = num_pair_sum(p[0], -point[0]), y = num_pair_sum(p[1], -point[1]);
+    const double size = fabs(x.hi) + fabs(y.hi);
+    if (!is_moderate(size)) return false;
+    if (a->count == 1) return root_of_square(num_pair_add(num_pair_mul(x, x), num_pair_mul(y, y)), 0, out);
+    const num_pair ex = num_pair_sum(q[0], -p[0]), ey = num_pair_sum(q[1], -p[1]);
+    if (!is_moderate(fabs(ex.hi) + fabs(ey.hi))) return false;
+    const num_pair cross = num_pair_sub(num_pair_mul(ex, y), num_pair_mul(ey, x));
+    const num_pair square = num_pair_add(num_pair_mul(ex, ex), num_pair_mul(ey, ey));
+    return root_of_square(num_pair_div(num_pair_mul(cross, cross), square), 0x1p-94 * size, out);
+}
+
+/* From a simplex: sqrt(S) errs by 2^-94 of itself and by what the numerator of S errs. With sizes as sums of
+ * coordinates, |e|^2 at least a third of that: v x e by less than 2^-96 |v| |e|, and n v by less than 2^-95 |e| |f|
+ * |v|, as n by 2^-96 |e| |f|. */
+static bool root_from_simplex(const double *point, const geom_distance *a, pair_root *out) {
+    num_pair v[3], e[3], f[3], n[3], s;
+    double sizes[3] = {num_pair_between(point, a->corner[0], v), 1, 1}, error = 0;
+    if (a->count > 1) sizes[1] = num_pair_between(a->corner[0], a->corner[1], e);
+    if (a->count > 2) sizes[2] = num_pair_between(a->corner[0], a->corner[2], f);
+    for (int i = 0; i < 3; i++)
+        if (!is_moderate(sizes[i])) return false;
+    if (a->count == 1) {
+        s = num_pair_dot(v, v);
+    } else if (a->count == 2) {
+        num_pair_cross(v, e, n);
+        s = num_pair_div(num_pair_dot(n, n), num_pair_dot(e, e));
+        error = 0x1p-94 * sizes[0];
+    } else {
+        num_pair_cross(e, f, n);
+        const num_pair height = num_pair_dot(n, v), bottom = num_pair_dot(n, n);
+        s = num_pair_div(num_pair_mul(height, height), bottom);
+        if (!(bottom.hi > 0x1p-600)) return false;
+        error = 0x1p-93 * sizes[1] * sizes[2] * (sizes[0] + sqrt(s.hi)) / sqrt(bottom.hi);
+    }
+    return root_of_square(s, error, out);
+}
+
+static bool root_by_pairs(const double *point, const geom_distance *a, pair_root *out) {
+    if (a->radius > 0) return false;
+    if (a->lo) return root_from_box(point, a, out);
+    if (!a->count || a->dim > 3) return false;
+    return a->dim == 2 ? root_from_flat(point, a, out) : root_from_simplex(point, a, out);
+}
+
 /* ------------------------------------------------------------- comparisons -- */
 
 /* S - r^2 */
@@ -128,6 +209,15 @@ static int compare_images(const geom_distance *a, const geom_distance *b) {
     return sure != NUM_UNSURE && filter_sign(sure > 0 ? x : y) == 1 ? sure : NUM_UNSURE;
 }
 
+/* Edges of a turned model often lie on one line but for the last digits of their corners. */
+static int compare_by_pairs(const double *point, const geom_distance *a, const geom_distance *b) {
+    pair_root x, y;
+    if (!root_by_pairs(point, a, &x) || !root_by_pairs(point, b, &y)) return NUM_UNSURE;
+    const double gap = num_pair_sub(x.x, y.x).hi;
+    const double error = 2 * (x.e + y.e); /* with what the difference errs, which is less */
+    return gap > error ? 1 : gap < -error ? -1 : NUM_UNSURE;
+}
+
 static int compare_distances_exactly(num_context *context, const double *point, const geom_distance *a,
                                      const geom_distance *b) {
     num_arena *arena = num_fresh(context);
@@ -143,7 +233,7 @@ int geom_distance_compare(num_context *context, const double *point, const geom_
     context->stats.calls++;
     if (same_source(a, b)) return num_by_id(context, 0);
     return NUM_LADDER(context, sign, compare_images(a, b), same_hull(a, b) ? num_by_id(context, 0) : NUM_UNSURE,
-                      NUM_UNSURE, compare_distances_exactly(context, point, a, b));
+                      compare_by_pairs(point, a, b), compare_distances_exactly(context, point, a, b));
 }
 
 /* Sure of no zero distance: there the bound decides. */
@@ -179,47 +269,6 @@ static int against(void *user, num_arena *arena, num_dyadic x) {
     return beyond_both(arena, r->square, r->radius, x);
 }
 
-/* Rounds sqrt(S) if that is sure: it errs by 2^-94 of itself and by `error`. */
-static bool round_root(num_pair s, double error, double *out) {
-    if (!(s.hi > 0x1p-400)) return false;
-    const num_pair root = num_pair_sqrt(s);
-    error += 0x1p-94 * root.hi;
-    *out = root.hi + (root.lo - error);
-    return *out == root.hi + (root.lo + error);
-}
-
-/* The distance from a point or a box, if pairs of doubles can tell how it is to be rounded. Its sum of squares errs by
- * less than 2^-96 of itself, and by underflows, which are nothing beside 2^-400. */
-static bool round_box(const double *point, const geom_distance *a, double *out) {
-    num_pair s = {0, 0};
-    for (int k = 0; k < a->dim; k++) {
-        const double x = point[k], nearest = x < a->lo[k] ? a->lo[k] : x > a->hi[k] ? a->hi[k] : x;
-        const num_pair gap = num_pair_sum(nearest, -x);
-        if (!(fabs(gap.hi) < 0x1p100)) return false;
-        s = num_pair_add(s, num_pair_mul(gap, gap));
-    }
-    return round_root(s, 0, out);
-}
-
-/* Are sizes such that pairs of doubles neither overflow nor underflow? */
-static bool is_moderate(double size) {
-    return size > 0x1p-100 && size < 0x1p100;
-}
-
-/* From a corner or the line of a segment of the plane: as round_simplex() below, without what is 0. */
-static bool round_flat(const double *point, const geom_distance *a, double *out) {
-    const double *p = a->corner[0], *q = a->corner[1];
-    const num_pair x = num_pair_sum(p[0], -point[0]), y = num_pair_sum(p[1], -point[1]);
-    const double size = fabs(x.hi) + fabs(y.hi);
-    if (!is_moderate(size)) return false;
-    if (a->count == 1) return round_root(num_pair_add(num_pair_mul(x, x), num_pair_mul(y, y)), 0, out);
-    const num_pair ex = num_pair_sum(q[0], -p[0]), ey = num_pair_sum(q[1], -p[1]);
-    if (!is_moderate(fabs(ex.hi) + fabs(ey.hi))) return false;
-    const num_pair cross = num_pair_sub(num_pair_mul(ex, y), num_pair_mul(ey, x));
-    const num_pair square = num_pair_add(num_pair_mul(ex, ex), num_pair_mul(ey, ey));
-    return round_root(num_pair_div(num_pair_mul(cross, cross), square), 0x1p-94 * size, out);
-}
-
 /* The distance from a plane x[axis] = c: one difference, rounded once. Of numbers with few digits, such as those of
  * models in single precision, it is often halfway between two doubles, where pairs of doubles cannot tell. */
 static bool round_wall(const double *point, const geom_distance *a, double *out) {
@@ -229,40 +278,20 @@ static bool round_wall(const double *point, const geom_distance *a, double *out)
     return *out < 0x1p1000;
 }
 
-/* The distance from a simplex, if pairs of doubles can tell how it is to be rounded: sqrt(S) errs by 2^-94 of
- * itself and by what the numerator of S errs. With sizes as sums of coordinates, |e|^2 at least a third of that: v x e
- * by less than 2^-96 |v| |e|, and n v by less than 2^-95 |e| |f| |v|, as n by 2^-96 |e| |f|. */
-static bool round_simplex(const double *point, const geom_distance *a, double *out) {
-    num_pair v[3], e[3], f[3], n[3], s;
-    if (a->dim == 2) return round_flat(point, a, out);
-    double sizes[3] = {num_pair_between(point, a->corner[0], v), 1, 1}, error = 0;
-    if (a->count > 1) sizes[1] = num_pair_between(a->corner[0], a->corner[1], e);
-    if (a->count > 2) sizes[2] = num_pair_between(a->corner[0], a->corner[2], f);
-    for (int i = 0; i < 3; i++)
-        if (!is_moderate(sizes[i])) return false;
-    if (a->count == 1) {
-        s = num_pair_dot(v, v);
-    } else if (a->count == 2) {
-        num_pair_cross(v, e, n);
-        s = num_pair_div(num_pair_dot(n, n), num_pair_dot(e, e));
-        error = 0x1p-94 * sizes[0];
-    } else {
-        num_pair_cross(e, f, n);
-        const num_pair height = num_pair_dot(n, v), bottom = num_pair_dot(n, n);
-        s = num_pair_div(num_pair_mul(height, height), bottom);
-        if (!(bottom.hi > 0x1p-600)) return false;
-        error = 0x1p-93 * sizes[1] * sizes[2] * (sizes[0] + sqrt(s.hi)) / sqrt(bottom.hi);
-    }
-    return round_root(s, error, out);
+/* If pairs of doubles can tell how it is to be rounded. */
+static bool round_root(const double *point, const geom_distance *a, double *out) {
+    pair_root root;
+    if (!root_by_pairs(point, a, &root)) return false;
+    *out = root.x.hi + (root.x.lo - root.e);
+    return *out == root.x.hi + (root.x.lo + root.e);
 }
 
 double geom_distance_round(num_context *context, const double *point, const geom_distance *a) {
     num_arena *arena = num_fresh(context);
     double rounded;
     bool done = false; /* where pairs do not tell, exact numbers do */
-    if (context->first != NUM_EXACT && !(a->radius > 0))
-        done = a->lo ? round_box(point, a, &rounded)
-                     : a->count && a->dim <= 3 && (round_wall(point, a, &rounded) || round_simplex(point, a, &rounded));
+    if (context->first != NUM_EXACT)
+        done = (!a->lo && round_wall(point, a, &rounded)) || round_root(point, a, &rounded);
     if (done) return rounded;
     rounding r = {exact_square(context, point, a), a->radius};
     if (beyond_radius(arena, r.square, a->radius) <= 0) return 0;

@@ -10,38 +10,51 @@
 #include "geom/meet/feature.h"
 #include "geom/filter.h"
 
-static int sign_of_dot(const filter_vector *a, const filter_vector *b) {
-    return filter_sign(filter_dot(a, b));
-}
-
 static int next(int i) {
     return i == 2 ? 0 : i + 1;
 }
 
+static double plain_dot(const filter_vector *a, const filter_vector *b) {
+    return a->x[0] * b->x[0] + a->x[1] * b->x[1] + a->x[2] * b->x[2];
+}
+
+static int sign_beyond(double x, double bound) {
+    return x > bound ? 1 : x < -bound ? -1 : NUM_UNSURE;
+}
+
+static double most_of(const filter_vector v[3]) {
+    return filter_greater(filter_greater(v[0].most, v[1].most), v[2].most);
+}
+
+/* One bound for all e . v: that of filter_dot() for the longest vectors, whose components err by 2u of these. It is
+ * not finite where anything overflows. */
 bool geom_feature_nearest(const double *point, const double *const corner[3], geom_feature *out) {
-    filter_vector e[3], v[3], n;
+    filter_vector e[3], v[3];
     int ahead[3], past[3]; /* of e_i . v_i and e_i . v_i+1 */
     bool inside = true;
     for (int i = 0; i < 3; i++) {
         e[i] = filter_between(corner[i], corner[next(i)]);
         v[i] = filter_between(point, corner[i]);
     }
-    for (int i = 0; i < 3; i++) ahead[i] = sign_of_dot(&e[i], &v[i]), past[i] = sign_of_dot(&e[i], &v[next(i)]);
+    const double bound = 25 * FILTER_U * (most_of(e) * most_of(v)) + NUM_BALL_TINY;
+    for (int i = 0; i < 3; i++) {
+        ahead[i] = sign_beyond(plain_dot(&e[i], &v[i]), bound);
+        past[i] = sign_beyond(plain_dot(&e[i], &v[next(i)]), bound);
+    }
     for (int i = 0; i < 3; i++) {
         const int k = next(i);
         if (ahead[k] != 1 || past[i] != -1) continue;
         *out = (geom_feature){1, {corner[k]}, filter_dot(&v[k], &v[k])};
         return true;
     }
-    n = filter_cross(&e[0], &e[1]);
+    const filter_vector n = filter_cross(&e[0], &e[1]);
     for (int i = 0; i < 3; i++) {
-        const filter_vector across = filter_cross(&v[i], &v[next(i)]);
-        const int side = sign_of_dot(&n, &across); /* of edge i on which x is, seen along the normal */
+        const filter_vector across = filter_cross(&v[i], &e[i]); /* v_i x v_i+1, too */
+        const int side = filter_sign(filter_dot(&n, &across));   /* of edge i on which x is, seen along the normal */
         inside = inside && side == 1;
         if (ahead[i] != -1 || past[i] != 1 || side != -1) continue;
-        const filter_vector c = filter_cross(&v[i], &e[i]);
         *out = (geom_feature){2, {corner[i], corner[next(i)]}, {0, 0}};
-        out->square = filter_div(filter_dot(&c, &c), filter_dot(&e[i], &e[i]));
+        out->square = filter_div(filter_dot(&across, &across), filter_dot(&e[i], &e[i]));
         return true;
     }
     if (!inside) return false;
