@@ -151,20 +151,21 @@ static bool push_near_children(froe_query *q, space_walk *w, uint32_t index) {
     float keys[PACKED_LANES];
     if (!array_reserve(&q->alloc, &w->stack, PACKED_LANES)) return false;
     uint64_t *e = w->stack.data + w->stack.count;
-    size_t count = 0, least = 0;
+    uint64_t least = UINT64_MAX;
+    size_t count = 0, at = 0;
     for (uint32_t bits = q->space->kernels->near_node(n, &w->point, w->limit, keys); bits; bits &= bits - 1) {
         const uint32_t i = (uint32_t)__builtin_ctz(bits);
-        e[count] = space_entry(keys[i], n->child[i]);
-        least = e[count] < e[least] ? count : least;
-        count++;
+        const uint64_t entry = space_entry(keys[i], n->child[i]);
+        at = entry < least ? count : at;
+        least = entry < least ? entry : least;
+        e[count++] = entry;
     }
     q->stats.nodes++;
     w->stack.count += count;
     if (!count) return true;
-    const uint64_t x = e[least];
-    space_prefetch(q->tree, (uint32_t)x);
-    e[least] = e[count - 1];
-    e[count - 1] = x;
+    space_prefetch(q->tree, (uint32_t)least);
+    e[at] = e[count - 1];
+    e[count - 1] = least;
     return true;
 }
 
