@@ -196,7 +196,10 @@ static space_step push_objects(froe_query *q, space_walk *w, uint32_t block, flo
         if (found.keys[i] > w->limit) continue;
         const bool sure = found.ends[i] <= w->within;
         if (sure && w->wanted == SPACE_ANY) return SPACE_MET;
-        scene_ask(q->tree->scene, w->object);
+        if (w->near) /* of many, few are measured */
+            scene_ask(q->tree->scene, w->object);
+        else
+            scene_ask_points(q->tree->scene, w->object);
         if (!sure || w->wanted == SPACE_ALL)
             w->stack.data[w->stack.count++] = space_entry(found.keys[i], SPACE_ITEM_OBJECT | w->object);
         else if (!take_hit(q, w, w->object, found.keys[i], found.ends[i]))
