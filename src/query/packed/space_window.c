@@ -14,8 +14,7 @@ static bool answer_space_window(froe_query *q, const space_header *h, const spac
     space_answers answers = {w->objects.data, w->objects.data + room, 0, 0};
     w->kernels->window(h, window, &answers);
     q->stats.leaves++;
-    q->found.count +=
-        query_mark_all(&q->marks, answers.sure, 1, answers.sure_count, q->found.data + q->found.count);
+    q->found.count += query_mark_all(&q->marks, answers.sure, 1, answers.sure_count, q->found.data + q->found.count);
     for (size_t i = 0; i < answers.unsure_count; i++)
         if (query_mark(&q->marks, answers.unsure[i]) && query_range_meets(q, answers.unsure[i], &memory))
             query_found(q, answers.unsure[i]);
