@@ -316,21 +316,96 @@ static void contacts_do_not_depend_on_place_size_and_order(void **state) {
     fuzz_source r = {23};
     uint32_t turned[3 * MOST];
     for (uint32_t i = 0; i < 3 * MOST; i++) turned[i] = i - i % 3 + (i % 3 * 2 + i / 3) % 3;
-    for (int kind = LATTICE; kind <= LIVES; kind++)
-        for (int round = 0; round < 2; round++) {
-            froe_moving batch = make(&r, (scene_kind)kind, MOST, &s);
-            froe_motion *m = motion_of(&batch);
-            find(m, NULL, &f);
-            froe_motion_free(m);
-            for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
-                changed = s;
-                scale_and_shift(&changed, changes[i][0], changes[i][1]);
-                batch.coords = changed.at, batch.controls = changed.controls;
-                assert_alike(&f, &batch);
-            }
-            batch.coords = s.at, batch.controls = s.controls, batch.vertices = turned;
+    for (int kind = LATTICE; kind <= LIVES; kind++) {
+        froe_moving batch = make(&r, (scene_kind)kind, MOST, &s);
+        froe_motion *m = motion_of(&batch);
+        find(m, NULL, &f);
+        froe_motion_free(m);
+        for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
+            changed = s;
+            scale_and_shift(&changed, changes[i][0], changes[i][1]);
+            batch.coords = changed.at, batch.controls = changed.controls;
             assert_alike(&f, &batch);
         }
+        batch.coords = s.at, batch.controls = s.controls, batch.vertices = turned;
+        assert_alike(&f, &batch);
+    }
+}
+
+/* ------------------------------------------------------------------ many bodies -- */
+
+enum { CROWD = 400 };
+
+/* Triangles thrown up in a cube, each turning, and falling back through the others. */
+static froe_motion *thrown_bodies(void) {
+    static size_t starts[3 * CROWD + 1];
+    static double times[3 * CROWD], at[9 * CROWD];
+    static uint32_t bodies[3 * CROWD];
+    fuzz_source r = {31};
+    froe_motion_options o = froe_motion_defaults();
+    froe_motion *m = NULL;
+    o.dim = 3, o.begin = 0, o.end = WINDOW;
+    assert_int_equal(froe_motion_new(&o, NULL, &m, NULL), FROE_OK);
+    for (uint32_t i = 0; i < CROWD; i++) {
+        double keys[2] = {0, WINDOW}, places[6], controls[6], turns[8], square[2] = {0, 0};
+        for (size_t k = 0; k < 3; k++) {
+            places[k] = 5 * fuzz_unit(&r);
+            places[3 + k] = places[k] + 4 * fuzz_unit(&r);
+            controls[k] = 0.5 * (places[k] + places[3 + k]) + (k == 2 ? 8 : 0);
+        }
+        for (size_t k = 0; k < 8; k++) {
+            turns[k] = fuzz_unit(&r) + (k % 4 == 3);
+            square[k / 4] += turns[k] * turns[k];
+        }
+        for (size_t k = 0; k < 8; k++) turns[k] /= sqrt(square[k / 4]);
+        froe_body body = froe_body_defaults();
+        body.count = 2, body.times = keys, body.coords = places, body.controls = controls, body.turns = turns;
+        assert_int_equal(froe_motion_add_body(m, &body, NULL, NULL), FROE_OK);
+    }
+    for (uint32_t v = 0; v < 3 * CROWD; v++) {
+        starts[v] = v;
+        bodies[v] = v / 3;
+        for (size_t k = 0; k < 3; k++) at[3 * v + k] = fuzz_unit(&r);
+    }
+    starts[3 * CROWD] = (size_t)3 * CROWD;
+    froe_moving b = froe_moving_defaults();
+    b.vertex_count = (size_t)3 * CROWD, b.count = CROWD, b.starts = starts, b.times = times, b.coords = at;
+    b.bodies = bodies;
+    assert_int_equal(froe_motion_add(m, &b, NULL), FROE_OK);
+    return m;
+}
+
+/* Each pair is looked at over all the time, without boxes. */
+static void boxes_miss_nothing_among_bodies_that_fall_and_turn(void **state) {
+    (void)state;
+    static found f;
+    static uint32_t next[MOST_CONTACTS], first[CROWD]; /* of the contacts of each first object, in order of time */
+    froe_motion *m = thrown_bodies();
+    find(m, NULL, &f);
+    assert_true(f.count > 300);
+    for (uint32_t a = 0; a < CROWD; a++) first[a] = FROE_NONE;
+    for (uint32_t i = (uint32_t)f.count; i-- > 0;) {
+        next[i] = first[f.list[i].a];
+        first[f.list[i].a] = i;
+    }
+    meet_worker w;
+    assert_int_equal(meet_worker_new(m, &w), FROE_OK);
+    for (uint32_t a = 0; a < CROWD; a++)
+        for (uint32_t b = a + 1; b < CROWD; b++) {
+            assert_int_equal(meet_find(m, &w, a, b, 0, WINDOW), FROE_OK);
+            int count = 0;
+            for (uint32_t i = first[a]; i != FROE_NONE; i = next[i]) {
+                const froe_contact *c = &f.list[i];
+                if (c->b != b) continue;
+                assert_true(count < w.span_count);
+                const meet_span *s = &w.spans[count++];
+                assert_true(c->begin[0] <= s->begin.high && s->begin.low <= c->begin[1]);
+                assert_true(c->end[0] <= s->end.high && s->end.low <= c->end[1] && c->instant == s->instant);
+            }
+            assert_int_equal(count, w.span_count);
+        }
+    meet_worker_free(m, &w);
+    froe_motion_free(m);
 }
 
 /* -------------------------------------------------------------------- known cases -- */
@@ -468,6 +543,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(contacts_are_those_of_linear_programs),
         cmocka_unit_test(contacts_do_not_depend_on_place_size_and_order),
+        cmocka_unit_test(boxes_miss_nothing_among_bodies_that_fall_and_turn),
         cmocka_unit_test(touches_of_every_kind_are_told_to_the_instant),
         cmocka_unit_test(neighbours_are_left_out),
         cmocka_unit_test(nasty_coordinates_stay_within_the_arena),

@@ -113,66 +113,87 @@ static bool surely_no_crossing(const signed char *sign, int edge) {
     return left && right;
 }
 
+/* What is known of a part of the time. */
+typedef struct ball_patch {
+    num_ball_poly f[IN_SPACE];
+    signed char sign[IN_SPACE]; /* all over the part, or NUM_UNSURE */
+    bool counts[IN_SPACE];      /* may_cross or may_be_flat depend on it */
+    bool may_cross[6], may_be_flat;
+    int depth;
+} ball_patch;
+
 /* Finds the signs that stay, and which edges may cross. False: none, nor can all corners be in one plane. */
-static bool may_meet(const num_ball_poly f[IN_SPACE], signed char sign[IN_SPACE], bool may_cross[6],
-                     bool *may_be_flat) {
-    bool may = *may_be_flat = true;
+static bool may_meet(ball_patch *p) {
+    bool may = p->may_be_flat = true;
     for (int i = 0; i < IN_SPACE; i++) {
-        sign[i] = (signed char)num_ball_poly_sign_throughout(&f[i]);
-        *may_be_flat = *may_be_flat && sign[i] == NUM_UNSURE;
+        if (p->counts[i] && p->sign[i] == NUM_UNSURE) p->sign[i] = (signed char)num_ball_poly_sign_throughout(&p->f[i]);
+        p->may_be_flat = p->may_be_flat && p->sign[i] == NUM_UNSURE;
+        p->counts[i] = false;
     }
-    may = *may_be_flat;
-    for (int i = 0; i < 6; i++) {
-        may_cross[i] = !surely_no_crossing(sign, i);
-        may = may || may_cross[i];
+    may = p->may_be_flat;
+    for (int edge = 0; edge < 6; edge++) {
+        int of[5];
+        p->may_cross[edge] = p->may_cross[edge] && !surely_no_crossing(p->sign, edge);
+        may = may || p->may_cross[edge];
+        crossing_signs(edge, of);
+        for (int i = 0; i < 5; i++) p->counts[of[i]] = p->counts[of[i]] || p->may_cross[edge] || p->may_be_flat;
     }
     return may;
 }
 
-typedef struct ball_patch {
-    num_ball_poly f[IN_SPACE]; /* over a part of the time */
-    int depth;
-} ball_patch;
+static void take_half(const ball_patch *p, bool upper, ball_patch *half) {
+    memcpy(half->sign, p->sign, sizeof half->sign);
+    memcpy(half->counts, p->counts, sizeof half->counts);
+    memcpy(half->may_cross, p->may_cross, sizeof half->may_cross);
+    half->depth = p->depth + 1;
+    for (int i = 0; i < IN_SPACE; i++)
+        if (p->counts[i] && p->sign[i] == NUM_UNSURE) half->f[i] = num_ball_poly_half(&p->f[i], upper);
+}
 
-/* The same for halves of halves of the time, one by one. */
-static bool may_meet_in_parts(const num_ball_poly f[IN_SPACE]) {
+/* The same for halves of halves of the time, one by one, until one of the least may hold a contact. */
+static bool may_meet_in_parts(const ball_patch *all) {
     enum { MOST_HALVINGS = 4 };
     ball_patch stack[MOST_HALVINGS + 1], p;
-    int count = 1;
-    memcpy(stack[0].f, f, sizeof stack[0].f);
-    stack[0].depth = 0;
+    int count = 0;
+    take_half(all, true, &stack[count++]);
+    take_half(all, false, &stack[count++]);
     while (count) {
-        signed char sign[IN_SPACE];
-        bool may_cross[6], flat;
         p = stack[--count];
-        if (p.depth && !may_meet(p.f, sign, may_cross, &flat)) continue;
+        if (!may_meet(&p)) continue;
         if (p.depth == MOST_HALVINGS) return true;
-        for (int upper = 1; upper >= 0; upper--, count++) {
-            stack[count].depth = p.depth + 1;
-            for (int i = 0; i < IN_SPACE; i++) stack[count].f[i] = num_ball_poly_half(&p.f[i], upper);
-        }
+        take_half(&p, true, &stack[count++]);
+        take_half(&p, false, &stack[count++]);
     }
     return false;
 }
 
 static bool surely_apart(encounter *g) {
     trios_ball p;
-    num_ball_poly f[IN_SPACE], of[2][3];
+    ball_patch all = {.depth = 0};
+    num_ball_poly of[2][3];
     for (int i = 0; i < 2; i++) shape_by_balls(g, i, &p.shape[i]);
     finish_pair_ball(NULL, &p);
+    memset(all.sign, NUM_UNSURE, sizeof all.sign);
     for (int i = 0; i < 2; i++) {
-        num_ball_poly *s = f + SIDES + 3 * i;
-        for (int k = 0; k < 3; k++) side_ball(NULL, &p, i, k, &s[k]);
-        const int sign = num_ball_poly_sign_throughout(s);
-        if (sign != NUM_UNSURE && sign == num_ball_poly_sign_throughout(s + 1) &&
-            sign == num_ball_poly_sign_throughout(s + 2))
-            return true;
+        signed char *sign = all.sign + SIDES + 3 * i;
+        for (int k = 0; k < 3; k++) {
+            num_ball_poly *side = &all.f[SIDES + 3 * i + k];
+            side_ball(NULL, &p, i, k, side);
+            sign[k] = (signed char)num_ball_poly_sign_throughout(side);
+        }
+        if (sign[0] != NUM_UNSURE && sign[0] == sign[1] && sign[0] == sign[2]) return true;
     }
     for (int j = 0; j < 3; j++) {
         line_ball(NULL, &p, j, of);
-        for (int i = 0; i < 3; i++) pass_ball(NULL, p.shape, i, of, &f[PASSES + 3 * i + j]);
+        for (int i = 0; i < 3; i++) pass_ball(NULL, p.shape, i, of, &all.f[PASSES + 3 * i + j]);
     }
-    return !may_meet(f, g->w->sign, g->may_cross, &g->may_be_flat) || !may_meet_in_parts(f);
+    memset(all.counts, true, sizeof all.counts);
+    memset(all.may_cross, true, sizeof all.may_cross);
+    if (!may_meet(&all) || !may_meet_in_parts(&all)) return true;
+    memcpy(g->w->sign, all.sign, sizeof all.sign);
+    memcpy(g->may_cross, all.may_cross, sizeof all.may_cross);
+    g->may_be_flat = all.may_be_flat;
+    return false;
 }
 
 /* ------------------------------------------------------------------- exactly -- */

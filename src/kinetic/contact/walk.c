@@ -43,16 +43,19 @@ bool walk_list(num_arena *arena, walk_room *w, int i) {
 
 /* --------------------------------------------------------------------- signs -- */
 
+static const num_ball_poly *near_of(num_arena *arena, walk_room *w, int i) {
+    if (!w->has_near[i]) w->near[i] = num_poly_balls(arena, &w->f[i]);
+    w->has_near[i] = true;
+    return &w->near[i];
+}
+
 int walk_sign(num_arena *arena, walk_room *w, const walk_moment *at, int i) {
     if (w->sign[i] != NUM_UNSURE) return w->sign[i];
     if (w->f[i].degree < 0) return 0;
-    if (at->event && !w->listed[i]) {
-        if (!w->has_near[i]) w->near[i] = num_poly_balls(arena, &w->f[i]);
-        w->has_near[i] = true;
-        return num_isolated_sign(arena, at->event->at, &w->f[i], &w->near[i]);
-    }
+    if (at->event && !w->listed[i]) return num_isolated_sign(arena, at->event->at, &w->f[i], near_of(arena, w, i));
     if (at->event && (at->event->vanishing[i / 64] >> (i % 64) & 1)) return 0;
-    return num_poly_sign(arena, &w->f[i], at->share);
+    const int sign = num_ball_sign(num_ball_poly_at(near_of(arena, w, i), at->near));
+    return sign == NUM_UNSURE ? num_poly_sign(arena, &w->f[i], at->share) : sign;
 }
 
 walk_moment walk_start(void) {
@@ -60,20 +63,22 @@ walk_moment walk_start(void) {
 }
 
 walk_moment walk_end(num_arena *arena) {
-    return (walk_moment){.share = num_dyadic_scaled(arena, 1, 1, 0)};
+    return (walk_moment){.share = num_dyadic_scaled(arena, 1, 1, 0), .near = num_ball_from(1)};
 }
 
 /* ------------------------------------------------------------------- between -- */
 
 /* The middle between the upper end of one interval and the lower end of the next; NULL: 0 and 1. False: too close. */
-static bool middle_between(num_arena *arena, num_isolated *before, num_isolated *after, num_dyadic *out) {
+static bool middle_between(num_arena *arena, num_isolated *before, num_isolated *after, walk_moment *out) {
     for (;;) {
         const size_t mark = arena->top;
         const num_dyadic low = before ? num_isolated_high(arena, before) : (num_dyadic){0};
         const num_dyadic high = after ? num_isolated_low(after) : num_dyadic_scaled(arena, 1, 1, 0);
         if (num_dyadic_compare(low, high) < 0) {
             const num_dyadic sum = num_dyadic_add(arena, low, high);
-            *out = num_dyadic_mul(arena, sum, num_dyadic_scaled(arena, 1, 1, -1));
+            *out = (walk_moment){.share = num_dyadic_mul(arena, sum, num_dyadic_scaled(arena, 1, 1, -1))};
+            const double near = num_dyadic_quotient(arena, out->share, num_dyadic_scaled(arena, 1, 1, 0));
+            out->near = (num_ball){near, near * 0x1p-53 + 0x1p-1074};
             return true;
         }
         arena->top = mark;
@@ -85,11 +90,14 @@ static bool middle_between(num_arena *arena, num_isolated *before, num_isolated 
 }
 
 /* From share to time: an enclosure of two doubles. */
-static bool time_of_root(num_arena *arena, const walk_room *w, num_isolated *root, meet_time *out) {
+static bool time_of_event(num_arena *arena, walk_room *w, int k, meet_time *out) {
+    *out = k < 0 ? (meet_time){w->from, w->from} : (meet_time){w->to, w->to};
+    if (k < 0 || k == w->event_count) return true;
     int length, size;
     frexp(w->to - w->from, &length);
     frexp(fabs(w->from) > fabs(w->to) ? w->from : w->to, &size);
     const int depth = length - size + 55; /* a quarter of the last place of the greater end */
+    num_isolated *root = w->events[k].at;
     if (!num_isolated_narrow(arena, root, depth > 1 ? depth : 1)) return false;
     const num_ball from = num_ball_from(w->from), span = num_ball_sub(num_ball_from(w->to), from);
     const num_ball t = num_ball_add(from, num_ball_mul(span, num_isolated_ball(root)));
@@ -99,31 +107,37 @@ static bool time_of_root(num_arena *arena, const walk_room *w, num_isolated *roo
     return true;
 }
 
-/* An instant at which they meet or not. What is before it has been seen. */
-static void pass_instant(walk_room *w, bool *now, bool meets, meet_time at) {
-    if (meets && !*now) w->spans[w->span_count++] = (meet_span){.begin = at, .instant = true};
-    if (meets) w->spans[w->span_count - 1].end = at;
+/* An event (or end) at which they meet or not. What is before it has been seen. */
+static void pass_instant(walk_room *w, bool *now, bool meets, int k) {
+    if (meets && !*now) {
+        w->first[w->span_count] = k;
+        w->spans[w->span_count++] = (meet_span){.instant = true};
+    }
+    if (meets) w->last[w->span_count - 1] = k;
     *now = meets;
 }
 
 static bool walk_events(num_arena *arena, walk_room *w, walk_fn *meets, void *user) {
     walk_moment at = walk_start();
     bool now = false;
-    pass_instant(w, &now, meets(user, &at), (meet_time){w->from, w->from});
+    pass_instant(w, &now, meets(user, &at), -1);
     for (int k = 0; k <= w->event_count; k++) {
         num_isolated *before = k ? w->events[k - 1].at : NULL, *after = k < w->event_count ? w->events[k].at : NULL;
-        meet_time then = {w->to, w->to};
         const size_t mark = arena->top;
-        if (!middle_between(arena, before, after, &at.share) || (after && !time_of_root(arena, w, after, &then)))
-            return false;
-        at.event = NULL;
+        if (!middle_between(arena, before, after, &at)) return false;
         now = meets(user, &at); /* in the gap: contacts are closed, they begin and end in instants */
         if (now) w->spans[w->span_count - 1].instant = false;
-        at.event = after ? &w->events[k] : NULL;
-        if (!after) at = walk_end(arena);
-        pass_instant(w, &now, meets(user, &at), then);
+        if (after)
+            at.event = &w->events[k];
+        else
+            at = walk_end(arena);
+        pass_instant(w, &now, meets(user, &at), k);
         arena->top = mark;
     }
+    for (int i = 0; i < w->span_count; i++)
+        if (!time_of_event(arena, w, w->first[i], &w->spans[i].begin) ||
+            !time_of_event(arena, w, w->last[i], &w->spans[i].end))
+            return false;
     return true;
 }
 

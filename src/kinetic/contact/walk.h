@@ -32,12 +32,14 @@ struct walk_room {
     walk_event events[WALK_EVENTS];
     int root_count, event_count;
     meet_span spans[WALK_EVENTS + 2];
+    int first[WALK_EVENTS + 2], last[WALK_EVENTS + 2]; /**< of each span: its events; -1: from, event_count: to */
     int span_count;
 };
 
-/** An instant: a dyadic share of the time, or an event, and then a share just before it. */
+/** An instant: a dyadic share of the time, or an event, and then a share just before it, after the event before. */
 typedef struct walk_moment {
     num_dyadic share;
+    num_ball near;           /**< the share */
     const walk_event *event; /**< NULL: share */
 } walk_moment;
 
