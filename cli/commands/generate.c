@@ -43,7 +43,7 @@ static int list_kinds(const generate_args *args) {
         if (all || g->usual) append_kind(kinds, g->name, g->dim, froe_kind_name(g->kind), g->summary);
     const froe_motion_generator_info *moving;
     for (size_t i = 0; (moving = froe_motion_generator_at(i)) != NULL; i++)
-        if (all || moving->usual) append_kind(kinds, moving->name, 2, "moving", moving->summary);
+        if (all || moving->usual) append_kind(kinds, moving->name, moving->dim, "moving", moving->summary);
     return cli_report(&args->common, NULL, json_pack("{s:o}", "kinds", kinds));
 }
 

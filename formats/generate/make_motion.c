@@ -1,4 +1,4 @@
-/* make_motion.c: made-up motions: segments and polygons that move during a minute. */
+/* make_motion.c: made-up motions: segments, polygons and boxes that move during a minute. */
 #include "formats/generate/maker.h"
 #include "support/floats.h"
 #include <math.h>
@@ -14,20 +14,20 @@ typedef struct motion_maker {
 } motion_maker;
 
 /* A chain of corners, closed from three on, at the same instants each. */
-typedef struct body {
+typedef struct flight_chain {
     size_t corners, knots;
     double times[KNOTS], xy[MOST_CORNERS][KNOTS][2], controls[MOST_CORNERS][KNOTS][2];
-} body;
+} flight_chain;
 
-static body body_of(size_t corners, size_t knots) {
-    body b = {.corners = corners, .knots = knots};
+static flight_chain chain_of(size_t corners, size_t knots) {
+    flight_chain b = {.corners = corners, .knots = knots};
     for (size_t k = 0; k < knots; k++) b.times[k] = SECONDS * (double)k / (double)(knots - 1);
     for (size_t c = 0; c < corners; c++)
         for (size_t k = 0; k < knots; k++) b.controls[c][k][0] = b.controls[c][k][1] = NAN;
     return b;
 }
 
-static void add_body(motion_maker *m, const body *b) {
+static void add_chain(motion_maker *m, const flight_chain *b) {
     size_t starts[MOST_CORNERS + 1] = {0};
     double times[MOST_CORNERS * KNOTS], xy[2 * MOST_CORNERS * KNOTS], controls[2 * MOST_CORNERS * KNOTS];
     uint32_t ends[2 * MOST_CORNERS];
@@ -65,21 +65,21 @@ static void place_in_square(motion_maker *m, double to[2]) {
 /* Both ends go straight from place to place, near one another. */
 static void make_linear(motion_maker *m) {
     while (more(m)) {
-        body b = body_of(2, KNOTS);
+        flight_chain b = chain_of(2, KNOTS);
         for (size_t k = 0; k < KNOTS; k++) {
             double d[2];
             place_in_square(m, b.xy[0][k]);
             formats_direction(&m->random, 2, d);
             for (int i = 0; i < 2; i++) b.xy[1][k][i] = b.xy[0][k][i] + m->side * d[i];
         }
-        add_body(m, &b);
+        add_chain(m, &b);
     }
 }
 
 /* The same on parabolas. */
 static void make_quadratic(motion_maker *m) {
     while (more(m)) {
-        body b = body_of(2, 3);
+        flight_chain b = chain_of(2, 3);
         for (size_t k = 0; k < b.knots; k++) {
             double d[2];
             place_in_square(m, b.xy[0][k]);
@@ -90,7 +90,7 @@ static void make_quadratic(motion_maker *m) {
                 b.controls[1][k][i] = b.controls[0][k][i] + m->side * d[i];
             }
         }
-        add_body(m, &b);
+        add_chain(m, &b);
     }
 }
 
@@ -98,19 +98,19 @@ static void make_quadratic(motion_maker *m) {
 static void make_lattice(motion_maker *m) {
     uint32_t width = (uint32_t)formats_root(m->random.n, 2) + 2;
     while (more(m)) {
-        body b = body_of(2, KNOTS);
+        flight_chain b = chain_of(2, KNOTS);
         for (size_t k = 0; k < KNOTS; k++) {
             for (int i = 0; i < 2; i++) b.xy[0][k][i] = formats_below(&m->random, width);
             for (int i = 0; i < 2; i++) b.xy[1][k][i] = b.xy[0][k][i] + formats_below(&m->random, 5) - 2.0;
         }
-        add_body(m, &b);
+        add_chain(m, &b);
     }
 }
 
 /* A field of segments in one common translation, half of them against it. */
 static void make_rigid(motion_maker *m) {
     while (more(m)) {
-        body b = body_of(2, 2);
+        flight_chain b = chain_of(2, 2);
         double p[2], d[2], way[2] = {0.25, 0.125}, sign = m->made % 2 ? 1 : -1;
         place_in_square(m, p);
         formats_direction(&m->random, 2, d);
@@ -119,14 +119,14 @@ static void make_rigid(motion_maker *m) {
                 b.xy[0][k][i] = p[i] + (double)k * sign * way[i];
                 b.xy[1][k][i] = b.xy[0][k][i] + m->side * d[i];
             }
-        add_body(m, &b);
+        add_chain(m, &b);
     }
 }
 
 /* Segments that turn around their middles by quarters of a turn, each on a parabola, and drift. */
 static void make_spin(motion_maker *m) {
     while (more(m)) {
-        body b = body_of(2, KNOTS);
+        flight_chain b = chain_of(2, KNOTS);
         double p[2], d[2], drift[2];
         place_in_square(m, p);
         formats_direction(&m->random, 2, d);
@@ -143,14 +143,14 @@ static void make_spin(motion_maker *m) {
             }
             memcpy(d, next, sizeof d);
         }
-        add_body(m, &b);
+        add_chain(m, &b);
     }
 }
 
 /* Polygons of three to six corners that go straight and change their shape a little. */
 static void make_polygons(motion_maker *m) {
     while (more(m)) {
-        body b = body_of(3 + formats_below(&m->random, MOST_CORNERS - 2), KNOTS);
+        flight_chain b = chain_of(3 + formats_below(&m->random, MOST_CORNERS - 2), KNOTS);
         for (size_t k = 0; k < KNOTS; k++) {
             double p[2], corner[2];
             place_in_square(m, p);
@@ -160,7 +160,53 @@ static void make_polygons(motion_maker *m) {
                 for (int i = 0; i < 2; i++) b.xy[c][k][i] = p[i] + radius * corner[i];
             }
         }
-        add_body(m, &b);
+        add_chain(m, &b);
+    }
+}
+
+/* A cube of twelve triangles that a body carries. */
+static void add_cube(motion_maker *m, uint32_t body, double half) {
+    enum { CORNERS = 8, TRIANGLES = 12 };
+    static const uint32_t sides[3 * TRIANGLES] = {0, 1, 3, 0, 3, 2, 4, 6, 7, 4, 7, 5, 0, 4, 5, 0, 5, 1,
+                                                  2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 5, 7, 1, 7, 3};
+    static const double times[CORNERS];
+    size_t starts[CORNERS + 1] = {0};
+    double at[3 * CORNERS];
+    uint32_t bodies[CORNERS];
+    for (size_t c = 0; c < CORNERS; c++) {
+        starts[c + 1] = c + 1;
+        bodies[c] = body;
+        for (size_t k = 0; k < 3; k++) at[3 * c + k] = c >> k & 1 ? half : -half;
+    }
+    froe_moving batch = froe_moving_defaults();
+    batch.vertex_count = CORNERS, batch.count = TRIANGLES, batch.starts = starts, batch.times = times;
+    batch.coords = at, batch.bodies = bodies, batch.vertices = sides;
+    if (!m->random.status) m->random.status = froe_motion_add_group(m->motion, &(froe_group){.name = ""}, &batch.group);
+    if (!m->random.status) m->random.status = froe_motion_add(m->motion, &batch, m->random.sink.diag);
+    m->made += TRIANGLES;
+}
+
+/* Cubes that are thrown from place to place, each on parabolas, and tumble. */
+static void make_boxes(motion_maker *m) {
+    const double size = 1 / formats_cube_root((double)m->random.n / 12 + 1);
+    while (more(m)) {
+        double times[KNOTS], at[3 * KNOTS], controls[3 * KNOTS], turns[4 * KNOTS], square = 0;
+        for (size_t k = 0; k < KNOTS; k++, square = 0) {
+            times[k] = SECONDS * (double)k / (KNOTS - 1);
+            formats_place(&m->random, 3, at + 3 * k);
+            for (size_t i = 0; i < 3 && k; i++)
+                controls[3 * k - 3 + i] = 0.5 * (at[3 * k - 3 + i] + at[3 * k + i]) + (i == 2 ? 0.5 : 0);
+            for (size_t i = 0; i < 4; i++) { /* no two are as much as half a turn apart */
+                turns[4 * k + i] = formats_between(&m->random, -0.5, 0.5) + (k ? turns[4 * k - 4 + i] : i == 3);
+                square += turns[4 * k + i] * turns[4 * k + i];
+            }
+            for (size_t i = 0; i < 4; i++) turns[4 * k + i] /= sqrt(square);
+        }
+        froe_body body = froe_body_defaults();
+        uint32_t id = 0;
+        body.count = KNOTS, body.times = times, body.coords = at, body.controls = controls, body.turns = turns;
+        m->random.status = froe_motion_add_body(m->motion, &body, &id, m->random.sink.diag);
+        add_cube(m, id, 0.2 * size);
     }
 }
 
@@ -170,12 +216,13 @@ typedef struct generator {
 } generator;
 
 static const generator generators[] = {
-    {{"moving", "short segments in the unit square, straight from place to place", false}, make_linear},
-    {{"moving-quadratic", "the same on parabolas", false}, make_quadratic},
-    {{"moving-lattice", "whole coordinates at whole times: much happens at once", false}, make_lattice},
-    {{"moving-rigid", "two fields of segments that pass through one another", false}, make_rigid},
-    {{"moving-spin", "segments that turn and drift, on parabolas", false}, make_spin},
-    {{"moving-polygons", "polygons that go straight and change their shape", true}, make_polygons},
+    {{"moving", 2, "short segments in the unit square, straight from place to place", false}, make_linear},
+    {{"moving-quadratic", 2, "the same on parabolas", false}, make_quadratic},
+    {{"moving-lattice", 2, "whole coordinates at whole times: much happens at once", false}, make_lattice},
+    {{"moving-rigid", 2, "two fields of segments that pass through one another", false}, make_rigid},
+    {{"moving-spin", 2, "segments that turn and drift, on parabolas", false}, make_spin},
+    {{"moving-polygons", 2, "polygons that go straight and change their shape", true}, make_polygons},
+    {{"moving-boxes", 3, "boxes in space that are thrown and tumble", true}, make_boxes},
 };
 enum { GENERATORS = sizeof generators / sizeof *generators };
 
@@ -194,6 +241,7 @@ froe_status froe_generate_motion(const char *kind, size_t n, uint64_t seed, cons
     if (n >= (1u << 31) - 2) return support_fail(diag, FROE_E_LIMIT, "There are more than 2^31 - 3 objects.");
     motion_maker m = {.random = {.sink = {.diag = diag}, .n = n, .seed = seed}, .side = 0.5 / sqrt((double)n)};
     froe_motion_options w = froe_motion_defaults();
+    w.dim = (unsigned)generators[i].info.dim;
     w.begin = 0;
     w.end = SECONDS;
     froe_status status = froe_motion_new(&w, alloc, &m.motion, diag);

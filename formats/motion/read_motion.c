@@ -1,6 +1,7 @@
 /* read_motion.c: froe_read_motion: OGC Moving Features JSON (19-045r3).
  *
  *     feature -> temporalGeometry (or its prisms) -> one flight plan a point, one segment a pair of neighbours
+ *                 ... with `triangles`, or a `base` that has them -> in space: a cloud of corners, or a body
  *
  * The file is walked twice: for its first and last instant, and for what moves. */
 #include "formats/input/source.h"
@@ -25,6 +26,7 @@ typedef struct reading {
     froe_motion_report report;
     froe_motion *motion; /* NULL on the first walk */
     double first, last;  /* instant of all */
+    int dim;             /* 2 or 3, once a geometry was seen */
     size_t number;       /* of the feature */
     uint32_t group;
     bool flat; /* no z so far */
@@ -33,6 +35,8 @@ typedef struct reading {
     sizes rings, here;               /* points of each line or ring: at instant 0, and at the one being read */
     doubles times, coords, controls; /* one instant after the other */
     doubles plan_times, plan_coords, plan_controls; /* one point after the other */
+    doubles turns;                                  /* of a body */
+    ARRAY(uint32_t) bodies;                         /* of each point of its base */
     sizes starts;
     ARRAY(uint32_t) vertices;
     doubles births, deaths;
@@ -40,7 +44,8 @@ typedef struct reading {
 } reading;
 
 typedef enum form { POINT, LINE, POLYGON, FORMS } form;
-static const char *const forms[FORMS] = {"MovingPoint", "MovingLineString", "MovingPolygon"};
+static const char *const forms[2][FORMS] = {{"MovingPoint", "MovingLineString", "MovingPolygon"},
+                                            {"MovingPoint", "MovingPointCloud", "MovingPointCloud"}}; /* in space */
 
 static froe_status fail_feature(const reading *r, froe_status status, const char *sentence, ...)
     __attribute__((format(printf, 3, 4)));
@@ -79,17 +84,19 @@ static froe_status take_instants(reading *r, const formats_json *geometry) {
 }
 
 static froe_status take_position(reading *r, const formats_json *position, size_t instant, doubles *to) {
-    double p[2];
-    if (formats_json_size(position) < 2)
-        return fail_feature(r, FROE_E_FORMAT, "At instant %zu a position is no array of two numbers.", instant);
+    double p[3];
+    const size_t dim = (size_t)r->dim;
+    if (formats_json_size(position) < dim)
+        return fail_feature(r, FROE_E_FORMAT, "At instant %zu a position is no array of %s numbers.", instant,
+                            dim == 2 ? "two" : "three");
     const formats_json *x = position + 1;
-    for (size_t k = 0; k < 2; k++, x = formats_json_next(x)) {
+    for (size_t k = 0; k < dim; k++, x = formats_json_next(x)) {
         if (!formats_json_is(x, FORMATS_JSON_NUMBER))
             return fail_feature(r, FROE_E_FORMAT, "At instant %zu a coordinate is not a number.", instant);
         p[k] = x->number;
     }
-    if (formats_json_size(position) > 2) r->flat = false;
-    return array_append(&r->alloc, to, p, 2) ? FROE_OK : no_memory(r);
+    if (formats_json_size(position) > dim) r->flat = false;
+    return array_append(&r->alloc, to, p, dim) ? FROE_OK : no_memory(r);
 }
 
 /* One ring, without its last point, which is the first again. */
@@ -136,7 +143,7 @@ static froe_status take_all(reading *r, form kind, const formats_json *array, co
     for (size_t i = 0; i < count; i++, geometry = formats_json_next(geometry)) {
         const froe_status status = take_geometry(r, kind, geometry, i, to);
         if (status) return status;
-        const size_t points = to->count / 2 / (i + 1), lines = r->here.count;
+        const size_t points = to->count / (size_t)r->dim / (i + 1), lines = r->here.count;
         if (first && i == 0) {
             r->points = points;
             r->rings.count = 0;
@@ -155,7 +162,7 @@ static froe_status take_all(reading *r, form kind, const formats_json *array, co
  * first velocity is that of the parabola through the first three instants. */
 static froe_status make_spline(reading *r) {
     const double *t = r->times.data, *p = r->coords.data;
-    size_t n = r->instants, width = 2 * r->points;
+    size_t n = r->instants, width = (size_t)r->dim * r->points;
     if (n < 3) return fail_feature(r, FROE_E_INPUT, "Quadratic interpolation needs three instants.");
     r->controls.count = 0;
     if (!array_reserve(&r->alloc, &r->controls, (n - 1) * width)) return no_memory(r);
@@ -173,31 +180,40 @@ static froe_status make_spline(reading *r) {
     return FROE_OK;
 }
 
-static bool put_segment(reading *r, size_t a, size_t b) {
-    const uint32_t ends[2] = {(uint32_t)a, (uint32_t)b};
-    return array_append(&r->alloc, &r->vertices, ends, 2) && array_push(&r->alloc, &r->births, r->times.data[0]) &&
+static bool put_object(reading *r, const uint32_t *corners) {
+    return array_append(&r->alloc, &r->vertices, corners, r->dim) &&
+           array_push(&r->alloc, &r->births, r->times.data[0]) &&
            array_push(&r->alloc, &r->deaths, r->times.data[r->instants - 1]) &&
            array_push(&r->alloc, &r->tags, r->number);
 }
 
-/* Plans, one point after the other, and segments: lines from point to point, rings back to their first, a point to
- * itself. */
-static bool make_plans(reading *r, form kind, bool parabolas) {
-    static const double none[2] = {NAN, NAN};
+static bool put_segment(reading *r, size_t a, size_t b) {
+    const uint32_t ends[2] = {(uint32_t)a, (uint32_t)b};
+    return put_object(r, ends);
+}
+
+/* Plans, one point after the other. */
+static bool make_plans(reading *r, bool parabolas) {
+    static const double none[3] = {NAN, NAN, NAN};
+    const size_t dim = (size_t)r->dim;
     const froe_allocator *alloc = &r->alloc;
     r->plan_times.count = r->plan_coords.count = r->plan_controls.count = r->starts.count = 0;
     for (size_t v = 0; v <= r->points; v++) {
         if (!array_push(alloc, &r->starts, v * r->instants)) return false;
         for (size_t i = 0; i < r->instants && v < r->points; i++) {
-            const size_t at = 2 * (i * r->points + v);
+            const size_t at = dim * (i * r->points + v);
             const double *control = parabolas && i + 1 < r->instants ? r->controls.data + at : none;
             if (!array_push(alloc, &r->plan_times, r->times.data[i]) ||
-                !array_append(alloc, &r->plan_coords, r->coords.data + at, 2) ||
-                !array_append(alloc, &r->plan_controls, control, 2))
+                !array_append(alloc, &r->plan_coords, r->coords.data + at, dim) ||
+                !array_append(alloc, &r->plan_controls, control, dim))
                 return false;
         }
     }
-    r->vertices.count = r->births.count = r->deaths.count = r->tags.count = 0;
+    return true;
+}
+
+/* Segments: lines from point to point, rings back to their first, a point to itself. */
+static bool make_segments(reading *r, form kind) {
     if (kind == POINT) return put_segment(r, 0, 0);
     for (size_t k = 0, first = 0; k < r->rings.count; first += r->rings.data[k++]) {
         const size_t count = r->rings.data[k];
@@ -205,6 +221,91 @@ static bool make_plans(reading *r, form kind, bool parabolas) {
             if (!put_segment(r, first + i, first + (i + 1) % count)) return false;
     }
     return true;
+}
+
+/* ------------------------------------------------------------------- triangles -- */
+
+/* Triangles of so many points: three numbers of theirs each. */
+static froe_status take_triangles(reading *r, const formats_json *array, size_t points) {
+    size_t number = 0;
+    FORMATS_JSON_EACH(triangle, array) {
+        uint32_t corners[3] = {0, 0, 0};
+        const formats_json *corner = triangle + 1;
+        bool numbers = formats_json_size(triangle) == 3;
+        for (int k = 0; k < 3 && numbers; k++, corner = formats_json_next(corner)) {
+            numbers = formats_json_is(corner, FORMATS_JSON_NUMBER);
+            if (numbers &&
+                !(corner->number >= 0 && corner->number < (double)points && corner->number == floor(corner->number)))
+                return fail_feature(r, FROE_E_INPUT, "Triangle %zu has a corner %g of %zu points.", number,
+                                    corner->number, points);
+            corners[k] = numbers ? (uint32_t)corner->number : 0;
+        }
+        if (!numbers) return fail_feature(r, FROE_E_FORMAT, "Triangle %zu is no array of three numbers.", number);
+        if (!put_object(r, corners)) return no_memory(r);
+        number++;
+    }
+    return number ? FROE_OK : fail_feature(r, FROE_E_INPUT, "There are no triangles.");
+}
+
+/* One quaternion for each instant, or none at all. */
+static froe_status take_turns(reading *r, const formats_json *array) {
+    r->turns.count = 0;
+    if (array && formats_json_size(array) != r->instants)
+        return fail_feature(r, FROE_E_FORMAT, "There are %zu turns for %zu instants.", formats_json_size(array),
+                            r->instants);
+    FORMATS_JSON_EACH(turn, array) {
+        const formats_json *x = turn + 1;
+        bool numbers = formats_json_size(turn) == 4;
+        for (int k = 0; k < 4 && numbers; k++, x = formats_json_next(x)) {
+            numbers = formats_json_is(x, FORMATS_JSON_NUMBER);
+            if (numbers && !array_push(&r->alloc, &r->turns, x->number)) return no_memory(r);
+        }
+        if (!numbers)
+            return fail_feature(r, FROE_E_FORMAT, "Turn %zu is no array of four numbers.", r->turns.count / 4);
+    }
+    return FROE_OK;
+}
+
+/* A body of the instants that were read, and the points of its base. */
+static froe_status take_body(reading *r, const formats_json *geometry, bool parabolas, froe_moving *b) {
+    const formats_json *corners = formats_json_get(formats_json_get(geometry, "base"), "coordinates");
+    froe_diagnostic why;
+    froe_body body = froe_body_defaults();
+    uint32_t id;
+    froe_status status = take_turns(r, formats_json_get(geometry, "turns"));
+    if (status) return status;
+    body.count = r->instants, body.times = r->times.data, body.coords = r->coords.data;
+    body.controls = parabolas ? r->controls.data : NULL;
+    body.turns = r->turns.count ? r->turns.data : NULL;
+    status = froe_motion_add_body(r->motion, &body, &id, &why);
+    if (status == FROE_E_MEMORY) return no_memory(r);
+    if (status) return fail_feature(r, status, "%s", why.message);
+    r->plan_times.count = r->plan_coords.count = r->starts.count = r->bodies.count = 0;
+    FORMATS_JSON_EACH(corner, corners) {
+        if (!array_push(&r->alloc, &r->starts, r->bodies.count) || !array_push(&r->alloc, &r->bodies, id) ||
+            !array_push(&r->alloc, &r->plan_times, r->times.data[0]))
+            return no_memory(r);
+        status = take_position(r, corner, 0, &r->plan_coords);
+        if (status) return status;
+    }
+    b->vertex_count = r->bodies.count;
+    b->bodies = r->bodies.data;
+    return array_push(&r->alloc, &r->starts, r->bodies.count) ? FROE_OK : no_memory(r);
+}
+
+/* What a geometry is made of: its batch, but for what is in the arrays of all. */
+static froe_status take_batch(reading *r, form kind, const formats_json *geometry, bool parabolas, froe_moving *b) {
+    const formats_json *triangles = formats_json_get(geometry, "triangles"), *base = formats_json_get(geometry, "base");
+    r->vertices.count = r->births.count = r->deaths.count = r->tags.count = 0;
+    if (kind == POINT && r->dim == 3) {
+        const froe_status status = take_body(r, geometry, parabolas, b);
+        return status ? status : take_triangles(r, formats_json_get(base, "triangles"), b->vertex_count);
+    }
+    b->vertex_count = r->points;
+    if (!make_plans(r, parabolas)) return no_memory(r);
+    b->controls = r->plan_controls.data;
+    if (r->dim == 3) return take_triangles(r, triangles, r->points);
+    return make_segments(r, kind) ? FROE_OK : no_memory(r);
 }
 
 static froe_status add_geometry(reading *r, form kind, const formats_json *geometry) {
@@ -222,15 +323,13 @@ static froe_status add_geometry(reading *r, form kind, const formats_json *geome
                             name);
     if (parabolas)
         status = given ? take_all(r, kind, given, "controls", r->instants - 1, &r->controls, false) : make_spline(r);
-    if (!status && !make_plans(r, kind, parabolas)) status = no_memory(r);
+    froe_moving b = froe_moving_defaults();
+    if (!status) status = take_batch(r, kind, geometry, parabolas, &b);
     if (status) return status;
     froe_diagnostic why;
-    froe_moving b = froe_moving_defaults();
-    b.vertex_count = r->points;
     b.starts = r->starts.data;
     b.times = r->plan_times.data;
     b.coords = r->plan_coords.data;
-    b.controls = r->plan_controls.data;
     b.count = r->tags.count;
     b.vertices = r->vertices.data;
     b.births = r->births.data;
@@ -247,8 +346,14 @@ static froe_status add_geometry(reading *r, form kind, const formats_json *geome
 
 static froe_status take_moving(reading *r, const formats_json *geometry) {
     const char *type = formats_json_string(formats_json_get(geometry, "type"));
+    const formats_json *base = formats_json_get(geometry, "base");
+    const int dim = formats_json_get(geometry, "triangles") || formats_json_get(base, "triangles") ? 3 : 2;
+    if (r->dim && r->dim != dim)
+        return fail_feature(r, FROE_E_INPUT, "It moves in %s, and those before it do not.",
+                            dim == 3 ? "space" : "the plane");
+    r->dim = dim;
     int which = 0;
-    while (which < FORMS && type && strcmp(type, forms[which]) != 0) which++;
+    while (which < FORMS && type && strcmp(type, forms[dim - 2][which]) != 0) which++;
     if (!type || which == FORMS)
         return fail_feature(r, type ? FROE_E_UNSUPPORTED : FROE_E_FORMAT,
                             "There is no moving geometry of type '%.40s'.", type ? type : "");
@@ -320,6 +425,7 @@ static froe_status take_features(reading *r, const formats_json *root) {
 static froe_status open_window(reading *r) {
     froe_diagnostic why;
     froe_motion_options w = froe_motion_defaults();
+    w.dim = r->dim == 3 ? 3 : 2;
     if (!(r->first <= r->last))
         return support_fail(r->diag, FROE_E_INPUT, "%s: Nothing in the file moves.", support_short(r->path));
     if (r->first == r->last)
@@ -371,13 +477,14 @@ static froe_status read_file(reading *r) {
     if (!status) status = take_features(r, values.data);
     array_free(alloc, &values);
     array_free(alloc, &text);
-    doubles *const numbers[] = {&r->times,       &r->coords,        &r->controls, &r->plan_times,
-                                &r->plan_coords, &r->plan_controls, &r->births,   &r->deaths};
+    doubles *const numbers[] = {&r->times,         &r->coords, &r->controls, &r->plan_times, &r->plan_coords,
+                                &r->plan_controls, &r->births, &r->deaths,   &r->turns};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) array_free(alloc, numbers[i]);
     array_free(alloc, &r->rings);
     array_free(alloc, &r->here);
     array_free(alloc, &r->starts);
     array_free(alloc, &r->vertices);
+    array_free(alloc, &r->bodies);
     array_free(alloc, &r->tags);
     return status;
 }

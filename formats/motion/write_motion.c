@@ -1,4 +1,6 @@
-/* write_motion.c: froe_write_motion: a motion as OGC Moving Features JSON, one feature a chain of segments. */
+/* write_motion.c: froe_write_motion: a motion as OGC Moving Features JSON, one feature a chain of segments;
+ * in space, see write_solids.c. */
+#include "formats/motion/solids.h"
 #include "formats/write/writer.h"
 #include "support/floats.h"
 #include <math.h>
@@ -118,10 +120,9 @@ static void put_feature(formats_writer *w, const chain *c) {
 froe_status froe_write_motion(const froe_motion *motion, const char *path, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
     if (!motion || !path) return support_fail_null(diag, __func__);
-    if (froe_motion_window(motion).dim != 2)
-        return support_fail(diag, FROE_E_UNSUPPORTED, "Motions in space are not written.");
+    const bool space = froe_motion_window(motion).dim == 3;
     uint32_t count = (uint32_t)froe_motion_object_count(motion);
-    for (uint32_t i = 0; i < count;) {
+    for (uint32_t i = 0; i < count && !space;) {
         chain c = chain_at(motion, i);
         froe_status status = check_motion(&c, diag);
         if (status) return status;
@@ -131,12 +132,13 @@ froe_status froe_write_motion(const froe_motion *motion, const char *path, froe_
     froe_status status = formats_writer_open(&w, path, diag);
     if (status) return status;
     formats_put(&w, "{\"type\":\"FeatureCollection\",\"features\":[");
-    for (uint32_t i = 0; i < count;) {
+    if (space) status = formats_write_solids(motion, &w, diag);
+    for (uint32_t i = 0; i < count && !space;) {
         chain c = chain_at(motion, i);
         formats_put(&w, i ? ",\n" : "\n");
         put_feature(&w, &c);
         i = c.end;
     }
     formats_put(&w, "\n]}\n");
-    return formats_writer_close(&w, FROE_OK);
+    return formats_writer_close(&w, status);
 }

@@ -210,6 +210,10 @@ typedef struct froe_motion_report {
  * doubles. Interpolation is Linear (also where nothing is said) or Quadratic: the parabolas that continue one another
  * with the same velocity, the first of them through the first three instants; a member `controls` beside
  * `coordinates`, of one geometry less, gives their control points itself. Coordinate systems are ignored.
+ * A file is of motions in space if its geometries carry triangles, by two members beside those of the standard:
+ * `triangles`, arrays of three numbers of points, of a MovingPointCloud, whose points are their corners; or `base`, an
+ * object with `coordinates` (an array of positions) and `triangles`, of a MovingPoint, which is then the centre of a
+ * body, with `turns`, a quaternion x, y, z, w for each instant (froe_body), where it turns.
  * FROE_E_UNSUPPORTED: Discrete, Step and Cubic interpolation, other geometries. FROE_E_FORMAT: no JSON, not of this
  * form. FROE_E_INPUT: times that do not increase, geometries that change their number of points, a window in which
  * nothing is; the message names the feature. FROE_E_IO, FROE_E_MEMORY, FROE_E_OPTIONS, FROE_E_LIMIT. options, report
@@ -218,9 +222,9 @@ FROE_API froe_status froe_read_motion(const char *path, const froe_motion_read_o
                                       froe_motion_report *report, froe_diagnostic *diag);
 
 /** Writes a motion as MF-JSON so that froe_read_motion() gives it back: objects that follow one another with a common
- * vertex in one group become one line or polygon. Numbers have the digits that give the same doubles again.
- * FROE_E_UNSUPPORTED: the vertices of one feature have different instants, or its segments do not live as long as
- * its plans. FROE_E_IO, FROE_E_MEMORY. */
+ * vertex in one group become one line or polygon; in space, triangles of one group and one body, or of none, one
+ * feature. Numbers have the digits that give the same doubles again. FROE_E_UNSUPPORTED: the vertices of one feature
+ * have different instants, or its segments do not live as long as its plans. FROE_E_IO, FROE_E_MEMORY. */
 FROE_API froe_status froe_write_motion(const froe_motion *motion, const char *path, froe_diagnostic *diag);
 
 /** Writes contacts, in their order, as a table: .csv with the header
@@ -288,12 +292,13 @@ FROE_API froe_status froe_generate(const char *kind, size_t n, uint64_t seed, co
 /** A kind of made-up motion. */
 typedef struct froe_motion_generator_info {
     const char *name;    /**< e.g. "moving" */
+    int dim;             /**< 2: segments; 3: triangles */
     const char *summary; /**< one line */
     bool usual;          /**< as of froe_generator_info */
 } froe_motion_generator_info;
 /** The i-th kind; NULL past the last. */
 FROE_API const froe_motion_generator_info *froe_motion_generator_at(size_t i);
-/** About n moving segments, in the window 0 .. 60; else as froe_generate(). */
+/** About n moving segments or triangles, in the window 0 .. 60; else as froe_generate(). */
 FROE_API froe_status froe_generate_motion(const char *kind, size_t n, uint64_t seed, const froe_allocator *alloc,
                                           froe_motion **out, froe_diagnostic *diag);
 

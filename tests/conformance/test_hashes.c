@@ -257,6 +257,24 @@ static void check_motion(list *l, const froe_motion_generator_info *kind, bool a
     froe_motion_free(motion);
 }
 
+static bool put_contact(void *user, const froe_contact *c) {
+    put_number(user, c->a), put_number(user, c->b);
+    for (int i = 0; i < 2; i++) put_double(user, c->begin[i]), put_double(user, c->end[i]);
+    return true;
+}
+
+static void check_contacts(list *l, const froe_motion_generator_info *kind) {
+    char line[LINE];
+    hash h = {0};
+    froe_motion *motion;
+    if (froe_generate_motion(kind->name, kind->dim == 3 ? OBJECTS : OBJECTS / 3, 5, NULL, &motion, NULL) ||
+        froe_motion_contacts(motion, NULL, put_contact, &h, NULL))
+        abort();
+    snprintf(line, sizeof line, "%s contacts %016llx", kind->name, (unsigned long long)h.state);
+    say(l, line);
+    froe_motion_free(motion);
+}
+
 int main(int count, char **arguments) {
     list l = {0};
     if (count < 2 || strcmp(arguments[1], "--write")) {
@@ -268,7 +286,9 @@ int main(int count, char **arguments) {
             for (uint32_t leaf = 1; leaf <= 5; leaf += 4)
                 check_scene(&l, froe_generator_at(k), froe_method_at(m), leaf);
     for (size_t k = 0; froe_motion_generator_at(k); k++)
-        for (int augmented = 0; augmented < 2; augmented++) check_motion(&l, froe_motion_generator_at(k), augmented);
+        for (int augmented = 0; augmented < 2 && froe_motion_generator_at(k)->dim == 2; augmented++)
+            check_motion(&l, froe_motion_generator_at(k), augmented);
+    for (size_t k = 0; froe_motion_generator_at(k); k++) check_contacts(&l, froe_motion_generator_at(k));
     if (!l.expected) return 0;
     char more[LINE];
     while (fgets(more, sizeof more, l.expected)) l.wrong++, printf("- %s", more);

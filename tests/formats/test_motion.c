@@ -10,6 +10,16 @@
     "{\"type\":\"Feature\",\"properties\":{\"name\":\"n\"},\"temporalGeometry\":{\"type\":\"MovingLineString\","       \
     "\"datetimes\":" times ",\"coordinates\":" coordinates more "}}"
 
+#define HEAD "{\"type\":\"FeatureCollection\",\"features\":["
+#define CLOUD(triangles)                                                                                               \
+    HEAD "{\"type\":\"Feature\",\"temporalGeometry\":{\"type\":\"MovingPointCloud\",\"datetimes\":[0,10],"             \
+         "\"coordinates\":[[[0,0,0],[1,0,0],[0,1,0],[1,1,0]],[[0,0,5],[1,0,7],[0,1,5],[1,1,5]]],"                      \
+         "\"triangles\":" triangles "}}"
+#define BODY(turns, triangles)                                                                                         \
+    "{\"type\":\"Feature\",\"temporalGeometry\":{\"type\":\"MovingPoint\",\"datetimes\":[0,9],\"coordinates\":[[0,0,"  \
+    "9],"                                                                                                              \
+    "[1,0,0]],\"turns\":" turns ",\"base\":{\"coordinates\":[[1,0,0],[0,1,0],[0,0,1]],\"triangles\":" triangles "}}}"
+
 static void put(const char *path, const char *text) {
     FILE *file = fopen(path, "w");
     assert_non_null(file);
@@ -124,6 +134,41 @@ static void quadratic_interpolation_continues_its_velocity(void **state) {
     froe_motion_free(m);
 }
 
+/* Two triangles of a cloud, and a tetrahedron's side that a body carries. */
+static void triangles_move_in_space(void **state) {
+    (void)state;
+    froe_motion_report report;
+    froe_motion *m =
+        read_text(CLOUD("[[0,1,2],[2,1,3]]") "," BODY("[[0,0,0,1],[0.6,0,0,0.8]]", "[[0,1,2]]") "]}", &report);
+    assert_int_equal(froe_motion_window(m).dim, 3);
+    assert_true(froe_motion_object_count(m) == 3 && froe_motion_vertex_count(m) == 7 && report.flattened == 0);
+    assert_true(froe_motion_object(m, 1).vertices[2] == 3 && froe_motion_object(m, 2).vertices[0] == 4);
+    assert_true(froe_motion_knot(m, 1, 1).at[2] == 7 && froe_motion_vertex_body(m, 3) == FROE_NONE);
+    assert_true(froe_motion_vertex_body(m, 4) == 0 && froe_motion_body_knot(m, 0, 1).turn[0] == 0.6);
+    double at[3];
+    assert_true(froe_motion_position(m, 4, 9, at) && at[0] == 2);
+    froe_motion_free(m);
+}
+
+static void what_is_wrong_in_space_is_said_with_the_feature(void **state) {
+    (void)state;
+    assert_refused(CLOUD("[[0,1,2]]") "," LINE("[0,1]", "[[[0,0],[1,1]],[[0,0],[1,1]]]", "") "]}", FROE_E_INPUT,
+                   "bad.mfjson: feature 1: It moves in the plane, and those before it do not.");
+    assert_refused(CLOUD("[[0,1,4]]") "]}", FROE_E_INPUT,
+                   "bad.mfjson: feature 0: Triangle 0 has a corner 4 of 4 points.");
+    assert_refused(CLOUD("[[0,1]]") "]}", FROE_E_FORMAT,
+                   "bad.mfjson: feature 0: Triangle 0 is no array of three numbers.");
+    assert_refused(CLOUD("[[0,1,1]]") "]}", FROE_E_INPUT,
+                   "bad.mfjson: feature 0: triangle 0: Two of its corners are the vertex 1.");
+    assert_refused(CLOUD("[]") "]}", FROE_E_INPUT, "bad.mfjson: feature 0: There are no triangles.");
+    assert_refused(HEAD BODY("[[0,0,0,1]]", "[[0,1,2]]") "]}", FROE_E_FORMAT,
+                   "bad.mfjson: feature 0: There are 1 turns for 2 instants.");
+    assert_refused(HEAD BODY("[[0,0,0,1],[0,0,1]]", "[[0,1,2]]") "]}", FROE_E_FORMAT,
+                   "bad.mfjson: feature 0: Turn 1 is no array of four numbers.");
+    assert_refused(HEAD BODY("[[0,0,0,1],[0,0,0,0]]", "[[0,1,2]]") "]}", FROE_E_INPUT,
+                   "bad.mfjson: feature 0: body 0: The quaternion of turn 1, 0 0 0 0, has not the length 1.");
+}
+
 static void what_is_wrong_is_said_with_the_feature(void **state) {
     (void)state;
     assert_refused("{", FROE_E_FORMAT, "bad.mfjson: line 1: JSON needs a string or '}' near the end of the file.");
@@ -170,14 +215,28 @@ static void assert_same_motion(const froe_motion *a, const froe_motion *b) {
     for (uint32_t i = 0; i < froe_motion_object_count(a); i++) {
         froe_moving_object p = froe_motion_object(a, i), q = froe_motion_object(b, i);
         assert_true(p.birth == q.birth && p.death == q.death);
-        for (int k = 0; k < 2; k++) {
+        for (int k = 0; k < 3 && p.vertices[k] != FROE_NONE; k++) {
             size_t knots = froe_motion_knot_count(a, p.vertices[k]);
             assert_int_equal(knots, froe_motion_knot_count(b, q.vertices[k]));
             for (size_t j = 0; j < knots; j++) {
                 froe_moving_knot x = froe_motion_knot(a, p.vertices[k], j), y = froe_motion_knot(b, q.vertices[k], j);
-                assert_true(x.time == y.time && x.at[0] == y.at[0] && x.at[1] == y.at[1]);
+                assert_true(x.time == y.time && x.at[0] == y.at[0] && x.at[1] == y.at[1] && x.at[2] == y.at[2]);
                 if (!isnan(x.control[0])) assert_memory_equal(x.control, y.control, sizeof x.control);
             }
+        }
+    }
+}
+
+static void assert_same_bodies(const froe_motion *a, const froe_motion *b) {
+    assert_int_equal(froe_motion_body_count(a), froe_motion_body_count(b));
+    for (uint32_t v = 0; v < froe_motion_vertex_count(a); v++)
+        assert_int_equal(froe_motion_vertex_body(a, v), froe_motion_vertex_body(b, v));
+    for (uint32_t i = 0; i < froe_motion_body_count(a); i++) {
+        assert_int_equal(froe_motion_body_knot_count(a, i), froe_motion_body_knot_count(b, i));
+        for (size_t k = 0; k < froe_motion_body_knot_count(a, i); k++) {
+            const froe_body_knot x = froe_motion_body_knot(a, i, k), y = froe_motion_body_knot(b, i, k);
+            assert_true(x.time == y.time && !memcmp(x.at, y.at, sizeof x.at) && !memcmp(x.turn, y.turn, sizeof x.turn));
+            if (!isnan(x.control[0])) assert_memory_equal(x.control, y.control, sizeof x.control);
         }
     }
 }
@@ -190,10 +249,11 @@ static void every_kind_of_motion_survives_a_file(void **state) {
         assert_int_equal(froe_generate_motion(g->name, 40, 7, NULL, &made, NULL), FROE_OK);
         assert_int_equal(froe_generate_motion(g->name, 40, 7, NULL, &again, NULL), FROE_OK);
         assert_same_motion(made, again);
-        assert_in_range(froe_motion_object_count(made), 40, 45);
+        assert_in_range(froe_motion_object_count(made), 40, 51);
         assert_int_equal(froe_write_motion(made, "made.mfjson", NULL), FROE_OK);
         assert_int_equal(froe_read_motion("made.mfjson", NULL, &read, NULL, NULL), FROE_OK);
         assert_same_motion(made, read);
+        assert_same_bodies(made, read);
         assert_int_equal(froe_motion_vertex_count(made), froe_motion_vertex_count(read));
         froe_motion_free(made);
         froe_motion_free(again);
@@ -325,6 +385,8 @@ int main(void) {
         cmocka_unit_test(instants_are_milliseconds_since_1970),
         cmocka_unit_test(lines_rings_and_points_become_segments),
         cmocka_unit_test(quadratic_interpolation_continues_its_velocity),
+        cmocka_unit_test(triangles_move_in_space),
+        cmocka_unit_test(what_is_wrong_in_space_is_said_with_the_feature),
         cmocka_unit_test(what_is_wrong_is_said_with_the_feature),
         cmocka_unit_test(every_kind_of_motion_survives_a_file),
         cmocka_unit_test(motions_that_the_format_cannot_say_are_refused),

@@ -1,0 +1,199 @@
+/* write_solids.c: triangles in motion, for write_motion.c: a feature is a run of triangles of one group and one body,
+ * or of none.
+ *
+ *     a body      MovingPoint, with `turns` (quaternions x, y, z, w) and `base`: corners and triangles in the body
+ *     corners     MovingPointCloud, with `triangles`
+ * that move each for itself. Triangles name corners of the feature, from 0, in the order in which they first appear. */
+#include "formats/motion/solids.h"
+#include "support/alloc.h"
+#include <math.h>
+
+typedef struct solid {
+    const froe_motion *motion;
+    uint32_t first, end; /* objects */
+    uint32_t body;       /* or FROE_NONE */
+    uint32_t *number;    /* [vertex]: in this feature */
+    uint32_t *corners;   /* vertices */
+    uint32_t count;
+} solid;
+
+static froe_moving_object triangle_at(const solid *s, uint32_t i) {
+    return froe_motion_object(s->motion, i);
+}
+
+/* The next run, with its corners numbered. */
+static void take_run(solid *s) {
+    const froe_moving_object begin = triangle_at(s, s->first);
+    s->body = froe_motion_vertex_body(s->motion, begin.vertices[0]);
+    s->count = 0;
+    for (s->end = s->first; s->end < froe_motion_object_count(s->motion); s->end++) {
+        const froe_moving_object o = triangle_at(s, s->end);
+        if (o.group != begin.group || o.birth != begin.birth || o.death != begin.death ||
+            froe_motion_vertex_body(s->motion, o.vertices[0]) != s->body)
+            return;
+        for (int k = 0; k < 3; k++) {
+            const uint32_t v = o.vertices[k], known = s->number[v];
+            if (known < s->count && s->corners[known] == v) continue;
+            s->number[v] = s->count;
+            s->corners[s->count++] = v;
+        }
+    }
+}
+
+static size_t instants_of(const solid *s, uint32_t vertex) {
+    return s->body == FROE_NONE ? froe_motion_knot_count(s->motion, vertex)
+                                : froe_motion_body_knot_count(s->motion, s->body);
+}
+
+static double instant_of(const solid *s, uint32_t vertex, size_t k) {
+    return s->body == FROE_NONE ? froe_motion_knot(s->motion, vertex, k).time
+                                : froe_motion_body_knot(s->motion, s->body, k).time;
+}
+
+/* Do all corners have the same instants, from the birth to the death of the triangles? */
+static bool fits(const solid *s) {
+    const froe_moving_object o = triangle_at(s, s->first);
+    const size_t count = instants_of(s, s->corners[0]);
+    bool fits =
+        count > 1 && instant_of(s, s->corners[0], 0) == o.birth && instant_of(s, s->corners[0], count - 1) == o.death;
+    for (uint32_t i = 1; i < s->count && fits && s->body == FROE_NONE; i++) {
+        fits = instants_of(s, s->corners[i]) == count;
+        for (size_t k = 0; k < count && fits; k++)
+            fits = instant_of(s, s->corners[i], k) == instant_of(s, s->corners[0], k);
+    }
+    return fits;
+}
+
+/* --------------------------------------------------------------------- writing -- */
+
+static void put_array(formats_writer *w, const double *x, int count) {
+    formats_put(w, "[");
+    formats_put_point(w, x, count, ",");
+    formats_put(w, "]");
+}
+
+/* Where a corner or the centre of the body is; `control`: the control point of its piece instead, of a straight one the
+ * middle. */
+static void put_place(formats_writer *w, const solid *s, uint32_t vertex, size_t k, bool control) {
+    double at[3], next[3], bend[3];
+    for (int i = 0; i < 3; i++) {
+        const size_t then = control ? k + 1 : k;
+        if (s->body == FROE_NONE) {
+            at[i] = froe_motion_knot(s->motion, vertex, k).at[i];
+            next[i] = froe_motion_knot(s->motion, vertex, then).at[i];
+            bend[i] = froe_motion_knot(s->motion, vertex, k).control[i];
+        } else {
+            at[i] = froe_motion_body_knot(s->motion, s->body, k).at[i];
+            next[i] = froe_motion_body_knot(s->motion, s->body, then).at[i];
+            bend[i] = froe_motion_body_knot(s->motion, s->body, k).control[i];
+        }
+        if (control) at[i] = isnan(bend[i]) ? 0.5 * at[i] + 0.5 * next[i] : bend[i];
+    }
+    put_array(w, at, 3);
+}
+
+static bool is_curved(const solid *s) {
+    const size_t count = instants_of(s, s->corners[0]);
+    for (uint32_t i = 0; i < (s->body == FROE_NONE ? s->count : 1); i++)
+        for (size_t k = 0; k + 1 < count; k++)
+            if (!isnan(s->body == FROE_NONE ? froe_motion_knot(s->motion, s->corners[i], k).control[0]
+                                            : froe_motion_body_knot(s->motion, s->body, k).control[0]))
+                return true;
+    return false;
+}
+
+static void put_places(formats_writer *w, const solid *s, size_t count, bool control) {
+    for (size_t k = 0; k < count; k++) {
+        if (k) formats_put(w, ",");
+        if (s->body != FROE_NONE) {
+            put_place(w, s, s->corners[0], k, control);
+            continue;
+        }
+        for (uint32_t i = 0; i < s->count; i++) {
+            formats_put(w, i ? "," : "[");
+            put_place(w, s, s->corners[i], k, control);
+        }
+        formats_put(w, "]");
+    }
+    formats_put(w, "]");
+}
+
+static void put_triangles(formats_writer *w, const solid *s) {
+    formats_put(w, "\"triangles\":[");
+    for (uint32_t i = s->first; i < s->end; i++) {
+        const froe_moving_object o = triangle_at(s, i);
+        formats_put(w, i > s->first ? ",[" : "[");
+        for (int k = 0; k < 3; k++) {
+            if (k) formats_put(w, ",");
+            formats_put_whole(w, s->number[o.vertices[k]]);
+        }
+        formats_put(w, "]");
+    }
+    formats_put(w, "]");
+}
+
+static void put_base(formats_writer *w, const solid *s, size_t count) {
+    formats_put(w, ",\"turns\":[");
+    for (size_t k = 0; k < count; k++) {
+        const froe_body_knot knot = froe_motion_body_knot(s->motion, s->body, k);
+        if (k) formats_put(w, ",");
+        put_array(w, knot.turn, 4);
+    }
+    formats_put(w, "],\"base\":{\"coordinates\":[");
+    for (uint32_t i = 0; i < s->count; i++) {
+        const froe_moving_knot knot = froe_motion_knot(s->motion, s->corners[i], 0);
+        if (i) formats_put(w, ",");
+        put_array(w, knot.at, 3);
+    }
+    formats_put(w, "],");
+    put_triangles(w, s);
+    formats_put(w, "}");
+}
+
+static void put_solid(formats_writer *w, const solid *s) {
+    const froe_moving_object o = triangle_at(s, s->first);
+    const size_t count = instants_of(s, s->corners[0]);
+    const bool curved = is_curved(s);
+    formats_put(w, "{\"type\":\"Feature\",\"properties\":{");
+    if (o.group != FROE_NONE) {
+        formats_put(w, "\"name\":");
+        formats_put_json(w, froe_motion_group(s->motion, o.group).name);
+    }
+    formats_put(w, "},\"temporalGeometry\":{\"type\":\"");
+    formats_put(w, s->body == FROE_NONE ? "MovingPointCloud" : "MovingPoint");
+    formats_put(w, curved ? "\",\"interpolation\":\"Quadratic\",\"datetimes\":[" : "\",\"datetimes\":[");
+    for (size_t k = 0; k < count; k++) {
+        if (k) formats_put(w, ",");
+        formats_put_number(w, instant_of(s, s->corners[0], k));
+    }
+    formats_put(w, "],\"coordinates\":[");
+    put_places(w, s, count, false);
+    if (curved) formats_put(w, ",\"controls\":["), put_places(w, s, count - 1, true);
+    if (s->body == FROE_NONE)
+        formats_put(w, ","), put_triangles(w, s);
+    else
+        put_base(w, s, count);
+    formats_put(w, "}}");
+}
+
+froe_status formats_write_solids(const froe_motion *motion, formats_writer *w, froe_diagnostic *diag) {
+    const froe_allocator alloc = support_allocator(NULL);
+    const size_t vertices = froe_motion_vertex_count(motion);
+    solid s = {.motion = motion};
+    s.number = support_calloc(&alloc, vertices, sizeof *s.number);
+    s.corners = support_calloc(&alloc, vertices, sizeof *s.corners);
+    froe_status status = s.number && s.corners ? FROE_OK : support_fail_memory(diag);
+    for (; s.first < froe_motion_object_count(motion) && !status; s.first = s.end) {
+        take_run(&s);
+        if (!fits(&s))
+            status = support_fail(diag, FROE_E_UNSUPPORTED,
+                                  "triangle %u: The instants of its corners are not the same, or not those of its "
+                                  "life, which MF-JSON cannot say.",
+                                  s.first);
+        formats_put(w, s.first ? ",\n" : "\n");
+        if (!status) put_solid(w, &s);
+    }
+    support_free(&alloc, s.number, vertices * sizeof *s.number);
+    support_free(&alloc, s.corners, vertices * sizeof *s.corners);
+    return status;
+}
