@@ -7,7 +7,7 @@ PREFIX ?= /usr/local
 export CMAKE_GENERATOR = $(if $(shell command -v ninja 2>/dev/null),Ninja,Unix Makefiles)
 
 .DEFAULT_GOAL := build
-.PHONY: help build demo test install uninstall bench build-bench bench-peers claims oracle mutations coverage bare docs site format lint clean
+.PHONY: help build demo test install uninstall bench build-bench bench-peers claims oracle mutations coverage bare docs python site format lint clean
 
 deps-%:
 	@scripts/deps $*
@@ -73,6 +73,9 @@ docs: build ## tables, outputs and pictures in the documents, as they come out n
 	@scripts/file-table --write
 	@cmake --install $(BUILD) --prefix $(BUILD)/stage >/dev/null
 	@scripts/check-docs --accept $(BUILD)/stage *.md docs/*.md docs/*/*.md docs/*/*/*.md
+
+python: deps-python ## wheel and source distribution of the Python package, tested: build/python/dist
+	@scripts/python $(BUILD)
 
 site: build deps-site ## the documents with search, and the functions: build/site/index.html
 	@scripts/site/build $(BUILD)

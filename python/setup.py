@@ -17,6 +17,7 @@ from pathlib import Path
 
 from setuptools import Extension, setup
 from setuptools.command.build_ext import build_ext
+from setuptools.command.sdist import sdist
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE if (HERE / "support").is_dir() else HERE.parent  # a source distribution, or a checkout
@@ -69,6 +70,21 @@ class BuildCore(build_ext):
         return str(target)
 
 
+class PackCore(sdist):
+    """Puts the core beside the package, so that a source distribution needs nothing else."""
+
+    def make_release_tree(self, base_dir, files):
+        super().make_release_tree(base_dir, files)
+        core = [ROOT / part for part in (*CORE, "include")]
+        sources = [file for folder in core for file in sorted(folder.rglob("*")) if file.suffix in (".c", ".h", ".inc")
+                   or file.name == "methods.def"]
+        for file in [*sources, *(ROOT / name for name in (*EMBEDDED, "CMakeLists.txt", "LICENSE"))]:
+            target = Path(base_dir) / file.relative_to(ROOT)
+            target.parent.mkdir(parents=True, exist_ok=True)
+            if not target.exists():
+                self.copy_file(str(file), str(target))
+
+
 setup(
     version=VERSION,
     ext_modules=[
@@ -83,6 +99,6 @@ setup(
             py_limited_api=True,
         )
     ],
-    cmdclass={"build_ext": BuildCore},
+    cmdclass={"build_ext": BuildCore, "sdist": PackCore},
     options={"bdist_wheel": {"py_limited_api": "cp311"}},
 )

@@ -8,7 +8,7 @@ import pytest
 
 import froe
 
-MODULES = ["froe"] + [f"froe.{module.name}" for module in pkgutil.iter_modules(froe.__path__)]
+MODULES = ["froe"] + [module.name for module in pkgutil.walk_packages(froe.__path__, "froe.")]
 
 
 @pytest.mark.parametrize("name", [name for name in MODULES if not name.endswith("_core")])
