@@ -25,7 +25,9 @@ static size_t widest(const froe_motion *m) {
 }
 
 froe_status meet_worker_new(const froe_motion *m, meet_worker *out) {
-    enum { NUMBERS = 500, MORE_NUMBERS = 8000, CHAINS = 4, MORE_CHAINS = 12 };
+    enum { NUMBERS = 500, MORE_NUMBERS = 8000, CHAINS = 4, MORE_CHAINS = 3 };
+    /* In space: what one step of a chain needs, and twice as much again: 15 chains of degree 8, or 81 of degree 6, keep
+     * less. */
     const size_t limbs = widest(m), numbers = m->dim == 2 ? NUMBERS : MORE_NUMBERS;
     const size_t chains = m->dim == 2 ? CHAINS : MORE_CHAINS;
     *out = (meet_worker){.room = support_calloc(&m->alloc, 1, sizeof *out->room)};
