@@ -1,4 +1,5 @@
 /* simulate.c: froe simulate, what moving objects do. */
+#include "args/scene.h"
 #include "command.h"
 #include "commands/follow.h"
 #include "exit.h"
@@ -11,7 +12,7 @@
 
 typedef struct simulate_args {
     cli_common common;
-    const char *path, *contacts, *animate, *player;
+    const char *path, *poses, *contacts, *animate, *player;
     double from, to, seconds; /* NaN: the library's default */
     bool first, apart;
     cli_follow follow;
@@ -20,6 +21,8 @@ typedef struct simulate_args {
 static const cli_option options[] = {
     {NULL, 0, CLI_TEXT, offsetof(simulate_args, path), "MOVING", .file = CLI_READ, .help = "moving features (MF-JSON)",
      .required = true},
+    {"poses", 0, CLI_TEXT, offsetof(simulate_args, poses), "FILE", .file = CLI_READ,
+     .help = "MOVING is a model; its parts move as a table says: body,time,x,y,z,qx,qy,qz,qw (.csv)"},
     {"from", 0, CLI_REAL, offsetof(simulate_args, from), "T", .help = "begin here (default: the file's first instant)"},
     {"to", 0, CLI_REAL, offsetof(simulate_args, to), "T", .help = "end here (default: the file's last instant)"},
     {"contacts", 0, CLI_TEXT, offsetof(simulate_args, contacts), "FILE", .file = CLI_WRITTEN,
@@ -137,20 +140,35 @@ static int check(const simulate_args *args) {
     return 0;
 }
 
+/* The motion of a file, or of a model by a table of poses. Returns an exit code. */
+static int read_moving(simulation *s) {
+    const simulate_args *args = s->args;
+    froe_diagnostic diag;
+    froe_motion_read_options o = froe_motion_read_defaults();
+    o.from = args->from;
+    o.to = args->to;
+    froe_scene *model = NULL;
+    froe_read_report read;
+    const cli_scene_args scene = {.path = args->path, .faces = FROE_FACES_TRIANGLES};
+    const int code = args->poses ? cli_read_scene(&args->common, &scene, &model, &read) : 0;
+    if (code) return code;
+    const froe_status status = args->poses ? froe_read_poses(args->poses, model, &o, &s->motion, &s->read, &diag)
+                                           : froe_read_motion(args->path, &o, &s->motion, &s->read, &diag);
+    froe_scene_free(model);
+    return status ? cli_fail_status(CLI_READING, NULL, status, &diag) : 0;
+}
+
 static int run_simulate(const void *given) {
     const simulate_args *args = given;
     simulation s = {.args = args};
     int code = check(args);
     if (code) return code;
     froe_diagnostic diag;
-    froe_motion_read_options o = froe_motion_read_defaults();
-    o.from = args->from;
-    o.to = args->to;
-    froe_status status = froe_read_motion(args->path, &o, &s.motion, &s.read, &diag);
-    if (status) return cli_fail_status(CLI_READING, NULL, status, &diag);
+    code = read_moving(&s);
+    if (code) return code;
     code = find_contacts(&s);
     if (!code && args->contacts) {
-        status = froe_write_contacts(s.motion, s.contacts, s.count, args->contacts, &diag);
+        const froe_status status = froe_write_contacts(s.motion, s.contacts, s.count, args->contacts, &diag);
         if (status) code = cli_fail_status(CLI_WRITING, args->contacts, status, &diag);
     }
     if (!code) code = animate(&s, args->animate);
@@ -180,6 +198,7 @@ const cli_command cli_command_simulate = {
         "its events. A tree is taken at the next odd tick; its coordinates are doubles, and --json tells how many "
         "vertices had to be rounded, and whether the cuts are those of the exact places all the same. --places writes "
         "these.\n\n"
+        "With --poses, MOVING is a model in space of any format, and each part that the table names moves.\n\n"
         "Times are those of the file: its numbers, or milliseconds since 1970 for ISO 8601 instants.",
     .examples = "froe simulate cars.mfjson --contacts contacts.csv\n"
                 "froe simulate cars.mfjson --from 301000 --to 305000 --first --json\n"

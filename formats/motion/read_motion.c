@@ -7,6 +7,8 @@
 #include "formats/input/source.h"
 #include "formats/motion/datetime.h"
 #include "formats/motion/json.h"
+#include "formats/motion/solids.h"
+#include "support/decimal/decimal.h"
 #include "support/floats.h"
 #include "support/locale.h"
 #include <errno.h>
@@ -442,19 +444,22 @@ static froe_status open_window(reading *r) {
     return status ? support_fail(r->diag, status, "%s: %s", support_short(r->path), why.message) : FROE_OK;
 }
 
-static froe_status load(const reading *r, formats_text *text) {
-    enum { PART = 1 << 16 };
-    FILE *file = fopen(r->path, "r");
-    if (!file) return support_fail_file(r->diag, "read", r->path, errno);
+froe_status formats_load_motion(const char *path, const froe_allocator *alloc, formats_text *text,
+                                froe_diagnostic *diag) {
+    enum { PART = 1 << 16, BEHIND = 1 + SUPPORT_DECIMAL_AHEAD };
+    FILE *file = fopen(path, "r");
+    if (!file) return support_fail_file(diag, "read", path, errno);
     size_t got = PART;
-    while (got == PART && array_reserve(&r->alloc, text, PART)) {
+    while (got == PART && array_reserve(alloc, text, PART)) {
         got = fread(text->data + text->count, 1, PART, file);
         text->count += got;
     }
     int error = ferror(file) ? errno : 0;
     fclose(file);
-    if (error) return support_fail_file(r->diag, "read", r->path, error);
-    return got < PART && array_push(&r->alloc, text, '\0') ? FROE_OK : no_memory(r);
+    if (error) return support_fail_file(diag, "read", path, error);
+    if (got == PART || !array_reserve(alloc, text, BEHIND)) return support_fail_memory(diag);
+    memset(text->data + text->count, 0, BEHIND);
+    return FROE_OK;
 }
 
 static froe_status read_file(reading *r) {
@@ -463,10 +468,10 @@ static froe_status read_file(reading *r) {
     formats_json_values values = {0};
     formats_json_error error;
     support_locale locale;
-    froe_status status = load(r, &text);
+    froe_status status = formats_load_motion(r->path, alloc, &text, r->diag);
     if (!status && !support_locale_enter(&locale)) status = no_memory(r);
     if (!status) {
-        status = formats_json_read(alloc, text.data, text.count - 1, &values, &error);
+        status = formats_json_read(alloc, text.data, text.count, &values, &error);
         support_locale_leave(&locale);
         if (status == FROE_E_MEMORY) no_memory(r);
         if (status == FROE_E_FORMAT)

@@ -1,10 +1,16 @@
 /* solids.h: motions in space as MF-JSON. */
 #ifndef FROE_FORMATS_MOTION_SOLIDS_H
 #define FROE_FORMATS_MOTION_SOLIDS_H
+#include "formats/input/source.h"
 #include "formats/write/writer.h"
 #include "support/fail.h"
 #include <froe/kinetic.h>
 
 /** Writes the features of a motion of triangles. FROE_E_UNSUPPORTED, FROE_E_MEMORY. */
 froe_status formats_write_solids(const froe_motion *motion, formats_writer *w, froe_diagnostic *diag);
+
+/** All of a file, and behind it a NUL and as many more as numbers are read ahead; `count` is without them. FROE_E_IO,
+ * FROE_E_MEMORY. */
+froe_status formats_load_motion(const char *path, const froe_allocator *alloc, formats_text *text,
+                                froe_diagnostic *diag);
 #endif

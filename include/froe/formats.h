@@ -221,6 +221,19 @@ typedef struct froe_motion_report {
 FROE_API froe_status froe_read_motion(const char *path, const froe_motion_read_options *options, froe_motion **out,
                                       froe_motion_report *report, froe_diagnostic *diag);
 
+/** The parts of a model in motion, from a .csv with the header
+ *     body,time,x,y,z,qx,qy,qz,qw
+ * in any order, perhaps with other columns, and perhaps without the four of the turn. A row is where the part of that
+ * name (a group of the model; of several of one name, one) is at an instant: its polygons, as triangles, are turned
+ * about the origin of the model by the quaternion, and then moved by x, y, z. Rows of one part are in order of time;
+ * between two of them it moves as a body does (froe_body). A part lives from its first instant to its last; a part of
+ * one row, or of none, stands still and always lives. Groups of the motion are those of the model. The model may be
+ * freed afterwards. FROE_E_INPUT: no such part, no finite number, times that do not increase, a quaternion whose length
+ * is not 1; the message names line or part. FROE_E_FORMAT: a column is missing. FROE_E_UNSUPPORTED: the model is not of
+ * polygons in space. FROE_E_IO, FROE_E_MEMORY, FROE_E_OPTIONS, FROE_E_LIMIT. options, report and diag may be NULL. */
+FROE_API froe_status froe_read_poses(const char *path, const froe_scene *model, const froe_motion_read_options *options,
+                                     froe_motion **out, froe_motion_report *report, froe_diagnostic *diag);
+
 /** Writes a motion as MF-JSON so that froe_read_motion() gives it back: objects that follow one another with a common
  * vertex in one group become one line or polygon; in space, triangles of one group and one body, or of none, one
  * feature. Numbers have the digits that give the same doubles again. FROE_E_UNSUPPORTED: the vertices of one feature

@@ -700,6 +700,30 @@ static bool keep_contact(void *user, const froe_contact *contact) {
     return k->count < 64;
 }
 
+/* A triangle in a group, by a table. */
+static void poses_of_a_part(floats_run *r) {
+    static const double at[] = {0.1, 0, 0, 1, 0.3, 0, 0, 1, 0x1p-1070};
+    const froe_allocator memory = {floats_memory, r};
+    froe_motion_read_options o = froe_motion_read_defaults();
+    froe_objects triangle = froe_objects_defaults();
+    froe_scene *model;
+    froe_motion *motion;
+    FILE *table = fopen("floats-poses.csv", "w");
+    assert_non_null(table);
+    fputs("body,time,x,y,z,qx,qy,qz,qw\na,0,0.1,0,0,0,0,0,1\na,0.7,0.3,0,0,0.6,0,0,0.8\n", table);
+    fclose(table);
+    triangle.kind = FROE_POLYGON, triangle.count = 1, triangle.coords = at, triangle.starts = (const size_t[]){0, 3};
+    triangle.group = 0, o.alloc = &memory;
+    MUST(r, froe_scene_new(3, &memory, &model));
+    MUST(r, froe_scene_add_group(model, &(froe_group){.name = "a"}, NULL));
+    MUST(r, froe_scene_add(model, &triangle, NULL));
+    MUST(r, froe_read_poses("floats-poses.csv", model, &o, &motion, NULL, NULL));
+    const froe_body_knot knot = froe_motion_body_knot(motion, 1, 1);
+    floats_note(r, knot.turn, sizeof knot.turn);
+    froe_motion_free(motion);
+    froe_scene_free(model);
+}
+
 static void motion_files(floats_run *r, void *user) {
     static const froe_event event = {
         .kind = FROE_EVENT_TURN, .object_count = 1, .tick = 3, .early = 0.1, .late = 0x1p-1074};
@@ -734,6 +758,7 @@ static void motion_files(floats_run *r, void *user) {
         }
     froe_motion_free(again);
     froe_motion_free(motion);
+    poses_of_a_part(r);
 }
 
 static void files_of_motion_are_the_same(void **state) {

@@ -1,0 +1,143 @@
+/* test_poses.c: a table of poses over a model: parts become bodies, and what is wrong is said with line or part. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "support/memory.h"
+#include <froe/formats.h>
+#include <math.h>
+#include <stdio.h>
+
+/* A floor of two triangles, a square lid above it, and a strut without area. */
+static froe_scene *make_model(void) {
+    static const double floor_at[] = {-4, -4, 0, 4, -4, 0, 0, 4, 0}, lid[] = {-1, -1, 3, 1, -1, 3, 1, 1, 3, -1, 1, 3};
+    static const double strut[] = {9, 9, 0, 9, 9, 4, 9, 9, 4};
+    static const char *const names[] = {"floor", "lid", "strut"};
+    static const double *const corners[] = {floor_at, lid, strut};
+    static const uint32_t counts[] = {3, 4, 3};
+    froe_scene *scene = NULL;
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    for (uint32_t g = 0; g < 3; g++) {
+        uint32_t id;
+        const size_t starts[] = {0, counts[g]};
+        assert_int_equal(froe_scene_add_group(scene, &(froe_group){.name = names[g]}, &id), FROE_OK);
+        froe_objects o = froe_objects_defaults();
+        o.kind = FROE_POLYGON, o.count = 1, o.coords = corners[g], o.starts = starts, o.group = id;
+        assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
+    }
+    return scene;
+}
+
+static void put(const char *text) {
+    FILE *file = fopen("poses.csv", "w");
+    assert_non_null(file);
+    fputs(text, file);
+    fclose(file);
+}
+
+typedef struct found {
+    froe_contact first;
+    int count;
+} found;
+
+static bool note(void *user, const froe_contact *c) {
+    found *f = user;
+    if (!f->count++) f->first = *c;
+    return true;
+}
+
+/* The lid falls, tilts, and touches the floor with its lower edge. */
+static void parts_fly_by_their_rows(void **state) {
+    (void)state;
+    froe_scene *model = make_model();
+    froe_motion *m = NULL;
+    froe_motion_report report;
+    found f = {.count = 0};
+    put("time;note;qx;qy;qz;qw;x;y;z;body\n0;a;0;0;0;1;0;0;0;lid\n\n4;b;0;0;0;1;0;0;-4;lid\n8;c;0,6;0;0;0,8;0;0;-4;"
+        "lid\n");
+    assert_int_equal(froe_read_poses("poses.csv", model, NULL, &m, &report, NULL), FROE_OK);
+    froe_scene_free(model);
+    assert_true(report.features == 1 && report.still == 2 && report.pieces == 2);
+    assert_int_equal(froe_motion_object_count(m), 4);
+    assert_string_equal(froe_motion_group(m, froe_motion_object(m, 1).group).name, "lid");
+    assert_true(froe_motion_window(m).begin == 0 && froe_motion_window(m).end == 8);
+    double at[3];
+    assert_true(froe_motion_position(m, froe_motion_object(m, 1).vertices[0], 2, at) && at[2] == 1);
+    assert_int_equal(froe_motion_contacts(m, NULL, note, &f, NULL), FROE_OK);
+    assert_true(f.count == 2 && f.first.a == 0 && f.first.begin[0] == 3 && f.first.begin[1] == 3);
+    froe_motion_free(m);
+}
+
+static void a_part_of_one_row_stands_where_it_says(void **state) {
+    (void)state;
+    froe_scene *model = make_model();
+    froe_motion *m = NULL;
+    double at[3];
+    put("body,time,x,y,z\nstrut,0,1,0,0\nlid,0,0,0,0\nlid,2,0,0,1\n");
+    assert_int_equal(froe_read_poses("poses.csv", model, NULL, &m, NULL, NULL), FROE_OK);
+    const froe_moving_object o = froe_motion_object(m, 3);
+    assert_true(froe_motion_position(m, o.vertices[0], 1.5, at) && at[0] == 10 && o.birth == 0 && o.death == 2);
+    froe_motion_free(m);
+    froe_scene_free(model);
+}
+
+static void what_is_wrong_is_said_with_line_or_part(void **state) {
+    (void)state;
+    static const struct {
+        const char *text, *message;
+        froe_status status;
+    } bad[] = {
+        {"body,time,x,y\n", "poses.csv: The table of poses has no column 'z'.", FROE_E_FORMAT},
+        {"body,time,x,y,z,qx,qy,qz\n", "poses.csv: The table of poses has no column 'qw'.", FROE_E_FORMAT},
+        {"body,time,x,y,z\n", "poses.csv: There are no poses.", FROE_E_INPUT},
+        {"body,time,x,y,z\nlid,0,0,0,0\nroof,1,0,0,0\n", "poses.csv: line 3: The model has no part 'roof'.",
+         FROE_E_INPUT},
+        {"body,time,x,y,z\nlid,0,0,nan,0\n", "poses.csv: line 2: There is no finite number, but 'nan'.", FROE_E_INPUT},
+        {"body,time,x,y,z\nlid,0,0,,0\n", "poses.csv: line 2: There is no finite number, but ''.", FROE_E_INPUT},
+        {"body,time,x,y,z\nlid,0,0,0\n", "poses.csv: line 2: The row has 4 columns, and the header 5.", FROE_E_FORMAT},
+        {"body,time,x,y,z\nlid,1,0,0,0\nlid,1,0,0,0\nlid,2,0,0,0\n",
+         "poses.csv: part 'lid': body 1: Time 1, 1, is not after time 0, 1.", FROE_E_INPUT},
+        {"body,time,x,y,z,qx,qy,qz,qw\nlid,0,0,0,0,0,0,0,0\nlid,1,0,0,0,0,0,0,1\n",
+         "poses.csv: part 'lid': body 1: The quaternion of turn 0, 0 0 0 0, has not the length 1.", FROE_E_INPUT},
+    };
+    froe_scene *model = make_model();
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        froe_motion *m = NULL;
+        froe_diagnostic diag;
+        put(bad[i].text);
+        assert_int_equal(froe_read_poses("poses.csv", model, NULL, &m, NULL, &diag), bad[i].status);
+        assert_string_equal(diag.message, bad[i].message);
+        assert_null(m);
+    }
+    froe_scene_free(model);
+}
+
+static froe_status read_with(void *user, const froe_allocator *alloc) {
+    froe_motion_read_options o = froe_motion_read_defaults();
+    froe_motion *m = NULL;
+    o.alloc = alloc;
+    const froe_status status = froe_read_poses("poses.csv", user, &o, &m, NULL, NULL);
+    froe_motion_free(m);
+    return status;
+}
+
+static void every_allocation_may_fail(void **state) {
+    (void)state;
+    froe_scene *model = make_model();
+    put("body,time,x,y,z\nstrut,0,1,0,0\nlid,0,0,0,0\nlid,2,0,0,1\n");
+    assert_true(test_memory_each(read_with, model) > 10);
+    froe_scene_free(model);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(parts_fly_by_their_rows),
+        cmocka_unit_test(a_part_of_one_row_stands_where_it_says),
+        cmocka_unit_test(what_is_wrong_is_said_with_line_or_part),
+        cmocka_unit_test(every_allocation_may_fail),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
