@@ -25,14 +25,17 @@
 #include <math.h>
 #include <string.h>
 
-enum { HEIGHT, DRAWS, CROSSING, TUNING, SIZE };
+enum { HEIGHT, DRAWS, CROSSING, EDGES, TUNING, SIZE };
 
 static const char *const crossing[] = {"refuse", "split", NULL};
+static const char *const edges[] = {"longest", "given", NULL};
 static const froe_option_info options[] = {
     [HEIGHT] = {"height", "redraw the order beyond height * log2(n + 2) + 24; -1: by dimension", -1, -1, 100, NULL,
                 false},
     [DRAWS] = {"draws", "orders to try before taking one of any height", 4, 1, 100, NULL, true},
     [CROSSING] = {"crossing", "what to do with polygons that cross others", 0, 0, 1, crossing, true},
+    [EDGES] = {"edges", "the edge of a polygon that cuts first in a cell: the longest, or the first as given", 0, 0, 1,
+               edges, true},
     [TUNING] = {0},
     [SIZE] = {"size", "redraw the order beyond so many times the nodes that are expected", 2, 0, 1e9, NULL, false},
     {0},
@@ -68,8 +71,11 @@ static froe_status grow_cylindrical(build_job *job, const uint32_t *order, uint3
     atomic_bool deep;
     atomic_init(&deep, false);
     const plane_rules plane = {.leaf = job->leaf, .deepest = deepest, .too_deep = &deep};
-    const split_cylinder cylinder = {
-        .leaf = job->leaf, .deepest = deepest, .refuse = job->option[CROSSING] == 0, .too_deep = &deep};
+    const split_cylinder cylinder = {.leaf = job->leaf,
+                                     .deepest = deepest,
+                                     .refuse = job->option[CROSSING] == 0,
+                                     .given = job->option[EDGES] == 1,
+                                     .too_deep = &deep};
     const split_method method = {.config = &cylinder,
                                  .choose = split_cylinder_choose,
                                  .room = sizeof(split_cylinder_frame),

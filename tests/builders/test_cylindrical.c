@@ -261,12 +261,14 @@ static void leaves_know_what_is_above_and_below(void **state) {
     num_context context;
     (void)state;
     assert_int_equal(num_context_new(NULL, &context), FROE_OK);
-    for (size_t g = 0; g < sizeof kinds / sizeof *kinds; g++) {
+    for (size_t g = 0; g < 2 * (sizeof kinds / sizeof *kinds); g++) {
         froe_scene *scene;
         fuzz_source r = {g};
         froe_build_options o = options(0);
-        assert_int_equal(froe_generate(kinds[g], 150, 3, NULL, &scene, NULL), FROE_OK);
+        if (g % 2) o.settings = "edges=given";
+        assert_int_equal(froe_generate(kinds[g / 2], 150, 3, NULL, &scene, NULL), FROE_OK);
         froe_tree *tree = build(scene, &o);
+        assert_int_equal(froe_tree_audit(tree, NULL, NULL), FROE_OK);
         for (int i = 0; i < 400; i++) {
             double x[3] = {0};
             for (int k = 0; k < scene->dim; k++)
@@ -280,6 +282,39 @@ static void leaves_know_what_is_above_and_below(void **state) {
 }
 
 /* ------------------------------------------------------------------- orders -- */
+
+/* Which edge of a triangle cuts first, by its number. */
+static uint32_t first_edge(const double *corners, const char *settings) {
+    froe_scene *scene;
+    froe_objects batch = froe_objects_defaults();
+    froe_build_options o = options(0);
+    batch.kind = FROE_POLYGON, batch.count = 1, batch.coords = corners, batch.starts = (const size_t[]){0, 3};
+    o.settings = settings;
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    assert_int_equal(froe_scene_add(scene, &batch, NULL), FROE_OK);
+    froe_tree *tree = build(scene, &o);
+    froe_node_info info = froe_tree_node(tree, froe_tree_root(tree));
+    for (int side = 0; info.cut.kind == FROE_CUT_VERTEX; side = 1) /* walls, with the triangle between them */
+        info = froe_tree_node(tree, info.child[1 - side]);
+    assert_int_equal(info.cut.kind, FROE_CUT_EDGE);
+    uint32_t edge = 0;
+    for (; edge < 3; edge++) {
+        const uint32_t a = froe_scene_corner(scene, 0, edge), b = froe_scene_corner(scene, 0, (edge + 1) % 3);
+        if ((a == info.cut.id[0] && b == info.cut.id[1]) || (b == info.cut.id[0] && a == info.cut.id[1])) break;
+    }
+    froe_tree_free(tree);
+    froe_scene_free(scene);
+    return edge;
+}
+
+static void edges_cut_by_length_or_in_the_given_order(void **state) {
+    static const double flat[] = {0, 0, 0, 1, 1, 0, 9, 0, 0}, upright[] = {3, 0, 0, 3, 0, 4, 5, 0, 0};
+    (void)state;
+    assert_int_equal(first_edge(flat, ""), 2);
+    assert_int_equal(first_edge(flat, "edges=longest"), 2);
+    assert_int_equal(first_edge(flat, "edges=given"), 0);
+    assert_int_equal(first_edge(upright, "edges=given"), 1); /* its first edge is a point from above */
+}
 
 static void assert_refused(froe_scene *scene, const froe_build_options *o, froe_status status, const char *message) {
     froe_tree *tree = NULL;
@@ -556,6 +591,7 @@ int main(void) {
         cmocka_unit_test(trees_are_those_of_the_definition),
         cmocka_unit_test(trees_on_tiny_lattices_are_those_of_the_definition),
         cmocka_unit_test(leaves_know_what_is_above_and_below),
+        cmocka_unit_test(edges_cut_by_length_or_in_the_given_order),
         cmocka_unit_test(orders_must_name_every_object_once),
         cmocka_unit_test(an_order_that_was_given_is_kept_however_deep),
         cmocka_unit_test(deep_orders_are_drawn_again),

@@ -167,7 +167,8 @@ static froe_status is_done(const split_cylinder *c, split_work *work, const spli
 }
 
 /** The longest of the polygon's own edges that reaches into the cell, as the number of a corner of the fragment;
- * FROE_NONE: there is none. Longest, because that of an upright triangle covers it. */
+ * FROE_NONE: there is none. Longest, because that of an upright triangle covers it. With `given` it is the first one, by
+ * its number: an order that stays the same while the polygon moves, as partitions in motion have it. */
 static froe_status own_edge(const split_cylinder *c, split_work *work, const split_cell *cell, const split_fragment *f,
                             uint32_t *at) {
     const split_set *set = &work->set;
@@ -177,8 +178,9 @@ static froe_status own_edge(const split_cylinder *c, split_work *work, const spl
     for (uint32_t i = 0; i < count; i++) {
         uint32_t edge = split_corner_of(set, f, i).edge;
         if (edge & TREE_EDGE_CUT) continue;
-        double length = edge_length(set->scene, first + edge);
-        bool done = !(length > longest || (length == longest && best != FROE_NONE && edge < best));
+        const double length = edge_length(set->scene, first + edge);
+        const bool tied = c->given || length == longest;
+        bool done = !(length > 0) || (best != FROE_NONE && !(tied ? edge < best : length > longest));
         froe_status status = done ? FROE_OK : is_done(c, work, cell, first + edge, &done);
         if (status) return status;
         if (!done) best = edge, *at = i, longest = length;

@@ -8,6 +8,7 @@ typedef struct split_cylinder {
     uint32_t leaf;         /**< cells with so many fragments are done */
     uint32_t deepest;      /**< give up at this depth; 0: never */
     bool refuse;           /**< polygons that cross; otherwise they are cut */
+    bool given;            /**< edges of a polygon cut in the order of its corners; otherwise the longest first */
     atomic_bool *too_deep; /**< set when `deepest` was why */
 } split_cylinder;
 
