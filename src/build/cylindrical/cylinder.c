@@ -167,7 +167,7 @@ static froe_status is_done(const split_cylinder *c, split_work *work, const spli
 }
 
 /** The longest of the polygon's own edges that reaches into the cell, as the number of a corner of the fragment;
- * FROE_NONE: there is none. Longest, because that of an upright triangle covers it. With `given` it is the first one, by
+ * FROE_NONE: there is none. Longest, because that of an upright triangle covers it. With `given` it is the first, by
  * its number: an order that stays the same while the polygon moves, as partitions in motion have it. */
 static froe_status own_edge(const split_cylinder *c, split_work *work, const split_cell *cell, const split_fragment *f,
                             uint32_t *at) {
