@@ -1,49 +1,48 @@
-/* ask.c: batches of questions, whose answers are arrays of froe's own memory. */
-#include "call.h"
-#include "errors.h"
-#include "input.h"
-#include "memory.h"
-#include "tree.h"
+#include "ask.h"
+
+bool core_ask_begin(core_ask *ask, PyObject *self, const char *name, PyObject *const *args, Py_ssize_t given,
+                    Py_ssize_t wanted) {
+    memset(ask, 0, sizeof *ask);
+    if (!core_arguments(name, given, wanted)) return false;
+    ask->options = froe_batch_defaults();
+    if (!core_unsigned(args[wanted - 2], "threads", UINT32_MAX, &ask->options.threads)) return false;
+    ask->progress = args[wanted - 1];
+    ask->tree = (core_tree *)self;
+    ask->query = core_tree_take(ask->tree);
+    if (ask->query) ask->dim = (size_t)froe_scene_dim(froe_tree_scene(core_tree_of(ask->tree)));
+    return ask->query;
+}
+
+void core_ask_end(core_ask *ask) {
+    for (size_t i = 0; i < ASK_INPUTS; i++) core_input_give(&ask->in[i]);
+    core_tree_give(ask->tree, ask->query);
+}
+
+void core_ask_run(core_ask *ask) {
+    core_call_begin(&ask->call, ask->progress);
+    ask->options.progress = core_call_progress;
+    ask->options.user = &ask->call;
+}
+
+bool core_ask_ran(core_ask *ask, froe_status status) {
+    return core_call_end(&ask->call, status, &ask->diag);
+}
+
+bool core_ask_points(core_ask *ask, PyObject *points, const char *name) {
+    return core_input_take(&ask->in[0], points, name, 'd', ask->dim, false);
+}
 
 static void free_answers(void *block) {
     froe_answers_free(block);
 }
 
-/* (starts, ids, values or None) */
-static PyObject *answers_object(const froe_answers *answers) {
+PyObject *core_answers(const froe_answers *answers) {
+    const size_t queries = answers->queries, count = answers->starts[queries];
     PyObject *owner = core_owner(answers, sizeof *answers, free_answers);
     if (!owner) return NULL;
-    const size_t count = answers->starts[answers->queries];
-    PyObject *starts = core_array(owner, answers->starts, "q", answers->queries + 1, 0, 0);
-    PyObject *ids = core_array(owner, answers->ids, "i", count, 0, 0);
-    PyObject *values = answers->values ? core_array(owner, answers->values, "d", count, 0, 0) : Py_NewRef(Py_None);
+    PyObject *parts[] = {core_array(owner, answers->starts, "q", queries + 1, 0, 0),
+                         core_array(owner, answers->ids, "i", count, 0, 0),
+                         answers->values ? core_array(owner, answers->values, "d", count, 0, 0) : Py_NewRef(Py_None)};
     Py_DECREF(owner);
-    if (starts && ids && values) return Py_BuildValue("NNN", starts, ids, values);
-    Py_XDECREF(starts), Py_XDECREF(ids), Py_XDECREF(values);
-    return NULL;
-}
-
-/* args: boxes, threads, progress */
-PyObject *core_ask_boxes(PyObject *object, PyObject *const *args, Py_ssize_t count) {
-    core_tree *self = (core_tree *)object;
-    if (!core_arguments("boxes", count, 3)) return NULL;
-    froe_query *query = core_tree_take(self);
-    if (!query) return NULL;
-    const size_t dim = (size_t)froe_scene_dim(froe_tree_scene(core_tree_of(self)));
-    froe_batch_options options = froe_batch_defaults();
-    options.threads = (unsigned)PyLong_AsUnsignedLong(args[1]);
-    core_input boxes = {0};
-    froe_answers answers;
-    bool done = !PyErr_Occurred() && core_input_take(&boxes, args[0], "boxes", 'd', 2 * dim, false);
-    if (done) {
-        core_call call;
-        froe_diagnostic diag;
-        core_call_begin(&call, args[2]);
-        options.progress = core_call_progress, options.user = &call;
-        const froe_status status = froe_batch_boxes(query, boxes.data, boxes.count, &options, &answers, &diag);
-        done = core_call_end(&call, status, &diag);
-    }
-    core_input_give(&boxes);
-    core_tree_give(self, query);
-    return done ? answers_object(&answers) : NULL;
+    return core_tuple(3, parts);
 }

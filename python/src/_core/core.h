@@ -8,6 +8,7 @@
 #include <Python.h>
 
 #include <froe/froe.h>
+#include <string.h>
 
 /** A method of METH_FASTCALL, as PyMethodDef takes it. */
 #define CORE_METHOD(name, function)                                                                                    \
@@ -23,4 +24,5 @@ bool core_errors_begin(void);
 bool core_add_memory(PyObject *module);
 bool core_add_scene(PyObject *module);
 bool core_add_tree(PyObject *module);
+bool core_add_tree_files(PyObject *module);
 #endif

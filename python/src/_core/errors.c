@@ -52,3 +52,13 @@ bool core_arguments(const char *function, Py_ssize_t given, Py_ssize_t wanted) {
     PyErr_Format(PyExc_TypeError, "%s() takes %zd arguments, and %zd were given.", function, wanted, given);
     return false;
 }
+
+bool core_unsigned(PyObject *object, const char *name, uint32_t most, uint32_t *out) {
+    int overflow;
+    const long long value = PyLong_AsLongLongAndOverflow(object, &overflow);
+    if (value == -1 && !overflow && PyErr_Occurred()) return false;
+    if (overflow || value < 0 || value > most)
+        return core_fail(FROE_E_ARG, "%s is %S, and must be between 0 and %lu.", name, object, (unsigned long)most);
+    *out = (uint32_t)value;
+    return true;
+}

@@ -11,4 +11,6 @@ PyObject *core_fail(froe_status status, const char *format, ...);
 PyObject *core_fail_as(const char *class_name, const char *format, ...);
 /** Are there as many arguments? Otherwise TypeError. */
 bool core_arguments(const char *function, Py_ssize_t given, Py_ssize_t wanted);
+/** A whole number from 0 to `most`. `name` is what the message calls it. */
+bool core_unsigned(PyObject *object, const char *name, uint32_t most, uint32_t *out);
 #endif

@@ -9,7 +9,7 @@ static bool is_type(const char *format, Py_ssize_t item, char wanted) {
     if (*format == '@' || *format == '=') format++;
     if (!format[0] || format[1]) return false;
     if (wanted == 'd') return *format == 'd' && item == 8;
-    return strchr("ILQN", *format) && item == (wanted == 'I' ? 4 : 8);
+    return strchr("ILQNilqn", *format) && item == (wanted == 'I' ? 4 : 8);
 }
 
 static const char *type_name(char format) {

@@ -15,8 +15,9 @@ typedef struct core_input {
     size_t bytes;
 } core_input;
 
-/** C-contiguous items of one type, `width` to a row: 'd' (float64), 'I' (uint32), 'Q' (uint64). `name` is what the
- * message calls the array. None is allowed where `optional`. false: an exception is set, and nothing is to be freed. */
+/** C-contiguous items of one type, `width` to a row: 'd' (float64), 'I' (uint32, or int32 of the same bits) or 'Q'
+ * (uint64). The message of a failure calls the array `name`. None is allowed where `optional`. false: an exception is
+ * set, and nothing is to be freed. */
 bool core_input_take(core_input *in, PyObject *object, const char *name, char format, size_t width, bool optional);
 /** The same, and there must be `count` rows. */
 bool core_input_take_count(core_input *in, PyObject *object, const char *name, char format, size_t width, size_t count,

@@ -90,6 +90,10 @@ typedef struct core_array_object {
 
 static PyTypeObject *array_type;
 
+static size_t item_size(const char *format) {
+    return *format == 'B' ? 1 : *format == 'i' ? 4 : 8;
+}
+
 static bool is_dense(const core_array_object *array) {
     return array->strides[0] == (array->ndim == 2 ? array->shape[1] : 1) * array->item;
 }
@@ -140,11 +144,46 @@ PyObject *core_array(PyObject *owner, const void *data, const char *format, size
     array->owner = Py_NewRef(owner);
     array->data = (void *)data;
     array->format = format;
-    array->item = *format == 'B' ? 1 : *format == 'i' ? 4 : 8;
+    array->item = (Py_ssize_t)item_size(format);
     array->ndim = width ? 2 : 1;
     array->shape[0] = (Py_ssize_t)count;
     array->shape[1] = (Py_ssize_t)width;
     array->strides[0] = stride ? (Py_ssize_t)stride : (Py_ssize_t)(width ? width : 1) * array->item;
     array->strides[1] = array->item;
     return (PyObject *)array;
+}
+
+typedef struct plain_block {
+    void *memory;
+    size_t bytes;
+} plain_block;
+
+static void free_plain(void *block) {
+    const plain_block *plain = block;
+    core_release(plain->memory, plain->bytes, 1);
+}
+
+PyObject *core_block(void *memory, size_t bytes) {
+    const plain_block block = {memory, bytes};
+    return core_owner(&block, sizeof block, free_plain);
+}
+
+PyObject *core_array_of(void *memory, const char *format, size_t count, size_t width) {
+    PyObject *owner = core_block(memory, count * (width ? width : 1) * item_size(format));
+    if (!owner) return NULL;
+    PyObject *array = core_array(owner, memory, format, count, width, 0);
+    Py_DECREF(owner);
+    return array;
+}
+
+PyObject *core_tuple(size_t count, PyObject *const *objects) {
+    bool whole = true;
+    for (size_t i = 0; i < count; i++) whole = whole && objects[i];
+    PyObject *tuple = whole ? PyTuple_New((Py_ssize_t)count) : NULL;
+    for (size_t i = 0; i < count; i++)
+        if (tuple)
+            PyTuple_SetItem(tuple, (Py_ssize_t)i, objects[i]);
+        else
+            Py_XDECREF(objects[i]);
+    return tuple;
 }

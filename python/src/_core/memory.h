@@ -17,4 +17,10 @@ PyObject *core_owner(const void *block, size_t bytes, core_free_fn *free_block);
 /** `count` items, or rows of `width` items where width is not 0, that lie in memory of `owner` every `stride` bytes
  * (0: one after the other): an object with the buffer protocol. format: one of "i" (int32), "q" (int64), "d", "B". */
 PyObject *core_array(PyObject *owner, const void *data, const char *format, size_t count, size_t width, size_t stride);
+/** Takes memory from core_allocate(), also on failure, for several arrays. */
+PyObject *core_block(void *memory, size_t bytes);
+/** An array of memory from core_allocate(), which it takes, also on failure. */
+PyObject *core_array_of(void *memory, const char *format, size_t count, size_t width);
+/** A tuple of objects, whose references it takes. NULL, without a leak, where one of them is NULL. */
+PyObject *core_tuple(size_t count, PyObject *const *objects);
 #endif

@@ -171,6 +171,17 @@ static PyObject *build(PyObject *object, PyObject *const *args, Py_ssize_t count
     return tree ? core_tree_object(tree) : NULL;
 }
 
+static PyObject *add_group(PyObject *object, PyObject *const *args, Py_ssize_t count) {
+    core_scene *self = (core_scene *)object;
+    if (!core_arguments("add_group", count, 1) || !take(self)) return NULL;
+    froe_group group = {.name = PyUnicode_AsUTF8AndSize(args[0], NULL)};
+    uint32_t id = 0;
+    const froe_status status = group.name ? froe_scene_add_group(self->scene, &group, &id) : FROE_OK;
+    self->busy = false;
+    if (!group.name) return NULL;
+    return status ? core_fail(status, "The scene takes no group.") : PyLong_FromUnsignedLong(id);
+}
+
 /* --------------------------------------------------------------------- type -- */
 
 static PyObject *counts(PyObject *object, PyObject *const *args, Py_ssize_t count) {
@@ -182,8 +193,11 @@ static PyObject *counts(PyObject *object, PyObject *const *args, Py_ssize_t coun
                          (unsigned long long)froe_scene_vertex_count(s), (unsigned long long)froe_scene_group_count(s));
 }
 
-static PyMethodDef methods[] = {
-    CORE_METHOD("add", add), CORE_METHOD("build", build), CORE_METHOD("counts", counts), {NULL, NULL, 0, NULL}};
+static PyMethodDef methods[] = {CORE_METHOD("add", add),
+                                CORE_METHOD("add_group", add_group),
+                                CORE_METHOD("build", build),
+                                CORE_METHOD("counts", counts),
+                                {NULL, NULL, 0, NULL}};
 static PyType_Slot slots[] = {{Py_tp_dealloc, free_scene}, {Py_tp_methods, methods}, {0, NULL}};
 static PyType_Spec spec = {"froe._core.Scene", sizeof(core_scene), 0,
                            Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, slots};

@@ -116,12 +116,33 @@ static PyObject *close_tree(PyObject *object, PyObject *const *args, Py_ssize_t 
 
 /* --------------------------------------------------------------------- type -- */
 
+static PyMethodDef methods[] = {
+    CORE_METHOD("close", close_tree),
+    CORE_METHOD("save", core_tree_save),
+    CORE_METHOD("to_bytes", core_tree_to_bytes),
+    CORE_METHOD("report", core_tree_report),
+    CORE_METHOD("audit", core_tree_audit),
+    CORE_METHOD("pieces", core_tree_pieces),
+    CORE_METHOD("cells", core_tree_cells),
+    CORE_METHOD("order", core_tree_order),
+    CORE_METHOD("ranges", core_ask_ranges),
+    CORE_METHOD("boxes", core_ask_boxes),
+    CORE_METHOD("box", core_ask_box),
+    CORE_METHOD("locate", core_ask_locate),
+    CORE_METHOD("groups", core_ask_groups),
+    CORE_METHOD("near", core_ask_near),
+    CORE_METHOD("vertical", core_ask_vertical),
+    CORE_METHOD("nearest_points", core_ask_nearest_points),
+    CORE_METHOD("pairs", core_ask_pairs),
+    CORE_METHOD("rays", core_ask_rays),
+    CORE_METHOD("hit_places", core_ask_hit_places),
+    {NULL, NULL, 0, NULL},
+};
+static PyType_Slot slots[] = {{Py_tp_dealloc, free_tree}, {Py_tp_methods, methods}, {0, NULL}};
+static PyType_Spec spec = {"froe._core.Tree", sizeof(core_tree), 0,
+                           Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, slots};
+
 bool core_add_tree(PyObject *module) {
-    static PyMethodDef methods[] = {
-        CORE_METHOD("close", close_tree), CORE_METHOD("boxes", core_ask_boxes), {NULL, NULL, 0, NULL}};
-    static PyType_Slot slots[] = {{Py_tp_dealloc, free_tree}, {Py_tp_methods, methods}, {0, NULL}};
-    static PyType_Spec spec = {"froe._core.Tree", sizeof(core_tree), 0,
-                               Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, slots};
     tree_type = core_add_type(module, &spec);
     return tree_type;
 }

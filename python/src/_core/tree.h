@@ -21,5 +21,22 @@ void core_tree_give(core_tree *self, froe_query *query);
 const froe_tree *core_tree_of(const core_tree *self);
 
 /* Methods of the type. */
+PyObject *core_ask_ranges(PyObject *self, PyObject *const *args, Py_ssize_t count);
 PyObject *core_ask_boxes(PyObject *self, PyObject *const *args, Py_ssize_t count);
+PyObject *core_ask_box(PyObject *self, PyObject *const *args, Py_ssize_t count);
+PyObject *core_ask_locate(PyObject *self, PyObject *const *args, Py_ssize_t count);
+PyObject *core_ask_groups(PyObject *self, PyObject *const *args, Py_ssize_t count);
+PyObject *core_ask_near(PyObject *self, PyObject *const *args, Py_ssize_t count);
+PyObject *core_ask_vertical(PyObject *self, PyObject *const *args, Py_ssize_t count);
+PyObject *core_ask_nearest_points(PyObject *self, PyObject *const *args, Py_ssize_t count);
+PyObject *core_ask_pairs(PyObject *self, PyObject *const *args, Py_ssize_t count);
+PyObject *core_ask_rays(PyObject *self, PyObject *const *args, Py_ssize_t count);
+PyObject *core_ask_hit_places(PyObject *self, PyObject *const *args, Py_ssize_t count);
+PyObject *core_tree_save(PyObject *self, PyObject *const *args, Py_ssize_t count);
+PyObject *core_tree_to_bytes(PyObject *self, PyObject *const *args, Py_ssize_t count);
+PyObject *core_tree_report(PyObject *self, PyObject *const *args, Py_ssize_t count);
+PyObject *core_tree_audit(PyObject *self, PyObject *const *args, Py_ssize_t count);
+PyObject *core_tree_pieces(PyObject *self, PyObject *const *args, Py_ssize_t count);
+PyObject *core_tree_cells(PyObject *self, PyObject *const *args, Py_ssize_t count);
+PyObject *core_tree_order(PyObject *self, PyObject *const *args, Py_ssize_t count);
 #endif

@@ -8,9 +8,33 @@
 
 from . import errors
 from ._core import version as __version__
+from .adapters.geojson import from_geojson
+from .adapters.geopandas import from_geopandas
+from .adapters.meshes import from_pyvista, from_trimesh
+from .adapters.shapely import from_shapely, to_shapely
 from .answers import Answers
 from .errors import Error
-from .scene import Scene, segments
-from .tree import Tree
+from .scene import Scene, boxes, points, segments, triangles
+from .tree import Cells, Pieces, Tree, open
 
-__all__ = ["Answers", "Error", "Scene", "Tree", "errors", "segments", "__version__"]
+__all__ = [
+    "Answers",
+    "Cells",
+    "Error",
+    "Pieces",
+    "Scene",
+    "Tree",
+    "boxes",
+    "errors",
+    "from_geojson",
+    "from_geopandas",
+    "from_pyvista",
+    "from_shapely",
+    "from_trimesh",
+    "open",
+    "points",
+    "segments",
+    "to_shapely",
+    "triangles",
+    "__version__",
+]

@@ -59,3 +59,28 @@ def rows(values: npt.ArrayLike, name: str, width: int, inner: int) -> Doubles:
         shapes = f"(n, {width})" + (f" or (n, {width // inner}, {inner})" if width != inner else "")
         raise ArrayError(f"{name} must have the shape {shapes}, and has {array.shape}.")
     return array.reshape(-1, width)
+
+
+def whole(values: npt.ArrayLike, name: str, kind: type[np.unsignedinteger[Any]]) -> npt.NDArray[Any]:
+    """An array of whole numbers that are not negative, of the type `kind`.
+
+    >>> whole([1, 2], "groups", np.uint32)
+    array([1, 2], dtype=uint32)
+    >>> whole([1, -2], "groups", np.uint32)
+    Traceback (most recent call last):
+        ...
+    froe.errors.ArrayError: groups has numbers that are not between 0 and 4294967295, the first of them -2 at (1,).
+    """
+    array = np.asarray(values)
+    if array.size == 0:
+        return np.empty(array.shape, kind)
+    if array.dtype.kind not in "iu":
+        raise ArrayError(f"{name} must be an array of whole numbers, and its type is {array.dtype}.")
+    most = np.iinfo(kind).max
+    bad = (array < 0) | (array > most)
+    if bad.any():
+        where = tuple(int(i) for i in np.argwhere(bad)[0])
+        raise ArrayError(
+            f"{name} has numbers that are not between 0 and {most}, the first of them {array[where]} at {where}."
+        )
+    return np.ascontiguousarray(array, kind)

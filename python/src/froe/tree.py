@@ -2,23 +2,343 @@
 
 from __future__ import annotations
 
+import math
+import os
+from dataclasses import dataclass
+from typing import Any, Literal, overload
+
+import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import doubles
+from ._arrays import Doubles, Ids, doubles, rows, whole
 from .answers import Answers
+
+_BOX, _BALL, _CAPSULE, _SEGMENT = 0, 1, 3, 6  # froe_range_shape
+_IDS, _COUNTS, _ANY = range(3)
+_FIRST, _ALL = range(2)
+
+
+@dataclass(frozen=True)
+class Pieces:
+    """The pieces of a tree. The corners of piece ``i`` are ``coords[starts[i]:starts[i + 1]]``.
+
+    :ivar objects: the object that each is a part of
+    :ivar nodes: the node in whose list each is
+    :ivar whole: 1 where nothing of the object was cut off
+    :ivar starts: one more than pieces
+    :ivar coords: (corners, dim)
+    :ivar made: of the edge that leaves each corner, the node whose cut made it, or -1
+    """
+
+    objects: Ids
+    nodes: Ids
+    whole: npt.NDArray[np.uint8]
+    starts: npt.NDArray[np.int64]
+    coords: Doubles
+    made: Ids
+
+    def __len__(self) -> int:
+        return len(self.objects)
+
+    def __getitem__(self, piece: int) -> Doubles:
+        """The corners of a piece."""
+        return self.coords[self.starts[piece] : self.starts[piece + 1]]
+
+
+@dataclass(frozen=True)
+class Cells:
+    """Regions of nodes. Cell ``i`` has the faces ``faces[i]`` to ``faces[i + 1]``, and face ``f`` the corners
+    ``coords[starts[f]:starts[f + 1]]``. In the plane every cell is one face.
+
+    :ivar nodes: the node of each
+    :ivar depths: the number of cuts on the way to each
+    """
+
+    nodes: Ids
+    depths: Ids
+    faces: npt.NDArray[np.int64]
+    starts: npt.NDArray[np.int64]
+    coords: Doubles
+
+    @property
+    def dim(self) -> int:
+        return int(self.coords.shape[1])
+
+    def __len__(self) -> int:
+        return len(self.nodes)
+
+    def polygons(self) -> list[Doubles]:
+        """The corners of each face."""
+        return [self.coords[a:b] for a, b in zip(self.starts[:-1], self.starts[1:])]
 
 
 class Tree:
-    """A binary space partition of a scene. Made by ``Scene.build``."""
+    """A binary space partition of a scene. Made by ``Scene.build``, or opened from a file by ``froe.open``.
+
+    Questions are arrays; one call answers all of them, on ``threads`` threads (0: one per processor). Objects and
+    ranges are closed, so that touching counts as meeting, and every answer is exact.
+    """
 
     def __init__(self, core: _core.Tree) -> None:
         self._core = core
 
-    def query(self, boxes: npt.ArrayLike, *, threads: int = 0) -> Answers:
-        """The objects that meet each box: an array (n, 2 dim), lower corners, then upper ones."""
-        return Answers(*self._core.boxes(doubles(boxes, "boxes"), threads, None))
+    def query(
+        self,
+        boxes: npt.ArrayLike | None = None,
+        *,
+        balls: tuple[npt.ArrayLike, npt.ArrayLike] | None = None,
+        segments: npt.ArrayLike | None = None,
+        capsules: tuple[npt.ArrayLike, npt.ArrayLike] | None = None,
+        threads: int = 0,
+    ) -> Answers:
+        """The objects that meet each range, of one kind: boxes (n, 2 dim) of lower and upper corners; balls, centres
+        (n, dim) and radii (n,); segments (n, 2 dim); or capsules, segments and radii: all points that near to them.
+
+        >>> import froe
+        >>> tree = froe.segments([[0, 0, 2, 2], [3, 0, 3, 2]]).build()
+        >>> tree.query([[0, 0, 1, 1]]).pairs().tolist()
+        [[0], [0]]
+        >>> tree.query(balls=([[3, 3]], [1])).pairs().tolist()
+        [[0], [1]]
+        """
+        return Answers(*self._ranges(_IDS, threads, boxes, balls, segments, capsules))
+
+    def count(self, boxes: npt.ArrayLike, *, threads: int = 0) -> npt.NDArray[np.int64]:
+        """How many objects meet each box.
+
+        >>> import froe
+        >>> froe.points([[0, 0], [1, 1]]).build().count([[0, 0, 1, 1], [5, 5, 6, 6]]).tolist()
+        [2, 0]
+        """
+        return np.asarray(self._ranges(_COUNTS, threads, boxes, None, None, None))
+
+    def any(self, boxes: npt.ArrayLike, *, threads: int = 0) -> Ids:
+        """One object that meets each box, -1 where there is none.
+
+        >>> import froe
+        >>> froe.points([[0, 0], [1, 1]]).build().any([[1, 1, 1, 1], [5, 5, 6, 6]]).tolist()
+        [1, -1]
+        """
+        return np.asarray(self._ranges(_ANY, threads, boxes, None, None, None))
+
+    def _ranges(self, mode: int, threads: int, boxes: Any, balls: Any, segments: Any, capsules: Any) -> Any:
+        given = [shape is not None for shape in (boxes, balls, segments, capsules)]
+        if sum(given) != 1:
+            raise TypeError(f"A query takes ranges of one kind, and {sum(given)} are given.")
+        radii = None
+        if boxes is not None:
+            points, shape = self._rows(boxes, "boxes", 2), _BOX
+            if mode == _IDS:
+                return self._core.boxes(points, threads, None)
+        elif balls is not None:
+            points, radii, shape = self._rows(balls[0], "centres", 1), doubles(balls[1], "radii"), _BALL
+        elif segments is not None:
+            points, shape = self._rows(segments, "segments", 2), _SEGMENT
+        else:
+            points, radii, shape = self._rows(capsules[0], "segments", 2), doubles(capsules[1], "radii"), _CAPSULE
+        return self._core.ranges(mode, shape, points, None, radii, 0.0, 0, threads, None)
+
+    def _rows(self, values: npt.ArrayLike, name: str, width: int) -> Doubles:
+        dim = self._core.report()["dim"]
+        return rows(values, name, width * dim, dim)
+
+    def locate(self, points: npt.ArrayLike, *, threads: int = 0) -> Answers:
+        """The objects that contain each point.
+
+        >>> import froe
+        >>> froe.segments([[0, 0, 2, 2]]).build().locate([[1, 1], [1, 0]]).counts().tolist()
+        [1, 0]
+        """
+        return Answers(*self._core.locate(self._rows(points, "points", 1), threads, None))
+
+    def groups(self, points: npt.ArrayLike, *, threads: int = 0) -> Answers:
+        """The groups that each point of the plane lies in: countries of a map, for example.
+
+        >>> import froe
+        >>> scene = froe.Scene(2)
+        >>> group = scene.add_group("a triangle")
+        >>> scene.add_segments([[0, 0, 4, 0], [4, 0, 0, 4], [0, 4, 0, 0]], group=group)
+        >>> scene.build().groups([[1, 1], [4, 4]]).counts().tolist()
+        [1, 0]
+        """
+        return Answers(*self._core.groups(self._rows(points, "points", 1), threads, None))
+
+    @overload
+    def nearest(  # type: ignore[misc] # an int that is 1 is of both kinds
+        self, points: npt.ArrayLike, k: Literal[1] = 1, max_distance: float = math.inf, *, threads: int = 0
+    ) -> tuple[Ids, Doubles]: ...
+    @overload
+    def nearest(
+        self, points: npt.ArrayLike, k: int, max_distance: float = math.inf, *, threads: int = 0
+    ) -> Answers: ...
+    def nearest(
+        self, points: npt.ArrayLike, k: int = 1, max_distance: float = math.inf, *, threads: int = 0
+    ) -> Answers | tuple[Ids, Doubles]:
+        """The nearest object to each point and its distance, -1 and infinity where none is within ``max_distance``.
+        With ``k`` above 1 answers with distances as values, nearest first. Of equally near ones the lowest id is first.
+
+        >>> import froe
+        >>> tree = froe.points([[0, 0], [3, 0]]).build()
+        >>> tree.nearest([[1, 0], [9, 0]])
+        (array([0, 1], dtype=int32), array([1., 6.]))
+        >>> tree.nearest([[1, 0]], k=2).values.tolist()
+        [1.0, 2.0]
+        """
+        found = Answers(*self._core.near(self._rows(points, "points", 1), k, max_distance, threads, None))
+        if k != 1:
+            return found
+        there = found.counts() > 0
+        ids, distances = np.full(len(found), -1, np.int32), np.full(len(found), np.inf)
+        ids[there], distances[there] = found.ids, found.values
+        return ids, distances
+
+    def nearest_points(self, objects: npt.ArrayLike, points: npt.ArrayLike, *, threads: int = 0) -> Doubles:
+        """The point of each object that is nearest to the point beside it.
+
+        >>> import froe
+        >>> tree = froe.segments([[0, 0, 4, 0]]).build()
+        >>> tree.nearest_points([0], [[1, 2]]).tolist()
+        [[1.0, 0.0]]
+        """
+        ids = whole(objects, "objects", np.uint32)
+        return np.asarray(self._core.nearest_points(ids, self._rows(points, "points", 1), threads, None))
+
+    @overload
+    def ray(
+        self,
+        origins: npt.ArrayLike,
+        directions: npt.ArrayLike,
+        t_max: float = math.inf,
+        *,
+        all: Literal[False] = False,
+        threads: int = 0,
+    ) -> tuple[Ids, Doubles]: ...
+    @overload
+    def ray(
+        self,
+        origins: npt.ArrayLike,
+        directions: npt.ArrayLike,
+        t_max: float = math.inf,
+        *,
+        all: Literal[True],
+        threads: int = 0,
+    ) -> Answers: ...
+    def ray(
+        self,
+        origins: npt.ArrayLike,
+        directions: npt.ArrayLike,
+        t_max: float = math.inf,
+        *,
+        all: bool = False,
+        threads: int = 0,
+    ) -> Answers | tuple[Ids, Doubles]:
+        """The object that each ray meets first, and where: at ``origin + t * direction``; -1 and infinity where there
+        is none. With ``all`` answers with every object met, by ``t``.
+
+        >>> import froe
+        >>> tree = froe.segments([[2, -1, 2, 1], [5, -1, 5, 1]]).build()
+        >>> tree.ray([[0, 0]], [[1, 0]])
+        (array([0], dtype=int32), array([2.]))
+        >>> tree.ray([[0, 0]], [[1, 0]], all=True).values.tolist()
+        [2.0, 5.0]
+        """
+        start, way = self._rows(origins, "origins", 1), self._rows(directions, "directions", 1)
+        found = self._core.rays(_ALL if all else _FIRST, start, way, t_max, threads, None)
+        if all:
+            return Answers(*found)
+        return np.asarray(found[0]), np.asarray(found[1])
+
+    def above(self, points: npt.ArrayLike, *, below: bool = False, threads: int = 0) -> Ids:
+        """The first segment of the plane above each point, or below it; -1 where there is none.
+
+        >>> import froe
+        >>> froe.segments([[0, 2, 4, 2]]).build().above([[1, 1], [1, 3]]).tolist()
+        [0, -1]
+        """
+        return np.asarray(self._core.vertical(self._rows(points, "points", 1), below, threads, None))
+
+    def pairs(self, *, shared: bool = True, threads: int = 0) -> npt.NDArray[np.int32]:
+        """All pairs of objects that meet: rows of two objects and how they meet (0: cross, 1: touch, 2: overlap).
+        ``shared=False`` leaves out those that touch in nothing but one corner of both.
+
+        >>> import froe
+        >>> froe.segments([[0, 0, 2, 2], [0, 2, 2, 0]]).build().pairs().tolist()
+        [[0, 1, 0]]
+        """
+        return np.asarray(self._core.pairs(shared, threads, None))
+
+    @property
+    def report(self) -> dict[str, Any]:
+        """What the tree consists of: method, objects, nodes, pieces, height, bytes and more.
+
+        >>> import froe
+        >>> froe.points([[0, 0], [1, 1]]).build().report["objects"]
+        2
+        """
+        return self._core.report()
+
+    def pieces(self) -> Pieces:
+        """All pieces.
+
+        >>> import froe
+        >>> tree = froe.segments([[0, 0, 2, 2], [0, 2, 2, 0]]).build("autopartition", purpose="pieces")
+        >>> len(tree.pieces())
+        3
+        """
+        return Pieces(*(np.asarray(part) for part in self._core.pieces()))
+
+    def cells(self, lo: npt.ArrayLike, hi: npt.ArrayLike, *, inner: bool = False) -> Cells:
+        """The regions of all leaves that meet a box, clipped to it; with ``inner`` those of all nodes.
+
+        >>> import froe
+        >>> froe.segments([[0, 1, 2, 1]]).build("autopartition").cells([0, 0], [2, 2]).polygons()[0].shape
+        (4, 2)
+        """
+        box = np.stack([doubles(lo, "lo"), doubles(hi, "hi")])
+        return Cells(*(np.asarray(part) for part in self._core.cells(box, inner)))
+
+    def order(self, eye: npt.ArrayLike, *, parallel: bool = False) -> Ids:
+        """All pieces, back to front, as they are seen from a point, or with ``parallel`` from a direction.
+
+        >>> import froe
+        >>> tree = froe.segments([[0, 1, 2, 1], [0, 5, 2, 5]]).build("autopartition", purpose="draw")
+        >>> [int(tree.pieces().objects[piece]) for piece in tree.order([1, 0])]
+        [1, 0]
+        """
+        return np.asarray(self._core.order(doubles(eye, "eye"), parallel))
+
+    def audit(self, *, exact_only: bool = False, threads: int = 0) -> None:
+        """Proves that the tree is right; otherwise AuditError.
+
+        >>> import froe
+        >>> froe.points([[0, 0], [1, 1]]).build().audit()
+        """
+        self._core.audit(exact_only, threads, None)
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes the tree with its scene: the old file or the whole new one is there, whatever happens."""
+        self._core.save(path)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _from_bytes, (self._core.to_bytes(),)
 
     def close(self) -> None:
         """Frees the tree. Questions raise ClosedError from now on."""
         self._core.close()
+
+
+def open(path: str | os.PathLike[str]) -> Tree:
+    """A tree that ``Tree.save`` or ``froe build`` has written.
+
+    >>> import froe, tempfile, os
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     froe.points([[0, 0]]).build().save(os.path.join(folder, "a.froe"))
+    ...     froe.open(os.path.join(folder, "a.froe")).report["objects"]
+    1
+    """
+    return Tree(_core.open(path))
+
+
+def _from_bytes(saved: bytes) -> Tree:
+    return Tree(_core.from_bytes(saved))

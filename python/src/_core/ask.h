@@ -1,0 +1,37 @@
+/* ask.h: what all batches of questions have in common. A method takes its arguments, of which the last two are threads
+ * and progress, between ask_begin() and ask_end(), and runs between ask_run() and ask_ran(). */
+#ifndef FROE_CORE_ASK_H
+#define FROE_CORE_ASK_H
+#include "call.h"
+#include "errors.h"
+#include "input.h"
+#include "memory.h"
+#include "tree.h"
+
+enum { ASK_INPUTS = 4 };
+
+typedef struct core_ask {
+    core_tree *tree;
+    froe_query *query;
+    size_t dim;
+    froe_batch_options options;
+    PyObject *progress;
+    core_call call;
+    froe_diagnostic diag;
+    core_input in[ASK_INPUTS];
+} core_ask;
+
+/** Takes a context and the last two of `wanted` arguments. false: an exception is set, and nothing is to be ended. */
+bool core_ask_begin(core_ask *ask, PyObject *self, const char *name, PyObject *const *args, Py_ssize_t given,
+                    Py_ssize_t wanted);
+/** Gives back the context and the inputs. */
+void core_ask_end(core_ask *ask);
+/** The call begins to run, without the GIL. */
+void core_ask_run(core_ask *ask);
+/** false: it has failed, and an exception is set. */
+bool core_ask_ran(core_ask *ask, froe_status status);
+/** Answers, which it takes, as the tuple (starts, ids, values or None). */
+PyObject *core_answers(const froe_answers *answers);
+/** The first input's rows of dim doubles are points. */
+bool core_ask_points(core_ask *ask, PyObject *points, const char *name);
+#endif

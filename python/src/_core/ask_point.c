@@ -1,0 +1,135 @@
+/* ask_point.c: what is at points, nearest to them, above them; and which objects meet one another. */
+#include "ask.h"
+
+typedef froe_status batch_points(froe_query *query, const double *points, size_t count,
+                                 const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag);
+
+/* args: points, threads, progress */
+static PyObject *ask_points(PyObject *self, const char *name, batch_points *batch, PyObject *const *args,
+                            Py_ssize_t count) {
+    core_ask ask;
+    PyObject *answer = NULL;
+    if (!core_ask_begin(&ask, self, name, args, count, 3)) return NULL;
+    const core_input *points = &ask.in[0];
+    if (core_ask_points(&ask, args[0], "points")) {
+        froe_answers answers;
+        core_ask_run(&ask);
+        const froe_status status = batch(ask.query, points->data, points->count, &ask.options, &answers, &ask.diag);
+        if (core_ask_ran(&ask, status)) answer = core_answers(&answers);
+    }
+    core_ask_end(&ask);
+    return answer;
+}
+
+PyObject *core_ask_locate(PyObject *self, PyObject *const *args, Py_ssize_t count) {
+    return ask_points(self, "locate", froe_batch_locate, args, count);
+}
+
+PyObject *core_ask_groups(PyObject *self, PyObject *const *args, Py_ssize_t count) {
+    return ask_points(self, "groups", froe_batch_groups, args, count);
+}
+
+/* near(points, k, bound, threads, progress) */
+PyObject *core_ask_near(PyObject *self, PyObject *const *args, Py_ssize_t count) {
+    core_ask ask;
+    PyObject *answer = NULL;
+    uint32_t k;
+    if (!core_ask_begin(&ask, self, "near", args, count, 5)) return NULL;
+    const core_input *points = &ask.in[0];
+    const double bound = PyFloat_AsDouble(args[2]);
+    if (!PyErr_Occurred() && core_unsigned(args[1], "k", UINT32_MAX, &k) && core_ask_points(&ask, args[0], "points")) {
+        froe_answers answers;
+        core_ask_run(&ask);
+        const froe_status status =
+            froe_batch_near(ask.query, points->data, points->count, k, bound, &ask.options, &answers, &ask.diag);
+        if (core_ask_ran(&ask, status)) answer = core_answers(&answers);
+    }
+    core_ask_end(&ask);
+    return answer;
+}
+
+static PyObject *ask_vertical(core_ask *ask, int direction) {
+    const core_input *points = &ask->in[0];
+    uint32_t *objects = core_allocate(points->count, sizeof *objects);
+    if (!objects) return NULL;
+    core_ask_run(ask);
+    const froe_status status =
+        froe_batch_vertical(ask->query, points->data, points->count, direction, &ask->options, objects, &ask->diag);
+    if (core_ask_ran(ask, status)) return core_array_of(objects, "i", points->count, 0);
+    core_release(objects, points->count, sizeof *objects);
+    return NULL;
+}
+
+/* vertical(points, below, threads, progress) */
+PyObject *core_ask_vertical(PyObject *self, PyObject *const *args, Py_ssize_t count) {
+    core_ask ask;
+    PyObject *answer = NULL;
+    if (!core_ask_begin(&ask, self, "vertical", args, count, 4)) return NULL;
+    const int below = PyObject_IsTrue(args[1]);
+    if (below >= 0 && core_ask_points(&ask, args[0], "points")) answer = ask_vertical(&ask, below ? -1 : 1);
+    core_ask_end(&ask);
+    return answer;
+}
+
+/* Without the GIL. Points and objects are as many. */
+static froe_status find_nearest(core_ask *ask, const core_input *objects, double *nearest) {
+    const uint32_t *ids = objects->data;
+    const double *points = ask->in[0].data;
+    for (size_t i = 0; i < objects->count; i++) {
+        if (i % 1024 == 0 && !core_call_progress(&ask->call, (double)i / (double)objects->count))
+            return FROE_E_CANCELLED;
+        const froe_status status =
+            froe_query_nearest_point(ask->query, ids[i], points + i * ask->dim, nearest + i * ask->dim, &ask->diag);
+        if (status) ask->diag.object = (uint32_t)i;
+        if (status) return status;
+    }
+    return FROE_OK;
+}
+
+/* nearest_points(objects, points, threads, progress): the point of each object that is nearest to its point */
+PyObject *core_ask_nearest_points(PyObject *self, PyObject *const *args, Py_ssize_t count) {
+    core_ask ask;
+    PyObject *answer = NULL;
+    if (!core_ask_begin(&ask, self, "nearest_points", args, count, 4)) return NULL;
+    core_input *objects = &ask.in[1];
+    if (core_ask_points(&ask, args[1], "points") &&
+        core_input_take_count(objects, args[0], "objects", 'I', 1, ask.in[0].count, false)) {
+        const size_t rows = objects->count;
+        double *nearest = core_allocate(rows, ask.dim * sizeof *nearest);
+        bool done = nearest;
+        if (done) {
+            core_ask_run(&ask);
+            done = core_ask_ran(&ask, find_nearest(&ask, objects, nearest));
+        }
+        if (done)
+            answer = core_array_of(nearest, "d", rows, ask.dim);
+        else if (nearest)
+            core_release(nearest, rows, ask.dim * sizeof *nearest);
+    }
+    core_ask_end(&ask);
+    return answer;
+}
+
+static void free_pairs(void *block) {
+    froe_pairs_free(block);
+}
+
+/* pairs(shared, threads, progress): rows a, b, kind */
+PyObject *core_ask_pairs(PyObject *self, PyObject *const *args, Py_ssize_t count) {
+    core_ask ask;
+    froe_pairs pairs;
+    if (!core_ask_begin(&ask, self, "pairs", args, count, 3)) return NULL;
+    const int shared = PyObject_IsTrue(args[0]);
+    bool done = shared >= 0;
+    if (done) {
+        core_ask_run(&ask);
+        done = core_ask_ran(&ask, froe_batch_pair_array(ask.query, shared, &ask.options, &pairs, &ask.diag));
+    }
+    core_ask_end(&ask);
+    PyObject *owner = done ? core_owner(&pairs, sizeof pairs, free_pairs) : NULL;
+    if (!owner) return NULL;
+    _Static_assert(sizeof(froe_pair) == 3 * sizeof(int32_t), "a pair is three numbers of 32 bits");
+    PyObject *array = core_array(owner, pairs.pairs, "i", pairs.count, 3, 0);
+    Py_DECREF(owner);
+    return array;
+}
