@@ -1,0 +1,69 @@
+"""Meshes of trimesh and pyvista as scenes. Only their attributes are read, so that any object that has them will do.
+
+>>> import froe, numpy as np
+>>> class Mesh:
+...     vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], float)
+...     faces = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+>>> tree = froe.from_trimesh(Mesh()).build()
+>>> tree.nearest([[0.1, 0.1, -1]])
+(array([0], dtype=int32), array([1.]))
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+if TYPE_CHECKING:
+    from froe.scene import Scene
+
+
+def from_trimesh(mesh: Any) -> Scene:
+    """A scene in space of the triangles of a mesh with ``vertices`` (n, 3) and ``faces`` (m, 3). Triangle ``i`` is
+    object ``i``."""
+    from froe.scene import Scene
+
+    faces = np.asarray(mesh.faces)
+    if faces.ndim != 2 or faces.shape[1] != 3:
+        raise ValueError(f"The faces of the mesh have the shape {faces.shape}, and (m, 3) is needed.")
+    scene = Scene(3)
+    scene.add_triangles(np.asarray(mesh.vertices, np.float64), faces)
+    return scene
+
+
+def from_pyvista(mesh: Any) -> Scene:
+    """A scene in space of the polygons of a mesh with ``points`` (n, 3) and ``faces``, which has the number of corners
+    of each polygon before its corners, as pyvista's PolyData has.
+
+    A triangle becomes one object. A polygon of more corners becomes a fan of triangles, as most of them are not exactly
+    planar. All objects of polygon ``i`` have the tag ``i`` and the face ``i``.
+    """
+    from froe.scene import Scene
+
+    triangles, polygon = _fans(np.asarray(mesh.faces, np.int64).ravel())
+    scene = Scene(3)
+    scene.add_triangles(np.asarray(mesh.points, np.float64), triangles, tags=polygon, faces=polygon)
+    return scene
+
+
+def _fans(faces: npt.NDArray[np.int64]) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:
+    """Triangles (m, 3) of polygons [count, corner, corner, ..., count, ...], and the polygon of each."""
+    triangles, polygons = [], []
+    at = number = 0
+    while at < len(faces):
+        count = int(faces[at])
+        corners = faces[at + 1 : at + 1 + count]
+        if count < 3 or len(corners) < count:
+            raise ValueError(
+                f"Polygon {number} of the mesh has {max(count, 0)} corners, of which {len(corners)} exist."
+            )
+        fan = np.empty((count - 2, 3), np.int64)
+        fan[:, 0], fan[:, 1], fan[:, 2] = corners[0], corners[1:-1], corners[2:]
+        triangles.append(fan)
+        polygons.append(np.full(count - 2, number))
+        at, number = at + 1 + count, number + 1
+    if not triangles:
+        return np.empty((0, 3), np.int64), np.empty(0, np.int64)
+    return np.concatenate(triangles), np.concatenate(polygons)

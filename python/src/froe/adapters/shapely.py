@@ -1,0 +1,77 @@
+"""Geometries of shapely as scenes, and cells of trees as geometries of shapely. Shapely 1.8 and 2 will do.
+
+>>> import froe
+>>> from shapely.geometry import Point, Polygon
+>>> scene = froe.from_shapely([Polygon([(0, 0), (4, 0), (0, 4)]), Point(1, 1)])
+>>> tree = scene.build()
+>>> tree.groups([[1, 1], [3, 3]]).pairs().tolist()
+[[0, 0], [0, 1]]
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from froe.adapters.features import Features, of_mappings
+
+if TYPE_CHECKING:
+    from froe.scene import Scene
+    from froe.tree import Cells
+
+_POINT, _POLYGON, _SIMPLE = 0, 3, 3  # of shapely.get_type_id(): types above are collections
+
+
+def from_shapely(geometries: Any, names: Sequence[str] | None = None) -> Scene:
+    """A scene of the plane from an array or sequence of geometries; None and empty ones are passed over.
+
+    Points become points; lines, and the rings of polygons, become segments. Geometry ``i`` is group ``i``, so that
+    ``tree.groups(points)`` says which geometries contain a point, and each of its objects has the tag ``i``. ``names``
+    are those of the groups. Third coordinates are left out.
+    """
+    return features(geometries).scene(names)
+
+
+def features(geometries: Any) -> Features:
+    """The same as arrays: at once with shapely 2, geometry by geometry with shapely 1.8."""
+    import shapely
+
+    if hasattr(geometries, "geom_type"):
+        geometries = [geometries]
+    if hasattr(shapely, "get_parts"):
+        return _of_arrays(shapely, geometries)
+    return of_mappings(geometries)
+
+
+def _of_arrays(shapely: Any, geometries: Any) -> Features:
+    """By the functions of shapely 2 for whole arrays."""
+    array = np.asarray(geometries, object).ravel()
+    parts, owner = shapely.get_parts(array, return_index=True)
+    while len(parts) and (shapely.get_type_id(parts) > _SIMPLE).any():  # collections within collections
+        parts, index = shapely.get_parts(parts, return_index=True)
+        owner = owner[index]
+    kinds = shapely.get_type_id(parts)
+    point, polygon = kinds == _POINT, kinds == _POLYGON
+    line = ~point & ~polygon
+
+    corners, index = shapely.get_coordinates(parts[point], return_index=True)
+    line_corners, line_index = shapely.get_coordinates(parts[line], return_index=True)
+    rings, ring_polygon = shapely.get_rings(parts[polygon], return_index=True)
+    ring_corners, ring_index = shapely.get_coordinates(rings, return_index=True)
+    return Features.of_chains(
+        len(array),
+        (corners, owner[point][index]),
+        (line_corners, line_index, owner[line]),
+        (ring_corners, ring_index, ring_polygon, owner[polygon]),
+    )
+
+
+def to_shapely(cells: Cells) -> list[Any]:
+    """The cells of a tree of the plane (``tree.cells()``) as polygons. Their corners are rounded."""
+    from shapely.geometry import Polygon
+
+    if cells.dim != 2:
+        raise ValueError("The cells are not those of a tree of the plane.")
+    return [Polygon(corners) for corners in cells.polygons()]

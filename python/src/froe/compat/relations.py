@@ -1,0 +1,155 @@
+"""How the geometries of an index lie to others: in bulk, by trees of both, exactly."""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from froe.adapters.features import Features
+from froe.errors import UnsupportedError
+
+if TYPE_CHECKING:
+    from froe.tree import Tree
+
+Floats = npt.NDArray[np.float64]
+Integers = npt.NDArray[np.int64]
+
+EXACT = ("intersects", "covers", "covered_by", "dwithin")
+
+
+class Relations:
+    """Geometries, and what is asked about them. Pairs are arrays of two rows: those asked about, those of the index."""
+
+    def __init__(self, features: Features) -> None:
+        self.features = features
+        #: the geometry of each object of the tree
+        self.owner = features.owners()
+
+    @cached_property
+    def tree(self) -> Tree:
+        """Of all segments, then all points."""
+        return self.features.scene().build(purpose="query")
+
+    @cached_property
+    def _boxes(self) -> tuple[Tree, Integers]:
+        """A tree of the bounding boxes of what is not empty, and the geometry of each."""
+        from froe.scene import Scene
+
+        bounds = self.features.bounds()
+        there = np.flatnonzero(~np.isnan(bounds[:, 0]))
+        scene = Scene(2)
+        if len(there):
+            scene.add_boxes(bounds[there])
+        return scene.build(purpose="query"), there
+
+    def related(self, asked: Features, predicate: str | None) -> Integers:
+        """The pairs for which the predicate of shapely holds; None: of bounding boxes that meet."""
+        if predicate is None:
+            return self._boxes_met(asked)
+        if predicate == "intersects":
+            return self.intersecting(asked)
+        raise UnsupportedError(
+            f"The predicate {predicate!r} cannot be decided exactly; those that can are {', '.join(EXACT)}."
+        )
+
+    def _boxes_met(self, asked: Features) -> Integers:
+        bounds = asked.bounds()
+        there = np.flatnonzero(~np.isnan(bounds[:, 0]))
+        tree, geometry = self._boxes
+        found = tree.query(bounds[there]).pairs()
+        return pairs(there[found[0]], geometry[found[1]])
+
+    def intersecting(self, asked: Features) -> Integers:
+        """Pairs with a point in common. Where no borders, lines or points of the two meet, a connected part of one lies
+        within the other, so that any point of it decides."""
+        plain = ~rectangles(asked)
+        boxes = np.flatnonzero(~plain)
+        met = self.tree.query(asked.bounds()[boxes]).pairs()  # whole boxes: what lies in them as well
+        of_segment = np.flatnonzero(plain[asked.segment_of])
+        crossed = self.tree.query(segments=asked.segments[of_segment]).pairs()
+        anchors, anchor_of = asked.anchors()
+        around = self.tree.groups(anchors).pairs()
+        return joined(
+            pairs(boxes[met[0]], self.owner[met[1]]),
+            pairs(asked.segment_of[of_segment[crossed[0]]], self.owner[crossed[1]]),
+            pairs(anchor_of[around[0]], around[1]),
+            self._inside(asked, plain & asked.areas()),
+        )
+
+    @cached_property
+    def _anchors(self) -> tuple[Tree, Floats, Integers]:
+        from froe.scene import Scene
+
+        anchors, owner = self.features.anchors()
+        scene = Scene(2)
+        if len(anchors):
+            scene.add_points(anchors)
+        return scene.build(purpose="query"), anchors, owner
+
+    def _inside(self, asked: Features, which: npt.NDArray[np.bool_]) -> Integers:
+        """Pairs of those polygons asked about and the geometries of the index of which an anchor lies in them."""
+        if not which.any():
+            return np.empty((2, 0), np.int64)
+        tree, anchors, owner = self._anchors
+        near = np.unique(tree.query(asked.bounds()[which]).ids)
+        found = asked.scene().build(purpose="query").groups(anchors[near]).pairs()
+        found = found[:, which[found[1]]]
+        return pairs(found[1], owner[near[found[0]]])
+
+    def within_distance(self, asked: Features, distances: Floats) -> Integers:
+        """Pairs that are no farther from each other than the distance of the one asked about."""
+        some = np.flatnonzero(distances >= 0)
+        near_points = some_of(asked.point_of, some)
+        near_segments = some_of(asked.segment_of, some)
+        points = self.tree.query(balls=(asked.points[near_points], distances[asked.point_of[near_points]])).pairs()
+        segments = self.tree.query(
+            capsules=(asked.segments[near_segments], distances[asked.segment_of[near_segments]])
+        ).pairs()
+        meeting = self.intersecting(asked)
+        return joined(
+            meeting[:, distances[meeting[0]] >= 0],
+            pairs(asked.point_of[near_points[points[0]]], self.owner[points[1]]),
+            pairs(asked.segment_of[near_segments[segments[0]]], self.owner[segments[1]]),
+        )
+
+
+def some_of(owner: Integers, chosen: Integers) -> Integers:
+    return np.flatnonzero(np.isin(owner, chosen))
+
+
+def pairs(first: npt.NDArray[Any], second: npt.NDArray[Any]) -> Integers:
+    """Two rows, sorted, each pair once."""
+    both = np.stack([np.asarray(first, np.int64), np.asarray(second, np.int64)])
+    both = both[:, np.lexsort((both[1], both[0]))]
+    new = np.ones(both.shape[1], bool)
+    new[1:] = (both[:, 1:] != both[:, :-1]).any(axis=0)
+    found: Integers = both[:, new]
+    return found
+
+
+def joined(*lists: Integers) -> Integers:
+    both = np.concatenate(lists, axis=1)
+    return pairs(both[0], both[1])
+
+
+def rectangles(features: Features) -> npt.NDArray[np.bool_]:
+    """Which geometries are a single rectangle along the axes, and nothing else?"""
+    bounds = features.bounds()
+    count = np.bincount(features.segment_of, minlength=features.count)
+    rings = np.bincount(features.segment_of, features.polygon_of >= 0, minlength=features.count)
+    points = np.bincount(features.point_of, minlength=features.count)
+    owner = features.segment_of
+    start, end = features.segments[:, :2], features.segments[:, 2:]
+    lower, upper = start == bounds[owner, :2], start == bounds[owner, 2:]
+    straight = (start == end).any(axis=1) & (lower | upper).all(axis=1)
+    corner = 1 << (2 * upper[:, 0] + upper[:, 1])  # each of the four corners has to come once
+    corners = np.bincount(owner, corner, minlength=features.count)
+    good = np.bincount(owner, straight, minlength=features.count)
+    wide = bounds[:, 2:] > bounds[:, :2]
+    found: npt.NDArray[np.bool_] = (
+        (count == 4) & (rings == 4) & (points == 0) & (good == 4) & (corners == 15) & wide.all(axis=1)
+    )
+    return found

@@ -1,0 +1,136 @@
+"""The index of shapely 2, ``shapely.STRtree``, with answers about the geometries themselves, decided exactly.
+
+>>> from shapely.geometry import LineString, Point, box
+>>> from froe.compat.shapely import STRtree
+>>> tree = STRtree([LineString([(0, 0), (4, 4)]), box(3, 0, 5, 1)])
+>>> tree.query(box(0, 3, 1, 4)).tolist()  # boxes, as in shapely: that of the line meets it
+[0]
+>>> tree.query(box(0, 3, 1, 4), predicate="intersects").tolist()  # the line does not
+[]
+>>> tree.query([Point(1, 1), Point(4, 0)], predicate="intersects").tolist()
+[[0, 1], [0, 1]]
+>>> tree.query_nearest(Point(5, 2), return_distance=True)
+(array([1]), array([1.]))
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from froe.adapters.features import Features
+from froe.adapters.shapely import features
+from froe.compat.nearest import Nearest
+from froe.compat.relations import Relations
+from froe.errors import UnsupportedError
+
+Floats = npt.NDArray[np.float64]
+Integers = npt.NDArray[np.int64]
+
+
+class STRtree:
+    """Takes the place of ``shapely.STRtree``. Geometries of shapely 1.8 will do as well.
+
+    Answers have the shapes that those of shapely 2 have: indices for one geometry, two rows of indices for an array
+    of them. They are sorted by the geometries asked for, then by those of the tree. Missing and empty geometries
+    match nothing.
+
+    What cannot be decided exactly raises ``froe.errors.UnsupportedError``; nothing falls back to rounding. Polygons
+    count by parity, so that what two polygons of one geometry both cover is outside, as it would be in a hole.
+    """
+
+    def __init__(self, geoms: Any, node_capacity: int = 10) -> None:
+        self._geometries = _array(geoms)
+        self._geometries.flags.writeable = False
+        self._features = features(self._geometries)
+
+    def __len__(self) -> int:
+        return int(np.count_nonzero(~np.isnan(self._bounds[:, 0])))
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return STRtree, (self._geometries,)
+
+    @property
+    def geometries(self) -> npt.NDArray[np.object_]:
+        """The geometries of the tree, in the order of their indices."""
+        return self._geometries
+
+    @cached_property
+    def _bounds(self) -> Floats:
+        return self._features.bounds()
+
+    @cached_property
+    def _relations(self) -> Relations:
+        return Relations(self._features)
+
+    @cached_property
+    def _nearest(self) -> Nearest:
+        return Nearest(self._relations)
+
+    def query(self, geometry: Any, predicate: str | None = None, distance: Any = None) -> Integers:
+        """Indices of the geometries of the tree that ``predicate(geometry, tree_geometry)`` holds for.
+
+        Without a predicate those whose bounding box meets the geometry's. ``"dwithin"`` takes ``distance``, a number
+        or one for each geometry.
+        """
+        single, asked = _asked(geometry)
+        if predicate == "dwithin":
+            if distance is None:
+                raise ValueError("The predicate dwithin needs a distance.")
+            distances = np.broadcast_to(np.asarray(distance, np.float64), (asked.count,))
+            found = self._relations.within_distance(asked, distances)
+        else:
+            found = self._relations.related(asked, predicate)
+        indices: Integers = found[1] if single else found
+        return indices
+
+    def nearest(self, geometry: Any) -> Any:
+        """The index of the nearest geometry of the tree for each geometry, of several the first. None if the tree is
+        empty."""
+        if len(self) == 0:
+            return None
+        single, asked = _asked(geometry)
+        if np.isnan(asked.bounds()).any():
+            raise ValueError("A missing or empty geometry has no nearest one.")
+        found, _ = self._nearest.nearest(asked, None)
+        first = found[1][np.unique(found[0], return_index=True)[1]]
+        return first[0] if single else first
+
+    def query_nearest(
+        self,
+        geometry: Any,
+        max_distance: float | None = None,
+        return_distance: bool = False,
+        exclusive: bool = False,
+        all_matches: bool = True,
+    ) -> Any:
+        """Indices of the geometries of the tree that are nearest to each geometry, and their distances: the doubles
+        nearest to the exact ones. That two distances are equal is decided exactly."""
+        if max_distance is not None and not max_distance > 0:
+            raise ValueError("max_distance must be greater than 0.")
+        single, asked = _asked(geometry)
+        if exclusive:
+            raise UnsupportedError("The exact nearest geometries are not found with exclusive=True.")
+        found, distances = self._nearest.nearest(asked, max_distance)
+        if not all_matches:
+            first = np.unique(found[0], return_index=True)[1]
+            found, distances = found[:, first], distances[first]
+        indices = found[1] if single else found
+        return (indices, distances) if return_distance else indices
+
+
+def _array(geometries: Any) -> npt.NDArray[np.object_]:
+    """One dimension of objects. (numpy takes some geometries of shapely 1.8 for sequences.)"""
+    given = list(geometries)
+    array = np.empty(len(given), object)
+    for i, geometry in enumerate(given):
+        array[i] = geometry
+    return array
+
+
+def _asked(geometry: Any) -> tuple[bool, Features]:
+    single = geometry is None or hasattr(geometry, "geom_type")
+    return single, features(_array([geometry] if single else geometry))

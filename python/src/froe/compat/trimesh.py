@@ -1,0 +1,101 @@
+"""What ``trimesh.ray`` and ``trimesh.proximity`` answer about a mesh, decided exactly.
+
+>>> import numpy as np
+>>> from froe.compat.trimesh import Ray
+>>> class Mesh:
+...     vertices = np.array([[0, 0, 0], [4, 0, 0], [0, 4, 0], [4, 4, 0]], float)
+...     faces = np.array([[0, 1, 2], [1, 3, 2]])
+>>> ray = Ray(Mesh())
+>>> ray.intersects_first([[1, 1, 5], [9, 9, 5]], [[0, 0, -1], [0, 0, -1]]).tolist()
+[0, -1]
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from froe.adapters.meshes import from_trimesh
+
+Floats = npt.NDArray[np.float64]
+Integers = npt.NDArray[np.int64]
+
+
+class Ray:
+    """Takes the place of ``mesh.ray`` (``trimesh.ray.ray_triangle.RayMeshIntersector``).
+
+    A ray that runs through an edge or a corner meets all triangles there: none is missed and no tolerance decides. A
+    ray begins at its origin, and triangles that contain the origin are met. Directions have any length but 0.
+    """
+
+    def __init__(self, mesh: Any) -> None:
+        self.mesh = mesh
+        self.tree = from_trimesh(mesh).build(purpose="query")
+
+    def intersects_id(
+        self,
+        ray_origins: npt.ArrayLike,
+        ray_directions: npt.ArrayLike,
+        return_locations: bool = False,
+        multiple_hits: bool = True,
+    ) -> tuple[Integers, Integers] | tuple[Integers, Integers, Floats]:
+        """The triangle and the ray of each hit, by ray, then from its origin on; ``(h,)`` each.
+
+        With ``return_locations`` also where that is, ``(h, 3)``, and of the triangles that one ray meets in one point
+        the first alone.
+        """
+        origins, directions = _vectors(ray_origins, "origins"), _vectors(ray_directions, "directions")
+        triangle, ray, along = self._hits(origins, directions, multiple_hits)
+        if not return_locations:
+            return triangle, ray
+        locations = origins[ray] + along[:, None] * directions[ray]
+        same = (np.diff(ray, prepend=-1) == 0) & (np.diff(along, prepend=np.nan) == 0)
+        return triangle[~same], ray[~same], locations[~same]
+
+    def intersects_location(
+        self, ray_origins: npt.ArrayLike, ray_directions: npt.ArrayLike, multiple_hits: bool = True
+    ) -> tuple[Floats, Integers, Integers]:
+        """Where rays meet the mesh, each point of a ray once: ``(h, 3)``, and the ray and the triangle of each."""
+        found = self.intersects_id(ray_origins, ray_directions, return_locations=True, multiple_hits=multiple_hits)
+        triangle, ray, locations = found  # type: ignore[misc]
+        return locations, ray, triangle
+
+    def intersects_first(self, ray_origins: npt.ArrayLike, ray_directions: npt.ArrayLike) -> Integers:
+        """The triangle that each ray meets first, -1 where there is none."""
+        origins, directions = _vectors(ray_origins, "origins"), _vectors(ray_directions, "directions")
+        triangle, ray, _ = self._hits(origins, directions, False)
+        first = np.full(len(origins), -1, np.int64)
+        first[ray] = triangle
+        return first
+
+    def intersects_any(self, ray_origins: npt.ArrayLike, ray_directions: npt.ArrayLike) -> npt.NDArray[np.bool_]:
+        """Does each ray meet any triangle?"""
+        return self.intersects_first(ray_origins, ray_directions) >= 0
+
+    def closest_point(self, points: npt.ArrayLike) -> tuple[Floats, Floats, Integers]:
+        """As ``trimesh.proximity.closest_point(mesh, points)``: the nearest point of the mesh, its distance, and its
+        triangle, of several that are equally near the first. Points are rounded to the nearest doubles."""
+        at = _vectors(points, "points")
+        if not len(self.mesh.faces):
+            raise ValueError("The mesh has no triangles.")
+        triangle, distance = self.tree.nearest(at)
+        return self.tree.nearest_points(triangle, at), distance, triangle.astype(np.int64)
+
+    def _hits(self, origins: Floats, directions: Floats, every: bool) -> tuple[Integers, Integers, Floats]:
+        """Triangle, ray and parameter of each hit."""
+        if every:
+            answers = self.tree.ray(origins, directions, all=True)
+            ray, triangle = answers.pairs()
+            return triangle, ray, np.asarray(answers.values)
+        first, along = self.tree.ray(origins, directions)
+        ray = np.flatnonzero(first >= 0)
+        return first[ray].astype(np.int64), ray, along[ray]
+
+
+def _vectors(given: npt.ArrayLike, what: str) -> Floats:
+    vectors = np.asarray(given, np.float64)
+    if vectors.ndim != 2 or vectors.shape[1] != 3:
+        raise ValueError(f"The {what} have the shape {vectors.shape}, and (n, 3) is needed.")
+    return vectors

@@ -1,0 +1,103 @@
+"""Scenes from the objects of other libraries."""
+
+import json
+import random as randoms
+
+import geometries
+import geopandas
+import numpy as np
+import pytest
+from shapely.geometry import GeometryCollection, Point, box, mapping
+
+import froe
+from froe.adapters.features import of_mappings
+from froe.adapters.shapely import features
+
+DATA = __import__("pathlib").Path(__file__).resolve().parents[2] / "data"
+
+
+def same(one, other):
+    return all(np.array_equal(getattr(one, name), getattr(other, name)) for name in one.__dataclass_fields__)
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_groups_of_points_are_the_geometries_that_shapely_finds(seed):
+    random = randoms.Random(seed)
+    kept = geometries.some(random, 20, [*geometries.ALL, geometries.missing])
+    tree = froe.from_shapely(kept).build()
+    points = [[x / 2, y / 2] for x in range(18) for y in range(18)]
+    expected = [[i, j] for i, p in enumerate(points) for j, g in enumerate(kept) if g and g.intersects(Point(p))]
+    assert tree.groups(points).pairs().T.tolist() == expected
+
+
+def test_a_collection_is_all_of_its_parts():
+    inner = GeometryCollection([Point(5, 5), box(0, 0, 1, 1)])
+    found = features([GeometryCollection([inner, Point(7, 7)])])
+    assert found.points.tolist() == [[5, 5], [7, 7]] and len(found.segments) == 4
+
+
+def test_mappings_and_geometries_are_the_same():
+    kept = geometries.some(randoms.Random(1), 30)
+    assert same(features(kept), of_mappings([mapping(one) for one in kept]))
+
+
+def test_a_geometry_that_is_none_is_named():
+    with pytest.raises(ValueError, match="Object 1 .*Circle"):
+        of_mappings([Point(0, 0), {"type": "Circle"}])
+
+
+def test_geojson_files_and_collections(tmp_path):
+    collection = {
+        "type": "FeatureCollection",
+        "features": [
+            {"type": "Feature", "properties": {"name": "A"}, "geometry": mapping(box(0, 0, 1, 1))},
+            {"type": "Feature", "properties": None, "geometry": None},
+            {"type": "Feature", "properties": {"name": "C"}, "geometry": mapping(box(5, 5, 6, 6))},
+        ],
+    }
+    path = tmp_path / "a.geojson"
+    path.write_text(json.dumps(collection))
+    for source in (collection, path, str(path)):
+        tree = froe.from_geojson(source, names="name").build()
+        assert tree.groups([[0.5, 0.5], [5.5, 5.5]]).ids.tolist() == [0, 2]
+    with pytest.raises(ValueError, match="not GeoJSON"):
+        froe.from_geojson({"features": []})
+
+
+def test_tables_of_geopandas():
+    table = geopandas.GeoDataFrame({"name": ["A", "B"]}, geometry=[box(0, 0, 1, 1), box(1, 0, 2, 1)], index=[7, 9])
+    for one in (table, table.geometry):
+        assert froe.from_geopandas(one).build().groups([[1, 0.5]]).ids.tolist() == [0, 1]
+
+
+def test_cells_as_polygons_cover_the_window():
+    tree = froe.segments([[0, 0, 4, 4], [0, 4, 4, 0], [1, 3, 3, 3]]).build("autopartition")
+    cells = froe.to_shapely(tree.cells([0, 0], [4, 4]))
+    assert sum(cell.area for cell in cells) == pytest.approx(16)
+    with pytest.raises(ValueError, match="plane"):
+        froe.to_shapely(froe.triangles([[[0, 0, 0], [1, 0, 0], [0, 1, 0]]]).build().cells([0, 0, 0], [1, 1, 1]))
+
+
+class PolyData:
+    points = np.array([[0, 0, 0], [2, 0, 0], [2, 2, 0], [0, 2, 0], [0, 0, 5]], float)
+    faces = np.array([4, 0, 1, 2, 3, 3, 0, 1, 4])
+
+
+def test_polygons_of_pyvista_become_fans():
+    tree = froe.from_pyvista(PolyData()).build()
+    assert tree.report["objects"] == 3
+    assert tree.ray([[1.5, 0.5, 9], [0.5, 1.5, 9]], [[0, 0, -1]] * 2)[0].tolist() == [0, 1]
+
+    class Broken(PolyData):
+        faces = np.array([4, 0, 1, 2])
+
+    with pytest.raises(ValueError, match="Polygon 0"):
+        froe.from_pyvista(Broken())
+
+
+def test_meshes_need_triangles():
+    class Quads:
+        vertices, faces = PolyData.points, np.array([[0, 1, 2, 3]])
+
+    with pytest.raises(ValueError, match=r"\(1, 4\)"):
+        froe.from_trimesh(Quads())
