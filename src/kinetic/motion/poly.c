@@ -61,30 +61,34 @@ static num_wide minus_wide(num_wide a) {
 #define POWER(k) num_dyadic_scaled(arena, 1, 1, k)
 #include "kinetic/motion/poly_body.inc"
 
+#define CURVE_TO_POINT(curve, out)                                                                                     \
+    do {                                                                                                               \
+        (out)->x.degree = (out)->y.degree = (out)->z.degree = piece->degree;                                           \
+        (out)->w.degree = 0;                                                                                           \
+        for (int i = 0; i <= piece->degree; i++)                                                                       \
+            (out)->x.c[i] = (curve).x[i], (out)->y.c[i] = (curve).y[i], (out)->z.c[i] = (curve).z[i];                  \
+        (out)->w.c[0] = (curve).w;                                                                                     \
+    } while (0)
+
 void ball_vertex(const froe_motion *m, const motion_piece *piece, int64_t tick, ball_point *out) {
     motion_ball_curve curve;
     motion_curve_ball(m, piece, tick, &curve);
-    out->x.degree = out->y.degree = piece->degree;
-    out->w.degree = 0;
-    for (int i = 0; i <= piece->degree; i++) out->x.c[i] = curve.x[i], out->y.c[i] = curve.y[i];
-    out->w.c[0] = curve.w;
+    CURVE_TO_POINT(curve, out);
 }
 
 void exact_vertex(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick, exact_point *out) {
     motion_dyadic_curve curve;
     motion_curve_dyadic(arena, m, piece, tick, &curve);
-    out->x.degree = out->y.degree = piece->degree;
-    out->w.degree = 0;
-    for (int i = 0; i <= piece->degree; i++) out->x.c[i] = curve.x[i], out->y.c[i] = curve.y[i];
-    out->w.c[0] = curve.w;
+    CURVE_TO_POINT(curve, out);
 }
 
 void exact_vertex_at(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick,
                      exact_point *out) {
-    num_dyadic at[3];
+    num_dyadic at[4];
     motion_dyadic(arena, m, piece, tick, at);
-    out->x.degree = out->y.degree = out->w.degree = 0;
-    out->x.c[0] = at[0], out->y.c[0] = at[1], out->w.c[0] = at[2];
+    out->x.degree = out->y.degree = out->z.degree = out->w.degree = 0;
+    out->x.c[0] = at[0], out->y.c[0] = at[1], out->w.c[0] = at[m->dim];
+    if (m->dim == 3) out->z.c[0] = at[2];
 }
 
 void ball_crossing(const ball_point p[4], ball_point *out) {
@@ -153,6 +157,18 @@ int wide_turn_sign(const wide_point v[3]) {
 
 int exact_turn_sign(num_arena *arena, const exact_point v[3]) {
     return side_of_exact(arena, v);
+}
+
+int short_volume_sign(const short_point v[4]) {
+    return side_of_plane_short(NULL, v);
+}
+
+int wide_volume_sign(const wide_point v[4]) {
+    return side_of_plane_wide(NULL, v);
+}
+
+int exact_volume_sign(num_arena *arena, const exact_point v[4]) {
+    return side_of_plane_exact(arena, v);
 }
 
 void wide_order(const wide_point *v, const int count[2], int axis, poly_wide *out) {

@@ -28,18 +28,18 @@ typedef struct poly_wide {
     num_wide c[POLY_TERMS];
 } poly_wide;
 
-/** A point (x/w, y/w); w is not 0, and greater than 0 for vertices. */
+/** A point (x/w, y/w); w is not 0, and greater than 0 for vertices. Vertices in space have the height z/w, too. */
 typedef struct ball_point {
-    poly_ball x, y, w;
+    poly_ball x, y, z, w;
 } ball_point;
 typedef struct exact_point {
-    poly_exact x, y, w;
+    poly_exact x, y, z, w;
 } exact_point;
 typedef struct short_point {
-    poly_short x, y, w;
+    poly_short x, y, z, w;
 } short_point;
 typedef struct wide_point {
-    poly_wide x, y, w;
+    poly_wide x, y, z, w;
 } wide_point;
 
 /** A vertex, time being counted in ticks from `tick`. */
@@ -84,6 +84,12 @@ void exact_lines(num_arena *arena, const exact_point v[4], poly_exact *out);
 int short_lines_sign(const short_point v[4]);
 int wide_lines_sign(const wide_point v[4]);
 int exact_lines_sign(num_arena *arena, const exact_point v[4]);
+
+/** In space: of the volume of the tetrahedron of four vertices just after time 0: > 0 where v[3] is above the triangle
+ * of the others and these turn left, as seen from above. */
+int short_volume_sign(const short_point v[4]);
+int wide_volume_sign(const wide_point v[4]);
+int exact_volume_sign(num_arena *arena, const exact_point v[4]);
 
 /** p[0] q[1] - q[0] p[1]. REQUIRES: degrees that add up to less than POLY_TERMS. */
 void ball_determinant(const poly_ball p[2], const poly_ball q[2], poly_ball *out);

@@ -33,6 +33,7 @@ void now_look_up(now_state *now, uint32_t vertex) {
     double x[3], y[3];
     ball_vertex(m, &bend->piece, c->base, &p);
     double ex = in_doubles(&p.x, p.w.c[0], span_of(c), x), ey = in_doubles(&p.y, p.w.c[0], span_of(c), y);
+    if (m->dim == 3) bend->error = in_doubles(&p.z, p.w.c[0], span_of(c), bend->z);
     for (int i = 0; i < 2; i++) c->x[i] = x[i], c->y[i] = y[i];
     bend->x = x[2], bend->y = y[2];
     c->error = ex > ey ? ex : ey;

@@ -65,6 +65,7 @@ static int terms_of(const judge_cast *c, int i) {
 static int curve_bits(const judge_cast *c, int i) {
     num_limbs2 all = 0;
     for (int k = 0; k < terms_of(c, i); k++) all |= size_of_short(c->curve[i].x[k]) | size_of_short(c->curve[i].y[k]);
+    for (int k = 0; k < terms_of(c, i) && c->now->motion->dim == 3; k++) all |= size_of_short(c->curve[i].z[k]);
     return bits_of(all);
 }
 
@@ -86,6 +87,7 @@ static void drop_weights(judge_cast *c) {
         const num_short by = degree ? v->w : whole;
         if (curve_bits(c, i) + bits_of(size_of_short(by)) > SHORT_BITS) return;
         for (int k = 0; k < terms_of(c, i); k++) v->x[k] *= by, v->y[k] *= by;
+        for (int k = 0; k < terms_of(c, i) && c->now->motion->dim == 3; k++) v->z[k] *= by;
         v->w = whole;
     }
     for (int i = 0; i < c->count; i++) c->curve[i].w = 1;
@@ -97,11 +99,11 @@ static bool cast_integers(judge_cast *c) {
     const int64_t tick = c->now->tick;
     for (int i = 0; i < c->count; i++) {
         motion_whole_curve *v = c->curve + i;
-        num_short at[3];
+        num_short at[4];
         if (c->vertex[i] + 2 >= c->now->courses.count) return false; /* of a question, perhaps finer than the unit */
         if (c->along ? !motion_curve_whole(m, piece_of(c, i), tick, v) : !motion_whole(m, piece_of(c, i), tick, at))
             return false;
-        if (!c->along) v->x[0] = at[0], v->y[0] = at[1], v->w = at[2];
+        if (!c->along) v->x[0] = at[0], v->y[0] = at[1], v->z[0] = m->dim == 3 ? at[2] : 0, v->w = at[m->dim];
     }
     drop_weights(c);
     for (int i = 0; i < c->count; i++) {
@@ -125,6 +127,11 @@ static int growth(int degree) {
 /* Of d x e for steps between vertices. */
 static int turn_bits(const judge_cast *c) {
     return 2 * (c->place + c->weight + 1) + growth(c->degree) + 1;
+}
+
+/* Of the volume between four vertices: d x e for steps, times another step, and three such products. */
+static int volume_bits(const judge_cast *c) {
+    return turn_bits(c) + c->place + c->weight + 1 + growth(2 * c->degree) + 2;
 }
 
 /* Of the order of two points, from 1 or 4 vertices each. */
@@ -151,11 +158,12 @@ static void wide_points(const judge_cast *c, wide_point *out) {
     for (int i = 0; i < c->count; i++) {
         const motion_whole_curve *v = c->curve + i;
         const int terms = terms_of(c, i);
-        out[i].x.degree = out[i].y.degree = terms - 1;
+        out[i].x.degree = out[i].y.degree = out[i].z.degree = terms - 1;
         out[i].w.degree = 0;
         for (int k = 0; k < terms; k++) {
             out[i].x.c[k] = num_wide_from(v->x[k]);
             out[i].y.c[k] = num_wide_from(v->y[k]);
+            if (c->now->motion->dim == 3) out[i].z.c[k] = num_wide_from(v->z[k]);
         }
         out[i].w.c[0] = num_wide_from(v->w);
     }
@@ -174,9 +182,10 @@ static void dyadic_points(const judge_cast *c, exact_point *out) {
 /* --------------------------------------------------------------- questions -- */
 
 /* What is asked about vertices: the order of two points, from count[] of them each; the side of the third of the line
- * through two; or how the line through two turns to that through two more. */
+ * through two; how the line through two turns to that through two more; or the side of the fourth of the plane through
+ * three. */
 typedef struct judge_question {
-    enum { JUDGE_ORDER, JUDGE_TURN, JUDGE_LINES } what;
+    enum { JUDGE_ORDER, JUDGE_TURN, JUDGE_LINES, JUDGE_VOLUME } what;
     int count[2];
     bool both; /* JUDGE_ORDER: by x, then y */
 } judge_question;
@@ -185,12 +194,14 @@ static int judge_short(const judge_cast *c, const judge_question *ask) {
     short_point v[VERTICES];
     for (int i = 0; i < c->count; i++) {
         const motion_whole_curve *from = c->curve + i;
-        v[i].x.degree = v[i].y.degree = terms_of(c, i) - 1;
+        v[i].x.degree = v[i].y.degree = v[i].z.degree = terms_of(c, i) - 1;
         v[i].w.degree = 0;
-        for (int k = 0; k < terms_of(c, i); k++) v[i].x.c[k] = from->x[k], v[i].y.c[k] = from->y[k];
+        for (int k = 0; k < terms_of(c, i); k++)
+            v[i].x.c[k] = from->x[k], v[i].y.c[k] = from->y[k], v[i].z.c[k] = from->z[k];
         v[i].w.c[0] = from->w;
     }
     if (ask->what == JUDGE_ORDER) return short_order_sign(v, ask->count, ask->both);
+    if (ask->what == JUDGE_VOLUME) return short_volume_sign(v);
     return ask->what == JUDGE_TURN ? short_turn_sign(v) : short_lines_sign(v);
 }
 
@@ -198,6 +209,7 @@ static int judge_wide(const judge_cast *c, const judge_question *ask) {
     wide_point v[VERTICES];
     wide_points(c, v);
     if (ask->what == JUDGE_ORDER) return wide_order_sign(v, ask->count, ask->both);
+    if (ask->what == JUDGE_VOLUME) return wide_volume_sign(v);
     return ask->what == JUDGE_TURN ? wide_turn_sign(v) : wide_lines_sign(v);
 }
 
@@ -206,12 +218,16 @@ static int judge_dyadic(const judge_cast *c, const judge_question *ask) {
     exact_point v[VERTICES];
     dyadic_points(c, v);
     if (ask->what == JUDGE_ORDER) return exact_order_sign(arena, v, ask->count, ask->both);
+    if (ask->what == JUDGE_VOLUME) return exact_volume_sign(arena, v);
     return ask->what == JUDGE_TURN ? exact_turn_sign(arena, v) : exact_lines_sign(arena, v);
 }
 
 static int judge(judge_cast *c, const judge_question *ask) {
     now_stage stage = NOW_DYADIC;
-    if (cast_integers(c)) stage = stage_for(c, ask->what == JUDGE_ORDER ? order_bits(c, ask->count) : turn_bits(c));
+    if (cast_integers(c))
+        stage = stage_for(c, ask->what == JUDGE_ORDER    ? order_bits(c, ask->count)
+                             : ask->what == JUDGE_VOLUME ? volume_bits(c)
+                                                         : turn_bits(c));
     c->now->judged[stage]++;
     if (stage == NOW_SHORT) return judge_short(c, ask);
     return stage == NOW_WIDE ? judge_wide(c, ask) : judge_dyadic(c, ask);
@@ -229,6 +245,18 @@ int now_judge_side(now_state *now, uint32_t segment, uint32_t vertex, bool along
     judge_cast c = {.now = now, .along = along};
     cast_side(&c, segment, vertex);
     return judge(&c, &(judge_question){.what = JUDGE_TURN});
+}
+
+int now_judge_turn(now_state *now, const uint32_t vertex[3], bool along) {
+    judge_cast c = {.now = now, .along = along};
+    for (int i = 0; i < 3; i++) cast_vertex(&c, vertex[i]);
+    return judge(&c, &(judge_question){.what = JUDGE_TURN});
+}
+
+int now_judge_volume(now_state *now, const uint32_t vertex[4], bool along) {
+    judge_cast c = {.now = now, .along = along};
+    for (int i = 0; i < 4; i++) cast_vertex(&c, vertex[i]);
+    return judge(&c, &(judge_question){.what = JUDGE_VOLUME});
 }
 
 int now_judge_lines(now_state *now, name_point crossing, bool along) {

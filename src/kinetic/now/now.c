@@ -21,6 +21,7 @@ void now_free(now_state *now) {
     array_free(alloc, &now->courses);
     array_free(alloc, &now->bends);
     array_free(alloc, &now->segments);
+    array_free(alloc, &now->faces);
     support_free(alloc, now->memories, NOW_MEMORIES * sizeof *now->memories);
     num_context_free(&now->context);
 }
@@ -39,14 +40,15 @@ froe_status now_grow(now_state *now) {
     const froe_allocator *alloc = &now->context.alloc;
     const froe_motion *m = now->motion;
     if (!array_reserve(alloc, &now->courses, m->plans.count + 2 - now->courses.count) ||
-        !array_reserve(alloc, &now->bends, m->plans.count + 2 - now->bends.count) ||
-        !array_reserve(alloc, &now->segments, m->objects.count + 1 - now->segments.count))
+        !array_reserve(alloc, &now->bends, m->plans.count + 2 - now->bends.count))
         return FROE_E_MEMORY;
     now->courses.count = now->bends.count = m->plans.count + 2;
     forget(now);
+    if (m->dim == 3) return now_grow_faces(now);
+    if (!array_reserve(alloc, &now->segments, m->objects.count + 1 - now->segments.count)) return FROE_E_MEMORY;
     for (size_t s = now->segments.count ? now->segments.count - 1 : 0; s < m->objects.count; s++) {
         const uint32_t *v = m->objects.data[s].vertices;
-        now->segments.data[s] = (now_segment){{v[0], v[1]}, false};
+        now->segments.data[s] = (now_segment){{v[0], v[1]}, (uint32_t)s, false, false};
     }
     now->segments.count = m->objects.count + 1;
     return FROE_OK;
@@ -63,7 +65,7 @@ uint32_t now_ask(now_state *now, const double from[2], const double to[2]) {
         now->bends.data[first + i] = (now_bend){.piece = {knot, knot, 0, MOTION_FAR}};
     }
     now_segment *s = now->segments.data + segment;
-    *s = (now_segment){{first, first + 1}, false};
+    *s = (now_segment){{first, first + 1}, segment, false, false};
     s->turned = now_compare(now, (name_point){first, NAME_VERTEX}, (name_point){first + 1, NAME_VERTEX}) > 0;
     return segment;
 }

@@ -28,6 +28,7 @@ typedef struct now_course {
 /** What is needed less often: the place of the piece, and the coefficients of s^2. */
 typedef struct now_bend {
     double x, y;
+    double z[3], error; /**< in space: the height, as x and y of a course, and how far off it is at most */
     motion_piece piece;
 } now_bend;
 
@@ -45,8 +46,19 @@ enum { NOW_MEMORY_BITS = 10, NOW_MEMORIES = 1 << NOW_MEMORY_BITS };
 
 typedef struct now_segment {
     uint32_t end[2]; /**< vertices */
+    uint32_t origin; /**< the object; of an edge in space 3 object + its number, in the first triangle that has it */
     bool turned;     /**< end[1] is on the left */
+    bool surface;    /**< of a triangle in space: no segment */
 } now_segment;
+
+/** In space: a triangle as the partition takes it, as three edges, which are segments as seen from above, and a
+ * surface. Edges that triangles share are one segment, and the numbers of segments are in the order of triangles. */
+typedef struct now_face {
+    uint32_t vertex[3];
+    uint32_t edge[3]; /**< segments; edge i from corner i on */
+    uint32_t next[3]; /**< 3 object + i: the next triangle with this edge, or FROE_NONE */
+    uint32_t surface; /**< segment */
+} now_face;
 
 /** The numbers that decide where doubles do not: integers of 128 bits, of 320, or dyadic numbers (judge.c). */
 typedef enum now_stage { NOW_SHORT, NOW_WIDE, NOW_DYADIC, NOW_STAGES } now_stage;
@@ -58,7 +70,8 @@ typedef struct now_state {
     double line[2];
     ARRAY(now_course) courses;   /**< [vertex]; the last two are ends of a question */
     ARRAY(now_bend) bends;       /**< [vertex] */
-    ARRAY(now_segment) segments; /**< [object]; the last joins these two */
+    ARRAY(now_segment) segments; /**< in the plane [object]; the last joins these two */
+    ARRAY(now_face) faces;       /**< in space [object] */
     motion_knot asked[2];        /**< where they are */
     now_memory *memories;        /**< of crossings, by a hash of their names */
     num_context context;
@@ -113,6 +126,16 @@ static inline double now_time_of(const now_state *now, int64_t tick) {
     return now->motion->begin + ldexp((double)tick, now->motion->power);
 }
 
+/* face.c */
+/** Numbers the edges and surfaces of the motion's triangles that have no numbers yet. FROE_E_MEMORY. */
+froe_status now_grow_faces(now_state *now);
+/** 1, 0, -1: just after the tick a triangle turns left, is upright for as long as its pieces last, turns right, as seen
+ * from above. */
+int now_area(now_state *now, uint32_t object);
+/** 1, -1: triangle s is above or below t just after the tick. 0: they lie in one plane, or touch, for as long as the
+ * pieces last. REQUIRES: they do not cross, and overlap as seen from above. */
+int now_above(now_state *now, uint32_t s, uint32_t t);
+
 /* course.c */
 /** Looks up the piece that the present tick belongs to. */
 void now_look_up(now_state *now, uint32_t vertex);
@@ -148,6 +171,9 @@ void now_exact_named(now_state *now, name_point p, bool along, exact_point *out)
  * `both`. */
 int now_judge_order(now_state *now, name_point p, name_point q, bool along, bool both);
 int now_judge_side(now_state *now, uint32_t segment, uint32_t vertex, bool along);
+/** Of the third vertex and the line through two; and, in space, of the fourth and the plane through three. */
+int now_judge_turn(now_state *now, const uint32_t vertex[3], bool along);
+int now_judge_volume(now_state *now, const uint32_t vertex[4], bool along);
 /** Whether the second line of a crossing goes on to the left (1) or right (-1) of where the first goes; 0: parallel. */
 int now_judge_lines(now_state *now, name_point crossing, bool along);
 
