@@ -210,8 +210,10 @@ typedef struct froe_kinetic_options {
 } froe_kinetic_options;
 FROE_API froe_kinetic_options froe_kinetic_defaults(void);
 
-/** The partition at the first odd tick of the window. The motion must outlive it. Until it is freed, plans are changed
- * and objects added by the functions below only. FROE_E_ARG, FROE_E_OPTIONS: the order is not one, FROE_E_MEMORY,
+/** The partition at the first odd tick of the window; in space of triangles, which must not cross each other. There it
+ * is made anew whenever time goes on, and events, questions and changes are refused with FROE_E_UNSUPPORTED; a snapshot
+ * answers questions, and is refused where triangles cross. The motion must outlive it. Until it is freed, plans are
+ * changed and objects added by the functions below only. FROE_E_ARG, FROE_E_OPTIONS: the order is not one, FROE_E_MEMORY,
  * FROE_E_CANCELLED.
  * Expected O(n log^2 n + k log n) for n segments with k crossings. */
 FROE_API froe_status froe_kinetic_new(froe_motion *motion, const froe_kinetic_options *options,
@@ -253,7 +255,8 @@ typedef struct froe_event {
 typedef bool froe_event_fn(void *user, const froe_event *event);
 
 /** Lets time go on to `time`, rounded up to an odd tick, and keeps the partition right; `visit` (may be NULL) is called
- * for each event. FROE_E_ARG: the time is before the present or after the window. FROE_E_MEMORY: call again, or free
+ * for each event. FROE_E_ARG: the time is before the present or after the window.
+ * FROE_E_UNSUPPORTED: `visit` in space. FROE_E_MEMORY: call again, or free
  * it. FROE_E_CANCELLED: `visit` returned false, and the partition is that right after the event; or the progress
  * function did, and it is that of some moment before `time`. Expected polylogarithmic in n for each event, if the
  * motion does not depend on the order, and no coordinate is beyond 2^480: then the partition is made anew for each. */
@@ -343,9 +346,10 @@ typedef struct froe_snapshot_options {
 FROE_API froe_snapshot_options froe_snapshot_defaults(void);
 
 typedef struct froe_snapshot {
-    froe_tree *tree; /**< built by the method `cylindrical`, in the same order of cuts, over a scene of its own. Object
+    froe_tree *tree;     /**< built by the method `cylindrical`, in the same order of cuts (in space with
+                        edges=given), over a scene of its own. Object
                         i of the scene is the i-th of those that are there; tags are the motion's. The caller's */
-    froe_places *places; /**< NULL if not asked for. The caller's */
+    froe_places *places; /**< NULL if not asked for, and in space. The caller's */
     size_t rounded;      /**< vertices that are not where the tree has them, but less than a double's last place off */
     bool alike; /**< the tree has, node for node, the cuts of the partition, as if nothing had been rounded, and as if
                    the partition stood at the tick. Not where something coincides at the tick and not just after it, and

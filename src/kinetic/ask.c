@@ -12,6 +12,7 @@
 static froe_status check_question(froe_kinetic *k, const double *at, const double *to, const void *out,
                                   froe_diagnostic *diag) {
     if (!k || !at || !to || !out) return support_fail_null(diag, "a question to a kinetic partition");
+    if (k->now.motion->dim == 3) return kinetic_refuse_space(diag);
     for (int i = 0; i < 2; i++)
         if (!isfinite(at[i]) || !isfinite(to[i]))
             return support_fail(diag, FROE_E_ARG, "A coordinate of the question is not a finite number.");

@@ -27,7 +27,9 @@ void froe_kinetic_watch(froe_kinetic *k, froe_progress_fn *progress, void *user)
 froe_status kinetic_settle(froe_kinetic *k, froe_diagnostic *diag) {
     if (k->call.stopped && !base_cancelled(&k->call.task)) {
         k->call.stopped = false;
-        for (uint32_t s = 0; s < k->tree.segments.count; s++) {
+        const bool space = k->now.motion->dim == 3;
+        if (space) change_enroll_triangles(k);
+        for (uint32_t s = 0; s < k->tree.segments.count && !space; s++) {
             collinear_forget(k, s);
             for (int i = 0; i < 4; i++) /* certificates of ends may be about pieces of plans that have ended since */
                 cert_forget(&k->certs, k->certs.segments.data[s].end[i / 2] + i % 2);
@@ -47,6 +49,10 @@ froe_status kinetic_begin(froe_kinetic *k, froe_diagnostic *diag) {
     return kinetic_settle(k, diag);
 }
 
+froe_status kinetic_refuse_space(froe_diagnostic *diag) {
+    return support_fail(diag, FROE_E_UNSUPPORTED, "A partition in space does not do that yet.");
+}
+
 /* -------------------------------------------------------------------- start -- */
 
 static uint64_t random_key(const froe_kinetic *k, uint32_t segment) {
@@ -58,9 +64,11 @@ static froe_status grow_tables(froe_kinetic *k) {
     const froe_allocator *alloc = &k->call.alloc;
     const froe_motion *m = k->now.motion;
     ktree *tree = &k->tree;
-    const size_t segments = m->objects.count - tree->segments.count, vertices = m->plans.count - tree->vertices.count;
-    if (now_grow(&k->now) || !array_reserve(alloc, &tree->segments, segments) ||
-        !array_reserve(alloc, &k->certs.segments, segments) || !array_reserve(alloc, &k->collinear.first, segments) ||
+    if (now_grow(&k->now)) return FROE_E_MEMORY;
+    const size_t all = k->now.segments.count - 1; /* without that of questions */
+    const size_t segments = all - tree->segments.count, vertices = m->plans.count - tree->vertices.count;
+    if (!array_reserve(alloc, &tree->segments, segments) || !array_reserve(alloc, &k->certs.segments, segments) ||
+        !array_reserve(alloc, &k->collinear.first, segments) ||
         !array_reserve(alloc, &k->participants.stamps, segments) || !array_reserve(alloc, &tree->vertices, vertices) ||
         !array_reserve(alloc, &k->certs.courses, vertices))
         return FROE_E_MEMORY;
@@ -70,7 +78,7 @@ static froe_status grow_tables(froe_kinetic *k) {
         tree->vertices.data[tree->vertices.count++] = FROE_NONE;
         k->certs.courses.data[k->certs.courses.count++] = FROE_NONE;
     }
-    while (tree->segments.count < m->objects.count) {
+    while (tree->segments.count < all) {
         tree->segments.data[tree->segments.count++] = (ktree_segment){.key = UINT64_MAX, .end = {end, end}};
         k->certs.segments.data[k->certs.segments.count++] = none;
         k->collinear.first.data[k->collinear.first.count++] = FROE_NONE;
@@ -109,9 +117,10 @@ froe_status kinetic_copy(froe_kinetic *k, froe_kinetic **out, froe_diagnostic *d
     if (new_at(k->now.motion, &k->call.alloc, &k->options, k->now.tick, &copy)) return support_fail_memory(diag);
     for (uint32_t s = 0; s < k->tree.segments.count; s++) {
         ktree_segment_at(&copy->tree, s)->key = ktree_segment_at(&k->tree, s)->key;
-        if (ktree_segment_at(&k->tree, s)->alive) change_enroll(copy, s);
+        if (ktree_segment_at(&k->tree, s)->alive && k->now.motion->dim == 2) change_enroll(copy, s);
         call_poll(&copy->call);
     }
+    if (k->now.motion->dim == 3) change_enroll_triangles(copy);
     if (!copy->call.stopped) surgery_restart(copy);
     if (!copy->call.stopped) {
         *out = copy;
@@ -122,19 +131,36 @@ froe_status kinetic_copy(froe_kinetic *k, froe_kinetic **out, froe_diagnostic *d
     return status;
 }
 
-static froe_status start(froe_kinetic *k, froe_diagnostic *diag) {
-    const size_t n = k->tree.segments.count;
+/* The key of an object. In space three before it are for its edges. */
+static uint64_t *key_of(froe_kinetic *k, uint32_t object) {
+    return &ktree_segment_at(&k->tree, now_segment_of(&k->now, object))->key;
+}
+
+static froe_status take_order(froe_kinetic *k, froe_diagnostic *diag) {
+    const size_t n = k->now.motion->objects.count;
+    const uint64_t edges = k->now.motion->dim == 3 ? 3 : 0; /* that come before each surface */
     const uint32_t *order = k->options.order;
     if (order && k->options.epoch)
         return support_fail(diag, FROE_E_OPTIONS, "A given order cannot be drawn anew in epochs.");
-    for (size_t i = 0; order && i < n; i++) {
-        if (order[i] >= n || ktree_segment_at(&k->tree, order[i])->key != UINT64_MAX)
+    for (size_t i = 0; i < n; i++) {
+        if (!order) {
+            *key_of(k, (uint32_t)i) = random_key(k, (uint32_t)i) | edges;
+            continue;
+        }
+        if (order[i] >= n || *key_of(k, order[i]) != UINT64_MAX)
             return support_fail(diag, FROE_E_OPTIONS, "The order has object %u twice, or there is no such object.",
                                 order[i]);
-        ktree_segment_at(&k->tree, order[i])->key = i;
+        *key_of(k, order[i]) = i * (1 + edges) + edges;
     }
-    for (uint32_t s = 0; s < n; s++) {
-        if (!order) ktree_segment_at(&k->tree, s)->key = random_key(k, s);
+    return FROE_OK;
+}
+
+static froe_status start(froe_kinetic *k, froe_diagnostic *diag) {
+    const bool space = k->now.motion->dim == 3;
+    froe_status status = take_order(k, diag);
+    if (status) return status;
+    if (space) change_enroll_triangles(k);
+    for (uint32_t s = 0; s < k->tree.segments.count && !space; s++) {
         change_schedule(k, s);
         if (now_is_alive(&k->now, s)) change_enroll(k, s);
         call_poll(&k->call);
@@ -149,8 +175,8 @@ froe_status froe_kinetic_new(froe_motion *motion, const froe_kinetic_options *op
     BASE_FLOATS_OWN;
     if (!motion || !options || !out) return support_fail_null(diag, __func__);
     if (options->size != sizeof *options) return support_fail_defaults(diag, "froe_kinetic_defaults");
-    if (motion->dim != 2)
-        return support_fail(diag, FROE_E_UNSUPPORTED, "A partition in motion is of segments of the plane.");
+    if (motion->dim == 3 && (options->augmented || options->epoch))
+        return support_fail(diag, FROE_E_UNSUPPORTED, "A partition in space is not augmented, and has no epochs.");
     froe_allocator memory = support_allocator(alloc);
     froe_kinetic *k;
     if (new_at(motion, &memory, options, 1, &k)) return support_fail_memory(diag);
@@ -224,7 +250,14 @@ froe_status froe_kinetic_advance(froe_kinetic *k, double time, froe_event_fn *vi
     if (tick < k->now.tick) return support_fail(diag, FROE_E_ARG, "Time %g has passed.", time);
     const event_watcher watcher = {visit, user};
     const int64_t from = k->now.tick;
+    if (visit && k->now.motion->dim == 3)
+        return support_fail(diag, FROE_E_UNSUPPORTED, "Events of a partition in space are not told yet.");
     froe_status status = kinetic_begin(k, diag);
+    if (!status && k->now.motion->dim == 3 && k->now.tick < tick) {
+        k->now.tick = tick;
+        call_stop(&k->call); /* made anew at the tick */
+        status = kinetic_settle(k, diag);
+    }
     while (!status && k->now.tick < tick) {
         if (!base_progress(&k->call.task, (double)(k->now.tick - from) / (double)(tick - from)))
             return call_fail(&k->call, diag);
@@ -241,6 +274,7 @@ froe_status froe_kinetic_advance(froe_kinetic *k, double time, froe_event_fn *vi
 froe_status froe_kinetic_update(froe_kinetic *k, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!k) return support_fail_null(diag, __func__);
+    if (k->now.motion->dim == 3) return kinetic_refuse_space(diag);
     uint32_t first = (uint32_t)k->tree.segments.count;
     if (grow_tables(k)) return support_fail_memory(diag);
     froe_status status = kinetic_begin(k, diag);
@@ -255,6 +289,7 @@ froe_status froe_kinetic_update(froe_kinetic *k, froe_diagnostic *diag) {
 
 froe_status froe_kinetic_remove(froe_kinetic *k, uint32_t object, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
+    if (k && k->now.motion->dim == 3) return kinetic_refuse_space(diag);
     if (!k || object >= k->tree.segments.count) return support_fail(diag, FROE_E_ARG, "There is no object %u.", object);
     froe_status status = kinetic_begin(k, diag);
     if (status) return status;
@@ -269,6 +304,7 @@ froe_status froe_kinetic_remove(froe_kinetic *k, uint32_t object, froe_diagnosti
 froe_status froe_kinetic_replan(froe_kinetic *k, uint32_t vertex, size_t count, const double *times,
                                 const double *coords, const double *controls, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
+    if (k && k->now.motion->dim == 3) return kinetic_refuse_space(diag);
     if (!k || vertex >= k->tree.vertices.count) return support_fail(diag, FROE_E_ARG, "There is no vertex %u.", vertex);
     const double now = now_time_of(&k->now, k->now.tick);
     double life[2] = {now, now}; /* to the end of the last life of a segment at the vertex */

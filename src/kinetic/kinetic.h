@@ -34,6 +34,8 @@ froe_status kinetic_begin(froe_kinetic *k, froe_diagnostic *diag);
 froe_status kinetic_settle(froe_kinetic *k, froe_diagnostic *diag);
 /** The same segments in the same order at the same time, made from scratch, as a part of the call under way. */
 froe_status kinetic_copy(froe_kinetic *k, froe_kinetic **out, froe_diagnostic *diag);
+/** FROE_E_UNSUPPORTED: what is there in the plane alone. */
+froe_status kinetic_refuse_space(froe_diagnostic *diag);
 /** The first node of each that differs from that of the other, with `certificates` also in these; KTREE_LEAF: none.
  * FROE_E_MEMORY. */
 froe_status kinetic_compare(const froe_kinetic *k, const froe_kinetic *other, bool certificates, uint32_t found[2]);

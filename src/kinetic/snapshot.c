@@ -13,7 +13,7 @@ froe_snapshot_options froe_snapshot_defaults(void) {
 typedef struct snapshot_work {
     froe_kinetic *k;
     uint32_t *objects, *order; /* ids in the motion, by id; positions in it, the first to cut first */
-    size_t count, rounded;
+    size_t count, rounded, dim;
     uint32_t first_rounded; /* id in the motion */
     double *coords;
     uint64_t *tags;
@@ -21,13 +21,15 @@ typedef struct snapshot_work {
 } snapshot_work;
 
 static bool snapshot_new(froe_kinetic *k, bool places, snapshot_work *p) {
+    const size_t all = k->now.motion->objects.count, dim = (size_t)k->now.motion->dim;
     size_t n = 0;
-    for (uint32_t s = 0; s < k->tree.segments.count; s++) n += ktree_segment_at(&k->tree, s)->alive;
-    *p = (snapshot_work){.k = k, .count = n, .first_rounded = FROE_NONE};
+    for (uint32_t o = 0; o < all; o++) n += ktree_segment_at(&k->tree, now_segment_of(&k->now, o))->alive;
+    *p = (snapshot_work){.k = k, .count = n, .dim = dim, .first_rounded = FROE_NONE};
+    places = places && dim == 2;
     if (places) p->places = places_new(&k->call.alloc);
     p->objects = support_calloc(&k->call.alloc, n + 1, sizeof *p->objects);
     p->order = support_calloc(&k->call.alloc, 2 * n + 1, sizeof *p->order);
-    p->coords = support_calloc(&k->call.alloc, 4 * n + 1, sizeof *p->coords);
+    p->coords = support_calloc(&k->call.alloc, dim * dim * n + 1, sizeof *p->coords);
     p->tags = support_calloc(&k->call.alloc, n + 1, sizeof *p->tags);
     return p->objects && p->order && p->coords && p->tags && (p->places || !places);
 }
@@ -36,21 +38,23 @@ static void snapshot_free(snapshot_work *p) {
     const froe_allocator *alloc = &p->k->call.alloc;
     support_free(alloc, p->objects, (p->count + 1) * sizeof *p->objects);
     support_free(alloc, p->order, (2 * p->count + 1) * sizeof *p->order);
-    support_free(alloc, p->coords, (4 * p->count + 1) * sizeof *p->coords);
+    support_free(alloc, p->coords, (p->dim * p->dim * p->count + 1) * sizeof *p->coords);
     support_free(alloc, p->tags, (p->count + 1) * sizeof *p->tags);
     froe_places_free(p->places);
 }
 
 static int by_object_key(void *user, uint32_t a, uint32_t b) {
     const snapshot_work *p = user;
-    return ktree_before(&p->k->tree, p->objects[a], p->objects[b]) ? -1 : 1;
+    const now_state *now = &p->k->now;
+    const uint32_t s = now_segment_of(now, p->objects[a]), t = now_segment_of(now, p->objects[b]);
+    return ktree_before(&p->k->tree, s, t) ? -1 : 1;
 }
 
 static void take_objects(snapshot_work *p) {
     const froe_kinetic *k = p->k;
     uint32_t n = 0;
-    for (uint32_t s = 0; s < k->tree.segments.count; s++) {
-        if (!ktree_segment_at(&k->tree, s)->alive) continue;
+    for (uint32_t s = 0; s < k->now.motion->objects.count; s++) {
+        if (!ktree_segment_at(&k->tree, now_segment_of(&k->now, s))->alive) continue;
         p->objects[n] = s;
         p->tags[n] = k->now.motion->objects.data[s].tag;
         p->order[n] = n;
@@ -64,10 +68,10 @@ static void take_objects(snapshot_work *p) {
 static bool take_places(snapshot_work *p) {
     froe_kinetic *k = p->k;
     for (size_t i = 0; i < p->count; i++)
-        for (uint32_t e = 0; e < 2; e++) {
-            const uint32_t vertex = k->now.segments.data[p->objects[i]].end[e];
-            const bool exact = now_round(&k->now, vertex, p->coords + 4 * i + 2 * e);
-            p->rounded += !exact && k->tree.vertices.data[vertex] == 2 * p->objects[i] + e;
+        for (uint32_t e = 0; e < p->dim; e++) {
+            const uint32_t vertex = k->now.motion->objects.data[p->objects[i]].vertices[e];
+            const bool exact = now_round(&k->now, vertex, p->coords + (p->dim * i + e) * p->dim);
+            p->rounded += !exact && (p->dim == 3 || k->tree.vertices.data[vertex] == 2 * p->objects[i] + e);
             if (!exact && p->first_rounded == FROE_NONE) p->first_rounded = p->objects[i];
             if (p->places) {
                 exact_point at;
@@ -82,14 +86,15 @@ static bool take_places(snapshot_work *p) {
 
 static froe_status build_snapshot_tree(const snapshot_work *p, froe_tree **tree, froe_diagnostic *diag) {
     froe_scene *scene = NULL;
-    froe_status status = froe_scene_new(2, &p->k->call.alloc, &scene);
+    froe_status status = froe_scene_new((int)p->dim, &p->k->call.alloc, &scene);
     if (status) return support_fail_memory(diag);
     froe_objects batch = froe_objects_defaults();
-    batch.kind = FROE_SEGMENT;
+    batch.kind = p->dim == 3 ? FROE_POLYGON : FROE_SEGMENT;
     batch.count = p->count, batch.coords = p->coords, batch.tags = p->tags;
     froe_build_options o = froe_build_defaults();
     o.method = "cylindrical";
     o.leaf = 0;
+    if (p->dim == 3) o.settings = "edges=given";
     o.order = p->order, o.order_count = p->count;
     o.progress = p->k->options.progress, o.user = p->k->options.user;
     status = froe_scene_add(scene, &batch, diag);
@@ -113,6 +118,7 @@ typedef struct snapshot_comparison {
     const froe_scene *scene;
     uint32_t *index;     /* of the motion's objects in the scene */
     uint32_t *originals; /* of the scene's objects: the first that is equal */
+    uint32_t *vertices;  /* in space: of the scene, by vertex of the motion */
     ARRAY(snapshot_twins) stack;
     bool short_of_memory;
 } snapshot_comparison;
@@ -125,8 +131,29 @@ static uint32_t snapshot_corner(const snapshot_comparison *c, uint32_t object, u
     return froe_scene_corner(c->scene, object, end);
 }
 
+/* Are the two ends of an edge in space those vertices of the scene? */
+static bool joins_corners(const snapshot_comparison *c, uint32_t segment, uint32_t u, uint32_t v) {
+    const uint32_t *end = c->k->now.segments.data[segment].end;
+    const uint32_t a = c->vertices[end[0]], b = c->vertices[end[1]];
+    return (a == u && b == v) || (a == v && b == u);
+}
+
+static bool is_crossing(const snapshot_comparison *c, uint32_t s, uint32_t t, const froe_cut *cut) {
+    uint32_t a[2], b[2];
+    froe_scene_edge(c->scene, cut->id[0], a);
+    froe_scene_edge(c->scene, cut->id[1], b);
+    return (joins_corners(c, s, a[0], a[1]) && joins_corners(c, t, b[0], b[1])) ||
+           (joins_corners(c, t, a[0], a[1]) && joins_corners(c, s, b[0], b[1]));
+}
+
 /* Is a cut of the tree the wall that a segment has at one of its ends? */
 static bool is_wall(const snapshot_comparison *c, uint32_t segment, uint32_t wall, const froe_cut *cut) {
+    if (c->vertices) {
+        const now_segment *s = c->k->now.segments.data + segment;
+        if (ktree_is_end(wall))
+            return cut->kind == FROE_CUT_VERTEX && cut->id[0] == c->vertices[s->end[KTREE_END_0 - wall]];
+        return cut->kind == FROE_CUT_CROSSING && is_crossing(c, segment, wall, cut);
+    }
     const uint32_t object = c->index[segment];
     if (ktree_is_end(wall))
         return cut->kind == FROE_CUT_VERTEX && cut->id[0] == snapshot_corner(c, object, KTREE_END_0 - wall);
@@ -147,6 +174,19 @@ static bool is_same(snapshot_comparison *c, snapshot_twins at) {
         push_pair_of_nodes(c, n->child[side], info.child[side]);
         info = froe_tree_node(c->tree, info.child[1 - side]);
     }
+    if (c->vertices) {
+        const now_segment *s = c->k->now.segments.data + n->segment;
+        bool over = true; /* is the positive side of the cut above? */
+        if (s->surface) {
+            if (info.cut.kind != FROE_CUT_OBJECT || info.cut.id[0] != c->index[s->origin]) return false;
+            over = now_area((now_state *)&c->k->now, s->origin) > 0;
+        } else if (info.cut.kind != FROE_CUT_EDGE || !joins_corners(c, n->segment, info.cut.id[0], info.cut.id[1])) {
+            return false;
+        }
+        push_pair_of_nodes(c, n->child[over ? KTREE_UP : KTREE_DOWN], info.child[1]);
+        push_pair_of_nodes(c, n->child[over ? KTREE_DOWN : KTREE_UP], info.child[0]);
+        return true;
+    }
     const uint32_t object = c->index[n->segment], cut = info.cut.id[0];
     if (info.cut.kind != FROE_CUT_OBJECT || c->originals[cut] != c->originals[object]) return false;
     const bool reversed = snapshot_corner(c, cut, 0) != snapshot_corner(c, object, 0);
@@ -158,17 +198,24 @@ static bool is_same(snapshot_comparison *c, snapshot_twins at) {
 
 static froe_status compare_with_tree(const snapshot_work *p, const froe_tree *tree, bool *alike) {
     const froe_allocator *alloc = &p->k->call.alloc;
-    const size_t all = p->k->tree.segments.count;
+    const size_t all = p->k->now.motion->objects.count, vertices = p->k->tree.vertices.count;
     snapshot_comparison c = {.k = p->k, .tree = tree, .scene = froe_tree_scene(tree)};
     c.index = support_calloc(alloc, all + 1, sizeof *c.index);
     c.originals = support_calloc(alloc, p->count + 1, sizeof *c.originals);
-    c.short_of_memory = !c.index || !c.originals || scene_originals(c.scene, alloc, c.originals);
-    for (uint32_t i = 0; i < p->count && !c.short_of_memory; i++) c.index[p->objects[i]] = i;
+    if (p->dim == 3) c.vertices = support_calloc(alloc, vertices + 1, sizeof *c.vertices);
+    c.short_of_memory =
+        (p->dim == 3 && !c.vertices) || !c.index || !c.originals || scene_originals(c.scene, alloc, c.originals);
+    for (uint32_t i = 0; i < p->count && !c.short_of_memory; i++) {
+        c.index[p->objects[i]] = i;
+        for (uint32_t e = 0; e < 3 && c.vertices; e++)
+            c.vertices[p->k->now.motion->objects.data[p->objects[i]].vertices[e]] = snapshot_corner(&c, i, e);
+    }
     if (!c.short_of_memory)
         push_pair_of_nodes(&c, ktree_node_at(&p->k->tree, KTREE_ROOT)->child[0], froe_tree_root(tree));
     *alike = true;
     while (c.stack.count && *alike && !c.short_of_memory) *alike = is_same(&c, c.stack.data[--c.stack.count]);
     array_free(alloc, &c.stack);
+    if (c.vertices) support_free(alloc, c.vertices, (vertices + 1) * sizeof *c.vertices);
     support_free(alloc, c.index, (all + 1) * sizeof *c.index);
     support_free(alloc, c.originals, (p->count + 1) * sizeof *c.originals);
     return c.short_of_memory ? FROE_E_MEMORY : FROE_OK;
@@ -180,10 +227,9 @@ static froe_status make_snapshot(snapshot_work *p, bool refuse, froe_snapshot *o
     take_objects(p);
     if (!take_places(p)) return call_fail(&p->k->call, diag);
     if (refuse && p->rounded)
-        return support_fail_at(
-            diag, FROE_E_UNSUPPORTED, p->first_rounded, FROE_NONE, FROE_NONE,
-            "segment %u: It ends where no double is at this tick. %zu vertices would have to be rounded.",
-            p->first_rounded, p->rounded);
+        return support_fail_at(diag, FROE_E_UNSUPPORTED, p->first_rounded, FROE_NONE, FROE_NONE,
+                               "%s %u: It ends where no double is at this tick. %zu vertices would have to be rounded.",
+                               motion_noun(p->k->now.motion), p->first_rounded, p->rounded);
     froe_status status = build_snapshot_tree(p, &out->tree, diag);
     if (status) return status;
     if (compare_with_tree(p, out->tree, &out->alike)) {

@@ -62,6 +62,31 @@ void change_enroll(froe_kinetic *k, uint32_t segment) {
     certify_turn(k, segment);
 }
 
+/* Edges cut when the first of their triangles does, in the order of its corners, and its surface after them. */
+void change_enroll_triangles(froe_kinetic *k) {
+    now_state *now = &k->now;
+    for (uint32_t s = 0; s < k->tree.segments.count; s++) {
+        ktree_segment *t = ktree_segment_at(&k->tree, s);
+        t->alive = t->here = false;
+        if (!now_is_surface(now, s)) t->key = UINT64_MAX;
+    }
+    for (uint32_t o = 0; o < now->faces.count; o++) {
+        const now_face *f = now->faces.data + o;
+        ktree_segment *surface = ktree_segment_at(&k->tree, f->surface);
+        if (!now_is_alive(now, o)) continue;
+        surface->alive = surface->here = true;
+        for (uint32_t i = 0; i < 3; i++) {
+            ktree_segment *edge = ktree_segment_at(&k->tree, f->edge[i]);
+            now_segment *s = now->segments.data + f->edge[i];
+            const int order =
+                now_compare(now, (name_point){s->end[0], NAME_VERTEX}, (name_point){s->end[1], NAME_VERTEX});
+            const uint64_t key = surface->key - 3 + i;
+            edge->alive = true, edge->here = order != 0, s->turned = order > 0;
+            edge->key = key < edge->key ? key : edge->key;
+        }
+    }
+}
+
 void change_insert(froe_kinetic *k, uint32_t segment) {
     change_enroll(k, segment);
     if (ktree_segment_at(&k->tree, segment)->here) insert_nodes(k, segment);

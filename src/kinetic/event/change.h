@@ -9,6 +9,8 @@
 
 /** Lets a segment take part from now on, if it has a length, without putting it into the tree. */
 void change_enroll(froe_kinetic *k, uint32_t segment);
+/** In space: all triangles that are there take part at the present tick, and no others. */
+void change_enroll_triangles(froe_kinetic *k);
 /** The inverse. */
 void change_unroll(froe_kinetic *k, uint32_t segment);
 /** Lets a segment take part, and puts it into the tree. */

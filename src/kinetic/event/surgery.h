@@ -40,6 +40,10 @@ void surgery_begin(froe_kinetic *k);
 /** A node, or all of a subtree, with their certificates. */
 void surgery_free_node(froe_kinetic *k, uint32_t node);
 void surgery_free_tree(froe_kinetic *k, uint32_t node);
+/** Whether a segment reaches into a cell, or where it passes by. */
+typedef enum surgery_way { SURGERY_INSIDE, SURGERY_BESIDE, SURGERY_ABOVE, SURGERY_BELOW } surgery_way;
+/** The same, and where the segment ends if it reaches into the cell. */
+surgery_way surgery_find(froe_kinetic *k, uint32_t segment, const ktree_cell *cell, uint32_t end[2]);
 /** Where the segment ends in a cell. False: it does not reach into it. */
 bool surgery_clip(froe_kinetic *k, uint32_t segment, const ktree_cell *cell, uint32_t end[2]);
 /** The tree of the segments on the list, those that reach into the cell, made from scratch. Empties the list. */

@@ -82,14 +82,14 @@ void now_exact_along(now_state *now, uint32_t vertex, exact_point *out) {
     exact_vertex(&now->context.arena, now->motion, &now->bends.data[vertex].piece, now->tick, out);
 }
 
-bool now_round(now_state *now, uint32_t vertex, double out[2]) {
+bool now_round(now_state *now, uint32_t vertex, double *out) {
     num_arena *arena = &now->context.arena;
     arena->top = 0;
     exact_point e;
     bool exact = true;
     now_exact_at(now, vertex, &e);
-    for (int i = 0; i < 2; i++) {
-        num_dyadic x = i ? e.y.c[0] : e.x.c[0];
+    for (int i = 0; i < now->motion->dim; i++) {
+        num_dyadic x = i == 2 ? e.z.c[0] : i ? e.y.c[0] : e.x.c[0];
         out[i] = num_dyadic_quotient(arena, x, e.w.c[0]);
         num_dyadic back = num_dyadic_mul(arena, num_dyadic_from(arena, out[i]), e.w.c[0]);
         exact &= !num_dyadic_compare(x, back);

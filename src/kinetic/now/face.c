@@ -1,6 +1,6 @@
-/* face.c: triangles in space just after a tick: their edges and surfaces by number, and which of two is above the other.
+/* face.c: triangles in space just after a tick: edges and surfaces by number, and which of two is above the other.
  *
- *      s  /\              Two triangles that do not cross and overlap as seen from above differ in height by a function
+ *      s  /\             Two triangles that do not cross and overlap as seen from above differ in height by a function
  *     ---/--\--- t       that is linear where they overlap, and changes its sign nowhere. So any corner of the overlap
  *       /____\           where they differ tells which is above: a vertex of one within the other, or where two edges
  *                         cross. If they differ at none of them, they differ nowhere. Each of these is the side of a
@@ -91,7 +91,7 @@ static ball3 place_of(now_state *now, uint32_t vertex) {
     return (ball3){{{s.x, s.error}, {s.y, s.error}, {b->z[0] + t * (b->z[1] + t * b->z[2]), b->error}}};
 }
 
-static ball3 step(ball3 a, ball3 b) {
+static ball3 step_from(ball3 a, ball3 b) {
     for (int k = 0; k < 3; k++) b.c[k] = num_ball_sub(b.c[k], a.c[k]);
     return b;
 }
@@ -104,7 +104,7 @@ static num_ball cross(const ball3 *d, const ball3 *e) {
 static int turn_of(now_state *now, uint32_t a, uint32_t b, uint32_t q) {
     const uint32_t vertex[3] = {a, b, q};
     if (a == q || b == q) return 0;
-    const ball3 from = place_of(now, a), d = step(from, place_of(now, b)), e = step(from, place_of(now, q));
+    const ball3 from = place_of(now, a), d = step_from(from, place_of(now, b)), e = step_from(from, place_of(now, q));
     int sign = num_ball_sign(cross(&d, &e));
     if (sign == 1 || sign == -1) return sign;
     sign = now_judge_turn(now, vertex, false);
@@ -116,7 +116,7 @@ static int volume_of(now_state *now, const uint32_t vertex[4]) {
     const ball3 from = place_of(now, vertex[0]);
     ball3 d[3];
     num_ball sum = {0, 0};
-    for (int i = 0; i < 3; i++) d[i] = step(from, place_of(now, vertex[1 + i]));
+    for (int i = 0; i < 3; i++) d[i] = step_from(from, place_of(now, vertex[1 + i]));
     for (int i = 0; i < 3; i++)
         sum = num_ball_add(sum, num_ball_mul(cross(d + (i + 1) % 3, d + (i + 2) % 3), d[i].c[2]));
     int sign = num_ball_sign(sum);

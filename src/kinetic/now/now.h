@@ -102,6 +102,13 @@ static inline int now_end(const now_state *now, uint32_t segment, int side) {
 static inline uint32_t now_vertex(const now_state *now, uint32_t segment, int side) {
     return now->segments.data[segment].end[now_end(now, segment, side)];
 }
+static inline bool now_is_surface(const now_state *now, uint32_t segment) {
+    return now->segments.data[segment].surface;
+}
+/** The segment that stands for an object: in space its surface. */
+static inline uint32_t now_segment_of(const now_state *now, uint32_t object) {
+    return now->motion->dim == 3 ? now->faces.data[object].surface : object;
+}
 static inline bool now_has_end(const now_state *now, uint32_t segment, uint32_t vertex) {
     const uint32_t *end = now->segments.data[segment].end;
     return end[0] == vertex || end[1] == vertex;
@@ -158,7 +165,7 @@ int64_t now_course_last(now_state *now, uint32_t vertex);
 /** No coordinate of the vertex changes by more in a tick, as long as its piece lasts. */
 double now_speed(now_state *now, uint32_t vertex);
 /** The doubles next to where a vertex is at the tick. True: that is where it is. */
-bool now_round(now_state *now, uint32_t vertex, double out[2]);
+bool now_round(now_state *now, uint32_t vertex, double *out);
 /** Where it is at the tick, and as polynomials from it on. */
 void now_exact_at(now_state *now, uint32_t vertex, exact_point *out);
 void now_exact_along(now_state *now, uint32_t vertex, exact_point *out);

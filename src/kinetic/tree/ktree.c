@@ -132,7 +132,7 @@ void ktree_attach(ktree *tree, uint32_t parent, uint8_t slot, uint32_t node) {
 /* ------------------------------------------------------------------- cells -- */
 
 ktree_cell ktree_plane(void) {
-    return (ktree_cell){{{0, NAME_NONE}, {0, NAME_NONE}}, FROE_NONE, FROE_NONE};
+    return (ktree_cell){{{0, NAME_NONE}, {0, NAME_NONE}}, FROE_NONE, FROE_NONE, FROE_NONE, FROE_NONE};
 }
 
 /* Looks up the name of a wall if it is not known yet. */
@@ -161,6 +161,10 @@ ktree_cell ktree_cell_of(const ktree *tree, uint32_t node) {
 ktree_cell ktree_child_cell(const ktree *tree, const ktree_cell *cell, uint32_t node, int slot) {
     const ktree_node *n = ktree_node_at(tree, node);
     ktree_cell child = *cell;
+    if (now_is_surface(tree->now, n->segment)) {
+        *(slot == KTREE_UP ? &child.floor : &child.ceiling) = n->segment;
+        return child;
+    }
     const name_point left = ktree_wall_name(tree, n->segment, n->wall[KTREE_LEFT]);
     const name_point right = ktree_wall_name(tree, n->segment, n->wall[KTREE_RIGHT]);
     if (slot == KTREE_LEFT) {

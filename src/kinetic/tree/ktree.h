@@ -8,6 +8,9 @@
  *                :______:__/__:_____:                 bottom of a cell are not stored, but found from the nodes
  *                   DOWN  bottom                      above.
  *
+ * In space segments are the edges of triangles, as seen from above. Where a triangle spans its cell, its surface comes
+ * next: a node without walls, whose children are what is above (UP) and below (DOWN) the triangle.
+ *
  * The tree is a function of the order of the segments (their keys) and of where they are. This header knows neither
  * how it is changed when that changes (event/surgery.h) nor how such a change is noticed (certificate/cert.h). It keeps
  * what these two exchange: stamps of what a surgery touched, and the numbers of certificates of regions. */
@@ -44,7 +47,8 @@ typedef struct ktree_node {
 
 typedef struct ktree_cell {
     name_point wall[2];
-    uint32_t top, bottom; /**< segments or FROE_NONE */
+    uint32_t top, bottom;    /**< segments or FROE_NONE */
+    uint32_t ceiling, floor; /**< in space: surfaces, or FROE_NONE */
 } ktree_cell;
 
 typedef struct ktree_end {
