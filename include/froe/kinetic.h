@@ -213,8 +213,8 @@ FROE_API froe_kinetic_options froe_kinetic_defaults(void);
 /** The partition at the first odd tick of the window; in space of triangles, which must not cross each other. There it
  * is made anew whenever time goes on, and events, questions and changes are refused with FROE_E_UNSUPPORTED; a snapshot
  * answers questions, and is refused where triangles cross. The motion must outlive it. Until it is freed, plans are
- * changed and objects added by the functions below only. FROE_E_ARG, FROE_E_OPTIONS: the order is not one, FROE_E_MEMORY,
- * FROE_E_CANCELLED.
+ * changed and objects added by the functions below only. FROE_E_ARG, FROE_E_OPTIONS: the order is not one,
+ * FROE_E_MEMORY, FROE_E_CANCELLED.
  * Expected O(n log^2 n + k log n) for n segments with k crossings. */
 FROE_API froe_status froe_kinetic_new(froe_motion *motion, const froe_kinetic_options *options,
                                       const froe_allocator *alloc, froe_kinetic **out, froe_diagnostic *diag);
