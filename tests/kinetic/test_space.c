@@ -7,6 +7,7 @@
 #include <cmocka.h>
 
 #include "support/fuzz.h"
+#include "support/memory.h"
 #include <froe/kinetic.h>
 
 enum { MOST = 64, WINDOW = 64 };
@@ -106,6 +107,27 @@ static void trees_are_those_of_cylindrical(void **state) {
         }
 }
 
+static froe_status with_memory(void *user, const froe_allocator *alloc) {
+    froe_kinetic *k = NULL;
+    froe_snapshot s = {0};
+    froe_kinetic_options o = froe_kinetic_defaults();
+    froe_status status = froe_kinetic_new(user, &o, alloc, &k, NULL);
+    if (status) return status;
+    status = froe_kinetic_advance(k, WINDOW / 2.0, NULL, NULL, NULL);
+    if (!status) status = froe_kinetic_snapshot(k, NULL, &s, NULL);
+    if (!status) status = froe_kinetic_audit(k, NULL);
+    froe_tree_free(s.tree);
+    froe_kinetic_free(k);
+    return status;
+}
+
+static void memory_may_run_out(void **state) {
+    froe_motion *m = space_new(BODIES, 4, 2);
+    (void)state;
+    test_memory_each(with_memory, m);
+    froe_motion_free(m);
+}
+
 static bool never(void *user, const froe_event *event) {
     (void)user;
     (void)event;
@@ -136,6 +158,7 @@ static void what_is_not_there_is_refused(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(trees_are_those_of_cylindrical),
+        cmocka_unit_test(memory_may_run_out),
         cmocka_unit_test(what_is_not_there_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
