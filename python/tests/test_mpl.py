@@ -39,7 +39,7 @@ def nearest(triangles, matrix, x, y):
 
 
 def wrong_pixels(draw, triangles, view, projection):
-    """How many pixels show another triangle than the nearest one, apart from those beside an edge."""
+    """How many pixels of triangles show another one than the nearest, apart from those beside an edge."""
     figure = pyplot.figure(figsize=(4, 4), dpi=100)
     axes = figure.add_subplot(projection="3d", proj_type=projection)
     axes.view_init(*view)
@@ -54,12 +54,12 @@ def wrong_pixels(draw, triangles, view, projection):
                 [(column + 0.5 + dx, 400 - row - 0.5 + dy) for dx in range(-2, 3) for dy in range(-2, 3)]
             )
             numbers = {nearest(triangles, axes.M, *point) for point in around}
-            if len(numbers) > 1:
+            if len(numbers) > 1 or -1 in numbers:
                 continue
             (number,) = numbers
-            seen += number >= 0
+            seen += 1
             shown = np.abs(np.array([to_rgb(c) for c in [*COLOURS, "white"]]) - image[row, column]).max(axis=1).argmin()
-            wrong += shown != number % 4
+            wrong += shown != number
     pyplot.close(figure)
     assert seen > 5
     return wrong

@@ -47,7 +47,7 @@ def features(geometries: Any) -> Features:
 
 def _of_arrays(shapely: Any, geometries: Any) -> Features:
     """By the functions of shapely 2 for whole arrays."""
-    array = np.asarray(geometries, object).ravel()
+    array = np.array(geometries, object).ravel()  # a copy: shapely 2.0 takes no read-only array
     parts, owner = shapely.get_parts(array, return_index=True)
     while len(parts) and (shapely.get_type_id(parts) > _SIMPLE).any():  # collections within collections
         parts, index = shapely.get_parts(parts, return_index=True)
