@@ -14,7 +14,7 @@
 #include <string.h>
 
 enum { QUERIES_PER_CHUNK = 256 };
-enum { EXPECT_FROM = 7, EXPECT_MOST = 1 << 22 }; /* queries; ids for which room is made beforehand */
+enum { EXPECT_FROM = 7, EXPECT_MOST = 1 << 24 }; /* queries; ids for which room is made beforehand */
 
 /* What one thread finds. */
 typedef struct batch_found {

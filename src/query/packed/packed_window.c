@@ -11,7 +11,7 @@
 #include "tree/packed/table.h"
 #include <string.h>
 
-enum { ALL_OPEN = 15, MOST_STARTS = 9 };
+enum { ALL_OPEN = 15, MOST_STARTS = 9, MANY_VISITS = 64, USUAL_ANSWERS = 64 };
 enum { VISITS_AHEAD = 24, OWNERS_AHEAD = 6 }; /* visits whose blocks are on their way from memory */
 enum { FLOCK = 8, FLOCK_VISITS = 48 };      /* windows of which all visits are found before the first is made; visits */
 enum { NODES_AHEAD = 8, TABLE_AHEAD = 16 }; /* windows */
@@ -199,12 +199,17 @@ static bool reports(froe_query *q, const packed_unsure *u, const packed_window *
     return !enters_left && !enters_level;
 }
 
+/* How many objects begin in the leaves of a visit with an end. */
+static inline uint32_t owners_of(const froe_tree *t, const packed_visit *v) {
+    return packed_block_at(t, v->end)->owner - packed_block_at(t, v->block)->owner;
+}
+
 /* Appends the answers of one visit to query->found. False without memory. */
 static bool answer_window(froe_query *q, const packed_visit *v, const packed_window *w) {
     const packed_header *block = packed_block_at(q->tree, v->block);
     packed_work *work = q->packed;
     if (v->end) {
-        uint32_t from = block->owner, count = packed_block_at(q->tree, v->end)->owner - from;
+        const uint32_t from = block->owner, count = owners_of(q->tree, v);
         q->stats.slices++;
         if (!array_reserve(&q->alloc, &q->found, count)) return false;
         if (count) memcpy(q->found.data + q->found.count, q->tree->packed.owners + from, count * sizeof(uint32_t));
@@ -256,8 +261,21 @@ static inline const packed_visit *make_visit(froe_query *q, size_t i) {
     return work->visits.data + i;
 }
 
+/* Makes room for all answers of many visits, where there is little: an array that grows visit by visit is copied again
+ * and again. False without memory. */
+static bool expect_answers(froe_query *q, size_t from, size_t to) {
+    if (to - from < MANY_VISITS || q->found.capacity - q->found.count >= (to - from) * USUAL_ANSWERS) return true;
+    size_t most = PACKED_LANES;
+    for (size_t i = from; i < to; i++) {
+        const packed_visit *v = make_visit(q, i);
+        most += v->end ? owners_of(q->tree, v) : v->count;
+    }
+    return array_reserve(&q->alloc, &q->found, most);
+}
+
 /* Appends the answers of visits `from` .. `to` - 1 to query->found. False without memory. */
 static bool answer_visits(froe_query *q, size_t from, size_t to, const packed_window *w) {
+    if (!expect_answers(q, from, to)) return false;
     for (size_t i = from; i < to; i++)
         if (!answer_window(q, make_visit(q, i), w)) return false;
     return settle_unsure(q, w);
@@ -275,8 +293,7 @@ froe_status packed_count_range(froe_query *q, const double *lo, const double *hi
     for (size_t i = 0; i < q->packed->visits.count && memory; i++) {
         const packed_visit *v = make_visit(q, i);
         if (v->end)
-            sum += packed_block_at(q->tree, v->end)->owner - packed_block_at(q->tree, v->block)->owner,
-                q->stats.slices++;
+            sum += owners_of(q->tree, v), q->stats.slices++;
         else
             memory = answer_window(q, v, &w);
         sum += q->found.count;
