@@ -80,7 +80,9 @@ typedef struct peer_answers {
     uint32_t *ids;
     size_t *ends; /**< [count]: where the list of each question ends */
     size_t used, room;
-    uint32_t *given; /**< instead of ids: an array that the library has allocated with malloc(); NULL otherwise */
+    uint32_t *given; /**< instead of ids: an array of the library's, which is let go of; NULL otherwise */
+    void *owner;     /**< of that */
+    void (*let_go)(void *owner);
 } peer_answers;
 
 static inline void peer_room(peer_answers *a, size_t more) {
@@ -93,6 +95,11 @@ static inline void peer_room(peer_answers *a, size_t more) {
 static inline void peer_put(peer_answers *a, uint32_t id) {
     peer_room(a, 1);
     a->ids[a->used++] = id;
+}
+
+static inline void peer_let_go(peer_answers *a) {
+    if (a->given) a->let_go(a->owner);
+    a->given = NULL;
 }
 
 /** One more pair of values[0], and its share of the sum of values[1]: whole numbers, exact in doubles. */

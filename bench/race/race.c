@@ -31,7 +31,6 @@ typedef struct run {
     peer_data data;
     race_contestant contestants[RACE_MOST];
     size_t count;
-    peer_answers room;
     const race_task *tasks;
     bool differ;
 } run;
@@ -177,9 +176,20 @@ typedef struct runner {
     void *index;
     bool together;
     double rate[RACE_ROUNDS], *digest;
+    peer_answers room; /* its own: a shared one would be in the caches when another has just written to it */
 } runner;
 
-static double answer(const run *r, const race_task *t, const runner *who, const peer_questions *q, peer_answers *out) {
+static peer_answers new_room(size_t numbers) {
+    return (peer_answers){.values = bench_take(numbers + 2, sizeof(double)),
+                          .ends = bench_take(numbers + 1, sizeof(size_t))};
+}
+
+static void free_room(peer_answers *room) {
+    free(room->values), free(room->ids), free(room->ends);
+}
+
+static double answer(const run *r, const race_task *t, runner *who, const peer_questions *q) {
+    peer_answers *out = &who->room;
     void *index = who->index;
     double start = now();
     out->used = 0;
@@ -208,9 +218,9 @@ static double answer_share(run *r, const race_task *t, runner *who, size_t share
                               .together = who->together,
                               .numbers = t->numbers + first,
                               .directions = t->directions ? t->directions + first : NULL};
-    const double seconds = answer(r, t, who, &q, &r->room);
-    race_digest(&r->scene, &q, &r->room, who->digest + share * t->share * t->k);
-    free(r->room.given), r->room.given = NULL;
+    const double seconds = answer(r, t, who, &q);
+    race_digest(&r->scene, &q, &who->room, who->digest + share * t->share * t->k);
+    peer_let_go(&who->room);
     return seconds;
 }
 
@@ -251,9 +261,9 @@ static void race_questions(run *r, const race_task *pattern) {
     runner runners[RACE_MOST + 1];
     size_t count = 0;
     const size_t room = t.share * t.k > RACE_SAMPLE ? t.share * t.k : RACE_SAMPLE; /* questions of race_ask() */
-    r->room.values = realloc(r->room.values, (room + 2) * sizeof(double));
-    r->room.ends = realloc(r->room.ends, (room + 1) * sizeof(size_t));
-    if (t.work != PEER_PAIRS) race_ask(&t, &r->scene, r->contestants, &r->room);
+    peer_answers first = new_room(room);
+    if (t.work != PEER_PAIRS) race_ask(&t, &r->scene, r->contestants, &first);
+    free_room(&first);
     for (size_t i = 0; i < r->count; i++) {
         const race_contestant *c = r->contestants + i;
         if (c->peer->serves(&r->data, t.work)) runners[count++] = (runner){.peer = c->peer, .index = c->index};
@@ -262,10 +272,13 @@ static void race_questions(run *r, const race_task *pattern) {
     memmove(runners + middle + 1, runners + middle, (count - middle) * sizeof *runners);
     runners[middle] = (runner){.peer = r->contestants[0].peer, .index = r->contestants[0].index, .together = true};
     count++;
-    for (size_t i = 0; i < count; i++) runners[i].digest = bench_take(t.share * t.k * 2 * RACE_ROUNDS, sizeof(double));
+    for (size_t i = 0; i < count; i++) {
+        runners[i].digest = bench_take(t.share * t.k * 2 * RACE_ROUNDS, sizeof(double));
+        runners[i].room = new_room(room);
+    }
     run_rounds(r, &t, runners, count);
     report(r, &t, runners, count);
-    for (size_t i = 0; i < count; i++) free(runners[i].digest);
+    for (size_t i = 0; i < count; i++) free(runners[i].digest), free_room(&runners[i].room);
     free(t.numbers), free(t.directions);
 }
 
@@ -320,7 +333,6 @@ static bool race(peer_kind kind, const char *name, size_t n) {
     run r = {.kind = kind, .what = kinds[kind].name, .tasks = kinds[kind].tasks};
     r.scene = race_scene_make(kind, name, n);
     r.data = race_data(&r.scene);
-    r.room.values = bench_take(1000, sizeof(double)), r.room.ends = bench_take(1000, sizeof(size_t));
     enter_froe(&r, options.froe ? options.froe : kinds[kind].froe);
     const size_t ours = r.count;
     if (!options.alone) enter_peers(&r, options.folder);
@@ -330,7 +342,6 @@ static bool race(peer_kind kind, const char *name, size_t n) {
     for (size_t i = 0; i < r.count; i++)
         if (r.contestants[i].index) r.contestants[i].peer->free(r.contestants[i].index);
     for (size_t i = 0; i < ours; i++) race_froe_free((peer *)(uintptr_t)r.contestants[i].peer);
-    free(r.room.values), free(r.room.ids), free(r.room.ends);
     race_scene_free(&r.scene);
     return !r.differ;
 }
