@@ -6,8 +6,8 @@
 Either puts _core.abi3.so beside src/froe/__init__.py. Then PYTHONPATH=src uses the package in place.
 
 Flags that change what + - * / and sqrt give come last and are turned off: setuptools takes flags from the
-interpreter's own build and from CFLAGS. No symbol of the core is visible from outside: several copies of froe may
-live in one process.
+interpreter's own build and from CFLAGS. The -g that Debian's brings would make the wheel several times as large. No
+symbol of the core is visible from outside: several copies of froe may live in one process.
 """
 
 import os
@@ -26,7 +26,7 @@ EMBEDDED = ("support/page.css", "formats/motion/player.css", "formats/motion/pla
 VERSION = re.search(r"project\(froe VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
 
 ARITHMETIC = ["-ffp-contract=off", "-fno-fast-math", "-fno-math-errno"]
-FLAGS = ["-std=c11", "-O3", "-fvisibility=hidden", "-pthread"] + ARITHMETIC
+FLAGS = ["-std=c11", "-O3", "-g0", "-fvisibility=hidden", "-pthread"] + ARITHMETIC
 MACROS = [("FROE_API", ""), ("FROE_VERSION", f'"{VERSION}"'), ("_POSIX_C_SOURCE", "200809L")]
 
 

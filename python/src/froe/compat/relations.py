@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 Floats = npt.NDArray[np.float64]
 Integers = npt.NDArray[np.int64]
 
-EXACT = ("intersects", "covers", "covered_by", "dwithin")
+EXACT = ("intersects", "dwithin")
 
 
 class Relations:
