@@ -22,7 +22,8 @@ static struct {
 
 static void on_crash(int number) {
     static const char said[] =
-        ": The library that reads this format crashed. The file is broken, or beyond the library.\n";
+        ": The library that reads this format crashed. The file is broken, beyond the library, or needs more memory "
+        "than there is.\n";
     (void)number;
     const char *name = crash_guard.name;
     const bool told = write(STDERR_FILENO, "froe: ", strlen("froe: ")) > 0 &&
