@@ -412,6 +412,30 @@ static void flat_boxes_at_doubles_in_a_row_stay_together(void **state) {
     froe_scene_free(scene);
 }
 
+/* Triangles whose products of three coordinates are beyond doubles in part: a plane's distance that was infinite said
+ * that the triangle is nowhere in a cell, and the tree lacked it there. */
+static void triangles_near_the_end_of_doubles_are_listed_where_they_are(void **state) {
+    enum { COUNT = 200 };
+    static double c[9 * COUNT];
+    size_t starts[COUNT + 1] = {0};
+    (void)state;
+    for (int exponent = 336; exponent <= 346; exponent++) {
+        froe_objects o = froe_objects_defaults();
+        froe_build_options b = options(8, NULL, 1);
+        froe_scene *scene;
+        froe_tree *tree = NULL;
+        for (size_t i = 0; i < COUNT; i++) starts[i + 1] = 3 * (i + 1);
+        for (uint32_t i = 0; i < 9 * COUNT; i++) c[i] = ldexp(32 * trees_unit(3, i) - 16, exponent);
+        o.kind = FROE_POLYGON, o.count = COUNT, o.coords = c, o.starts = starts;
+        assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+        assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
+        assert_int_equal(froe_build(scene, &b, &tree, NULL), FROE_OK);
+        assert_audited(tree, "triangles near the end of doubles");
+        froe_tree_free(tree);
+        froe_scene_free(scene);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_tree_is_the_same_for_any_number_of_threads),
@@ -424,6 +448,7 @@ int main(void) {
         cmocka_unit_test(without_memory_for_medians_there_is_no_other_tree),
         cmocka_unit_test(jobs_keep_a_budget_to_the_piece_and_can_be_cancelled),
         cmocka_unit_test(flat_boxes_at_doubles_in_a_row_stay_together),
+        cmocka_unit_test(triangles_near_the_end_of_doubles_are_listed_where_they_are),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,6 +4,7 @@
  * the axis. In doubles s is off by 3u in proportion, so a coordinate by at most 6u (|p| + |q|): bounds are moved out by
  * 2^-50 of that. */
 #include "build/index/surface.h"
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -133,7 +134,7 @@ static bool misses(const plane *a, const space_item *b) {
         reach += fabs(a->n[k]) * h;
         size += fabs(w) + h;
     }
-    return fabs(value) - reach > a->doubt * size + 0x1p-900;
+    return fabs(value) <= DBL_MAX && fabs(value) - reach > a->doubt * size + 0x1p-900; /* infinite: it says nothing */
 }
 
 /* Clips both copies of a triangle, one for each side; is anything left there? */
