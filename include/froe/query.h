@@ -139,6 +139,34 @@ FROE_API froe_status froe_query_locate(froe_query *query, const double *point, f
  */
 FROE_API froe_status froe_query_groups(froe_query *query, const double *point, froe_list *out, froe_diagnostic *diag);
 
+/* ---------------------------------------------------------------- relations -- */
+
+/** How a group lies to a range, or to another group. Both are closed sets: a group is the points that
+ * froe_query_groups() finds it at, so that its border belongs to it, and rings that overlap count by parity. */
+typedef enum froe_relation {
+    FROE_MEETS = 0,  /**< the two have a point in common; a touch is enough */
+    FROE_WITHIN = 1, /**< every point of the group is one of the range: it may touch the range's border from within */
+    FROE_COVERS = 2, /**< every point of the range is one of the group: it may touch the group's border from within */
+    FROE_RELATION_COUNT = 3
+} froe_relation;
+/** "meets", "within", "covers"; NULL for other numbers. */
+FROE_API const char *froe_relation_name(froe_relation relation);
+
+/** The groups of the plane that meet a range, lie within it, or cover it, ascending; exactly. A range is taken whole,
+ * however thin: a box of equal bounds is a point, a hull of points on one line a segment. Groups without objects have
+ * no points, and no relation to anything.
+ *
+ * Prepares what froe_query_groups() does, and for FROE_WITHIN 4 bytes for each object. After that, FROE_MEETS and
+ * FROE_WITHIN cost what froe_query_range() does, and FROE_COVERS also O(log) for each border piece of the covering
+ * groups that meets the range.
+ *
+ * FROE_E_INPUT as froe_query_range(); FROE_E_MEMORY. FROE_E_UNSUPPORTED: as froe_query_groups(); halfspaces; eps above
+ * 0; rays, but for FROE_MEETS; for FROE_COVERS balls and capsules of a radius above 0, and ranges that meet a box, a
+ * ball or a hull of the group that may cover it (diag names the object); for FROE_WITHIN groups with balls in anything
+ * but boxes. */
+FROE_API froe_status froe_query_groups_range(froe_query *query, const froe_range *range, froe_relation relation,
+                                             froe_list *out, froe_diagnostic *diag);
+
 /* --------------------------------------------------------------------- ray -- */
 
 /** Where a ray meets an object first: at origin + t * direction. */
@@ -270,6 +298,25 @@ FROE_API froe_status froe_batch_locate(froe_query *query, const double *points, 
 /** points: 2 doubles each. The ids of the answers are those of groups. */
 FROE_API froe_status froe_batch_groups(froe_query *query, const double *points, size_t count,
                                        const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag);
+/** The ids of the answers are those of groups, ascending for each range. */
+FROE_API froe_status froe_batch_groups_range(froe_query *query, const froe_range *ranges, size_t count,
+                                             froe_relation relation, const froe_batch_options *options,
+                                             froe_answers *out, froe_diagnostic *diag);
+/** ... of boxes alone: 4 doubles each, as for froe_batch_boxes(). */
+FROE_API froe_status froe_batch_groups_boxes(froe_query *query, const double *boxes, size_t count,
+                                             froe_relation relation, const froe_batch_options *options,
+                                             froe_answers *out, froe_diagnostic *diag);
+/** The same with groups as questions: polygons with holes, paths, sets of points. Answers i are the groups of `query`
+ * that meet group i of `questions`, lie within it, or cover it. `questions` is a context of a tree of the plane, of any
+ * builder; it may be of the same tree, or `query` itself. A question without objects has no answers.
+ *
+ * FROE_MEETS costs a range query for each object of a question, and locates points of what its bounds hold.
+ * FROE_WITHIN and FROE_COVERS follow the borders of both groups and cost a few microseconds for each piece near them.
+ * FROE_E_UNSUPPORTED: as froe_query_groups_range(), of either tree; for FROE_WITHIN and FROE_COVERS boxes, balls and
+ * hulls on either side (diag->object is the question). */
+FROE_API froe_status froe_batch_groups_join(froe_query *query, const froe_query *questions, froe_relation relation,
+                                            const froe_batch_options *options, froe_answers *out,
+                                            froe_diagnostic *diag);
 /** objects: count of them, the caller's; on failure they may hold anything. */
 FROE_API froe_status froe_batch_vertical(froe_query *query, const double *points, size_t count, int direction,
                                          const froe_batch_options *options, uint32_t *objects, froe_diagnostic *diag);

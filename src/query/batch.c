@@ -6,6 +6,7 @@
  */
 #include "base/floats.h"
 #include "query/check.h"
+#include "query/groups/relation.h"
 #include "query/packed/packed.h"
 #include "query/packed/space.h"
 #include "query/point/areas.h"
@@ -45,8 +46,10 @@ struct batch {
     ask_fn *ask;
     ask_in_fn *ask_in; /* instead: leaves of many points are found at once */
     const query_areas *areas;
-    const froe_range *ranges; /* or ... */
-    const double *boxes;      /* or ... */
+    query_relating relating, questions; /* of a tree and of the one whose groups are questions */
+    const froe_query *asking;           /* a context of the latter */
+    const froe_range *ranges;           /* or ... */
+    const double *boxes;                /* or ... */
     const double *points, *directions;
     double limit; /* t_max; bound */
     size_t k;
@@ -139,6 +142,26 @@ static froe_status ask_groups(const batch *b, froe_query *q, size_t i, froe_diag
     const double *x = point_of(b, b->points, i);
     const froe_status status = query_check_point(x, q->tree->scene->dim, "a point", diag);
     return status ? status : ask_groups_in(b, q, i, NULL, diag);
+}
+
+/* The groups of a relation become what is found. */
+static froe_status take_groups(froe_query *q, froe_status status, froe_diagnostic *diag) {
+    const query_members *groups = &q->work.groups;
+    if (!status) status = clear_found(q, groups->count, diag);
+    for (size_t n = 0; !status && n < groups->count; n++) query_found(q, groups->data[n]);
+    return status;
+}
+
+static froe_status ask_groups_range(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
+    const froe_range range = range_of(b, i);
+    return take_groups(q, query_relate_range(q, &b->relating, &range, diag), diag);
+}
+
+/* The first question of a thread gives it a context of the other tree. */
+static froe_status ask_groups_join(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
+    const froe_status status = q->work.questions ? FROE_OK : froe_query_fork(b->asking, &q->work.questions, diag);
+    if (status) return status;
+    return take_groups(q, query_relate_group(q, &b->relating, &b->questions, (uint32_t)i, diag), diag);
 }
 
 static froe_status ask_ray_all(const batch *b, froe_query *q, size_t i, froe_diagnostic *diag) {
@@ -386,6 +409,11 @@ static froe_status run_batch(batch *b, const froe_batch_options *options, froe_a
     support_free(alloc, b->found, b->workers.count * sizeof *b->found);
     support_free(alloc, b->chunks, b->chunk_count * sizeof *b->chunks);
     support_free(alloc, b->starts, (b->count + 1) * sizeof *b->starts);
+    for (unsigned i = 0; b->asking && i < b->workers.count; i++) {
+        query_groups_work *work = &b->workers.queries[i]->work;
+        froe_query_free(work->questions);
+        work->questions = NULL;
+    }
     query_workers_give(&b->workers);
     return status;
 }
@@ -443,6 +471,47 @@ froe_status froe_batch_groups(froe_query *query, const double *points, size_t co
     else
         b.ask = ask_groups;
     return run_batch(&b, options, out, diag);
+}
+
+/* Groups related to ranges or boxes. */
+static froe_status run_relation(froe_query *query, batch *b, froe_relation relation, const froe_batch_options *options,
+                                froe_answers *out, froe_diagnostic *diag) {
+    if (!query || !out || (b->count && !b->ranges && !b->boxes)) return support_fail_null(diag, "a batch of relations");
+    b->query = query;
+    b->ask = ask_groups_range;
+    const froe_status status = query_relating_begin(query, relation, &b->relating, diag);
+    return status ? status : run_batch(b, options, out, diag);
+}
+
+froe_status froe_batch_groups_range(froe_query *query, const froe_range *ranges, size_t count, froe_relation relation,
+                                    const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
+    batch b = {.ranges = ranges, .count = count};
+    return run_relation(query, &b, relation, options, out, diag);
+}
+
+froe_status froe_batch_groups_boxes(froe_query *query, const double *boxes, size_t count, froe_relation relation,
+                                    const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
+    batch b = {.boxes = boxes, .count = count};
+    return run_relation(query, &b, relation, options, out, diag);
+}
+
+froe_status froe_batch_groups_join(froe_query *query, const froe_query *questions, froe_relation relation,
+                                   const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
+    froe_query *fork = NULL;
+    if (!query || !questions || !out) return support_fail_null(diag, __func__);
+    batch b = {.query = query, .ask = ask_groups_join, .asking = questions};
+    b.count = questions->tree->scene->group_count;
+    froe_status status = query_relating_begin(query, relation, &b.relating, diag);
+    /* What is prepared through a fork is there for all contexts of that tree. */
+    if (!status) status = froe_query_fork(questions, &fork, diag);
+    if (!status) status = query_relating_begin(fork, relation, &b.questions, diag);
+    if (!status) status = query_roster_of(fork, &b.questions.roster, diag);
+    if (!status) status = run_batch(&b, options, out, diag);
+    froe_query_free(fork);
+    return status;
 }
 
 froe_status froe_batch_vertical(froe_query *query, const double *points, size_t count, int direction,

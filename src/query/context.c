@@ -73,6 +73,7 @@ void froe_query_free(froe_query *query) {
     packed_work_free(query->packed, &alloc);
     array_free(&alloc, &query->groups.inside);
     array_free(&alloc, &query->groups.touched);
+    query_groups_work_free(&query->work, &alloc);
     space_work_free(query->space, &alloc);
     array_free(&alloc, &query->found);
     support_free(&alloc, query, sizeof *query);

@@ -10,6 +10,7 @@
  * Answers are gathered without duplicates: query_expect() makes room, query_found() reports. */
 #ifndef FROE_QUERY_CONTEXT_H
 #define FROE_QUERY_CONTEXT_H
+#include "query/groups/work.h"
 #include "query/marks.h"
 #include "query/members.h"
 #include "query/near/near.h"
@@ -33,6 +34,7 @@ typedef enum query_part_id {
     QUERY_PIECES,
     QUERY_CLASSES,
     QUERY_COVERS,
+    QUERY_ROSTER,
     QUERY_PARTS
 } query_part_id;
 
@@ -57,8 +59,10 @@ struct froe_query {
     struct space_work *space;   /**< packed trees of space only (query/packed/space.h) */
     struct {
         query_members inside, touched;
-    } groups;        /**< of a point, while it is looked for (query/point/areas.h) */
-    query_ids found; /**< objects reported by the query in progress, or by the last one */
+        const double *from; /**< the reference whose way to the point was followed; NULL: none was needed */
+    } groups;               /**< of a point, while it is looked for (query/point/areas.h) */
+    query_groups_work work; /**< of relations (query/groups/region.h) */
+    query_ids found;        /**< objects reported by the query in progress, or by the last one */
 };
 
 /** Makes one; *out has what was taken also on failure, for query_part's free (which must bear that). */

@@ -88,7 +88,8 @@ static froe_status find_references(froe_query *q, query_areas *areas, froe_diagn
     if (!areas->slots) return support_fail_memory(diag);
     memset(areas->slots, 0xff, areas->place_count * sizeof *areas->slots);
     q->groups.inside.count = 0;
-    if (!keep_reference(&v, beyond[side])) return support_fail_memory(diag);
+    memcpy(areas->outside, beyond[side], sizeof areas->outside);
+    if (!keep_reference(&v, areas->outside)) return support_fail_memory(diag);
     /* Cells are cut off by a box around the scene, with a margin of an eighth of its size and more. */
     for (int k = 0; k < 2; k++) {
         size = fmax(size, s->hi[k] / 4 - s->lo[k] / 4);

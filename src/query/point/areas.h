@@ -57,7 +57,8 @@ typedef struct query_areas {
     uint8_t *roles; /**< [object] */
     bool borders;   /**< is there any? Otherwise nothing below is made */
     bool solids;
-    uint32_t *slots; /**< [place of a leaf]: AREA_FAR, AREA_SET, or where it begins in `leaves` */
+    uint32_t *slots;   /**< [place of a leaf]: AREA_FAR, AREA_SET, or where it begins in `leaves` */
+    double outside[2]; /**< the first reference, in no group */
     ARRAY(query_reference) references;
     ARRAY(uint64_t) leaves; /**< a query_area_leaf, its borders and others; the next one ... */
     query_sets sets;
@@ -81,11 +82,13 @@ froe_status query_groups_prepare(froe_query *query, const query_areas **out, fro
  * and adds to query->groups.touched those of which `to` is a point or on the border. `from` is on no border. */
 froe_status query_areas_travel(froe_query *query, const query_areas *areas, const double *from, const double *to,
                                froe_diagnostic *diag);
-/** Fills query->groups.inside and .touched for a point in the closed cell of a leaf. FROE_E_MEMORY. */
+/** Fills query->groups for a point in the closed cell of a leaf. FROE_E_MEMORY. */
 froe_status query_areas_enter(froe_query *query, const query_areas *areas, const query_leaf *leaf, const double *point);
 /** Prefetches what points in these leaves will read. */
 void query_areas_ask(const query_areas *areas, const query_leaf *leaves, size_t count);
 /** The groups of a point whose leaf is known, unless it is outside of the scene: query->groups.inside. */
 froe_status query_groups_in(froe_query *query, const query_areas *areas, const double *point, const query_leaf *leaf,
                             froe_diagnostic *diag);
+/** ... of any point. */
+froe_status query_groups_at(froe_query *query, const query_areas *areas, const double *point, froe_diagnostic *diag);
 #endif

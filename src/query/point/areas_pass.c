@@ -78,6 +78,7 @@ froe_status query_areas_enter(froe_query *q, const query_areas *areas, const que
         slot & (AREA_FAR | AREA_SET) ? NULL : (const query_area_leaf *)(const void *)(areas->leaves.data + number);
     const query_reference *far = slot & AREA_FAR ? areas->references.data + number : NULL;
     const uint32_t set = there ? there->from.set : far ? far->set : number;
+    q->groups.from = there ? there->from.at : far ? far->at : NULL;
     if (!query_sets_copy(&areas->sets, &q->alloc, set, &q->groups.inside)) return FROE_E_MEMORY;
     if (far) return query_areas_travel(q, areas, far->at, point, NULL);
     if (there) {

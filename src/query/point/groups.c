@@ -36,16 +36,19 @@ froe_status query_groups_prepare(froe_query *query, const query_areas **out, fro
     return query_areas_of(query, out, diag);
 }
 
+froe_status query_groups_at(froe_query *q, const query_areas *areas, const double *point, froe_diagnostic *diag) {
+    query_leaf leaf = {0};
+    if (areas->borders && query_leaf_find(q, point, &leaf)) return support_fail_memory(diag);
+    return query_groups_in(q, areas, point, &leaf, diag);
+}
+
 froe_status froe_query_groups(froe_query *query, const double *point, froe_list *out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     const query_areas *areas;
-    query_leaf leaf = {0};
     if (!query || !point || !out) return support_fail_null(diag, __func__);
     froe_status status = query_groups_prepare(query, &areas, diag);
     if (!status) status = query_check_point(point, 2, "a point", diag);
-    if (status) return status;
-    if (areas->borders && query_leaf_find(query, point, &leaf)) return support_fail_memory(diag);
-    status = query_groups_in(query, areas, point, &leaf, diag);
+    if (!status) status = query_groups_at(query, areas, point, diag);
     if (!status) *out = (froe_list){query->groups.inside.data, query->groups.inside.count};
     return status;
 }
