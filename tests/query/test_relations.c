@@ -203,13 +203,26 @@ static void draw_rectangle(const drawing *w, int (*at)[2]) {
     for (int i = 0; i < 4; i++) at[i][0] = c[i == 1 || i == 2][0], at[i][1] = c[i >= 2][1];
 }
 
+/* A frame around nearly all of the grid, with a small hole, and perhaps an island in it or another hole. */
+static void draw_frame(const drawing *w, uint32_t group, int set) {
+    const int last = w->grid - 1, low = (int)world_below(w->d, 2);
+    const int frame[4][2] = {{low, 0}, {last, 0}, {last, last}, {low, last}};
+    int at[4][2];
+    add_segments(w, group, 100 + group, frame, 4, true, true, set);
+    for (uint32_t holes = 1 + world_below(w->d, 2); holes > 0; holes--) {
+        const int x = (int)world_below(w->d, (uint32_t)last), y = (int)world_below(w->d, (uint32_t)last);
+        for (int i = 0; i < 4; i++) at[i][0] = x + (i == 1 || i == 2), at[i][1] = y + (i >= 2);
+        add_segments(w, group, 100 + group, (const int(*)[2])at, 3 + world_below(w->d, 2), true, true, set);
+    }
+}
+
 /* Rings that cross, repeat and nest; paths without area; points. Sets from `first` on. */
 static void draw_groups(const drawing *w, uint32_t groups, int first) {
     for (uint32_t g = 0; g < groups; g++) {
         uint32_t group;
         int at[8][2];
         assert_int_equal(froe_scene_add_group(w->scene, &(froe_group){.name = "area"}, &group), FROE_OK);
-        const uint32_t style = world_below(w->d, 8), rings = style < 6 ? 1 + world_below(w->d, 3) : 0;
+        const uint32_t style = world_below(w->d, 9), rings = style < 6 ? 1 + world_below(w->d, 3) : 0;
         for (uint32_t r = 0; r < rings; r++) {
             const bool box = world_below(w->d, 2);
             const uint32_t count = box ? 4 : 3 + world_below(w->d, 3);
@@ -221,6 +234,7 @@ static void draw_groups(const drawing *w, uint32_t groups, int first) {
             if (memcmp(at[0], at[2], sizeof at[0]) == 0) at[2][0]++;
             add_segments(w, group, FROE_NONE, (const int(*)[2])at, 3, false, false, first + (int)g);
         }
+        if (style == 8) draw_frame(w, group, first + (int)g);
         if (style == 7) {
             double x[2];
             froe_objects o = froe_objects_defaults();
@@ -346,12 +360,12 @@ static void check_join(uint64_t seed, const map *m, int grid) {
 
 static void ranges_on_small_grids(void **state) {
     (void)state;
-    for (uint64_t seed = 1; seed <= 60; seed++) check_ranges(seed, maps + seed % MAPS, 3 + (int)(seed % 4), 12);
+    for (uint64_t seed = 1; seed <= 60; seed++) check_ranges(seed, maps + seed % MAPS, 3 + (int)(seed % 5), 12);
 }
 
 static void groups_of_two_trees(void **state) {
     (void)state;
-    for (uint64_t seed = 1; seed <= 60; seed++) check_join(seed, maps + seed % MAPS, 3 + (int)(seed % 4));
+    for (uint64_t seed = 1; seed <= 60; seed++) check_join(seed, maps + seed % MAPS, 3 + (int)(seed % 5));
 }
 
 /* ------------------------------------------------------------ other ranges -- */

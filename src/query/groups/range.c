@@ -27,21 +27,12 @@ froe_status query_relating_begin(froe_query *q, froe_relation relation, query_re
 
 /* ------------------------------------------------------------------- meets -- */
 
-/* A point of the range, as near to the scene as a box has one. */
-static void point_of_range(const froe_scene *s, const froe_range *range, double x[2]) {
-    memcpy(x, range->points, 2 * sizeof *x);
-    for (int k = 0; k < 2 && range->shape == FROE_SHAPE_BOX; k++) {
-        const double hi = range->points[2 + k];
-        if (x[k] < s->lo[k]) x[k] = hi < s->lo[k] ? hi : s->lo[k];
-    }
-}
-
+/* A range with a point beyond the bounds of all objects is in no area that it does not meet the border of. */
 static froe_status relate_met(froe_query *q, const query_relating *r, const froe_range *range, froe_diagnostic *diag) {
     const uint32_t *groups = q->tree->scene->groups;
-    double x[2];
-    point_of_range(q->tree->scene, range, x);
-    froe_status status = query_groups_at(q, r->areas, x, diag);
-    for (size_t i = 0; !status && i < q->groups.inside.count; i++)
+    const bool here = query_in_scene(q->tree->scene, range->points);
+    froe_status status = here ? query_groups_at(q, r->areas, range->points, diag) : FROE_OK;
+    for (size_t i = 0; here && !status && i < q->groups.inside.count; i++)
         if (!query_groups_put_once(&q->work, &q->alloc, q->groups.inside.data[i])) return support_fail_memory(diag);
     if (!status) status = query_range_ask(q, range, false, diag);
     for (size_t i = 0; !status && i < q->found.count; i++) {
