@@ -85,6 +85,10 @@ static void ask_range(const asking *a) {
     r.points = points, r.offsets = offsets, r.radius = fabs(fuzz_double(a->bytes));
     if (eps % 4 == 0) r.eps = fabs(fuzz_double(a->bytes));
     ask_walks(a, &r);
+    for (froe_relation relation = 0; relation < FROE_RELATION_COUNT; relation++) {
+        froe_list groups;
+        (void)froe_query_groups_range(a->q, &r, relation, &groups, NULL);
+    }
 }
 
 /* ------------------------------------------------------------------ points -- */
@@ -162,6 +166,8 @@ static void ask_batches(const asking *a) {
     for (int i = 0; i < BATCH * a->dim; i++) x[i] = fuzz_double(a->bytes), d[i] = fuzz_double(a->bytes);
     if (!froe_batch_locate(a->q, x, BATCH, &o, &answers, NULL)) froe_answers_free(&answers);
     if (!froe_batch_groups(a->q, x, BATCH, &o, &answers, NULL)) froe_answers_free(&answers);
+    for (froe_relation relation = 0; relation < FROE_RELATION_COUNT; relation++)
+        if (!froe_batch_groups_join(a->q, a->q, relation, &o, &answers, NULL)) froe_answers_free(&answers);
     if (!froe_batch_near(a->q, x, BATCH, 3, INFINITY, &o, &answers, NULL)) froe_answers_free(&answers);
     if (!froe_batch_ray_all(a->q, x, d, BATCH, INFINITY, &o, &answers, NULL)) froe_answers_free(&answers);
     (void)froe_batch_ray_any(a->q, x, d, BATCH, INFINITY, &o, objects, NULL);

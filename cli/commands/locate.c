@@ -69,10 +69,7 @@ static froe_status answer_groups(const void *given, const cli_asked *asked, cons
     const froe_status status =
         froe_batch_groups(asked->query, cli_block_numbers(block), block->count, &asked->batch, &groups, diag);
     if (status) return status;
-    if (args->query.count) cli_table_put_lists(out, &groups, true);
-    for (size_t i = 0; i < block->count && !args->query.count; i++)
-        for (size_t j = groups.starts[i]; j < groups.starts[i + 1]; j++)
-            cli_table_put(out, &(cli_answer){.at = i, .object = FROE_NONE, .group = groups.ids[j]});
+    cli_table_put_groups(out, &groups, args->query.count);
     froe_answers_free(&groups);
     return FROE_OK;
 }

@@ -10,8 +10,9 @@ typedef struct range_args {
     cli_common common;
     cli_tree_args tree;
     cli_query_args query;
-    int shape, walk;
+    int shape, walk, relation;
     double eps;
+    bool groups;
 } range_args;
 
 static const char *const shapes[] = {[FROE_SHAPE_BOX] = "box",
@@ -26,6 +27,9 @@ static const char *const shapes[] = {[FROE_SHAPE_BOX] = "box",
 
 static const char *const walks[] = {[FROE_WALK_AUTO] = "auto", [FROE_WALK_PLAIN] = "plain",     [FROE_WALK_BOX] = "box",
                                     [FROE_WALK_LCA] = "lca",   [FROE_WALK_CLASSES] = "classes", NULL};
+
+static const char *const relations[] = {
+    [FROE_MEETS] = "meets", [FROE_WITHIN] = "within", [FROE_COVERS] = "covers", NULL};
 
 /* The columns of each shape, in the order of froe_range's points. */
 static const cli_column columns[FROE_SHAPE_COUNT][4] = {
@@ -44,6 +48,11 @@ static const cli_option options[] = {
      .help = "the ranges; - for standard input", .required = true},
     {"shape", 0, CLI_CHOICE, offsetof(range_args, shape), "SHAPE",
      .help = "box (default), ball, simplex, capsule, halfspaces, hull, segment or ray", .choices = shapes},
+    {"groups", 0, CLI_FLAG, offsetof(range_args, groups),
+     .help = "groups with their names, and no objects (plane): areas of maps count as a whole"},
+    {"relation", 0, CLI_CHOICE, offsetof(range_args, relation), "HOW",
+     .help = "of --groups: meets (default), within (the group lies in the range) or covers (the range in the group)",
+     .choices = relations},
     {"eps", 0, CLI_REAL, offsetof(range_args, eps), "E",
      .help = "also allow objects within E times the diameter of the range; faster (default 0: exactly)"},
     {"walk", 0, CLI_CHOICE, offsetof(range_args, walk), "HOW",
@@ -93,7 +102,9 @@ static froe_status answer_range(const void *given, const cli_asked *asked, const
     froe_status status;
     if (ranges && normals && offsets) {
         const size_t count = lay_ranges(args, asked->dim, block, normals, offsets, ranges);
-        status = froe_batch_range(asked->query, ranges, count, &asked->batch, &answers, diag);
+        status = args->groups ? froe_batch_groups_range(asked->query, ranges, count, (froe_relation)args->relation,
+                                                        &asked->batch, &answers, diag)
+                              : froe_batch_range(asked->query, ranges, count, &asked->batch, &answers, diag);
         if (!status && count < block->count)
             status = support_fail_at(diag, FROE_E_INPUT, (uint32_t)count, FROE_NONE, FROE_NONE,
                                      "A simplex has one corner more than there are dimensions.");
@@ -101,7 +112,10 @@ static froe_status answer_range(const void *given, const cli_asked *asked, const
         status = support_fail_memory(diag);
     }
     if (status == FROE_E_UNSUPPORTED) status = diag->status = FROE_E_INPUT; /* of the query, which is to be named */
-    if (!status) cli_table_put_lists(out, &answers, args->query.count);
+    if (!status && args->groups)
+        cli_table_put_groups(out, &answers, args->query.count);
+    else if (!status)
+        cli_table_put_lists(out, &answers, args->query.count);
     froe_answers_free(&answers);
     free(ranges), free(normals), free(offsets);
     return status;
@@ -110,15 +124,18 @@ static froe_status answer_range(const void *given, const cli_asked *asked, const
 static int run_range(const void *given) {
     const range_args *args = given;
     if (args->eps < 0) return cli_fail(CLI_USE, NULL, "--eps: '%g' is not a number >= 0.", args->eps);
-    const cli_queries queries = {
-        .common = &args->common,
-        .tree = &args->tree,
-        .args = &args->query,
-        .columns = columns[args->shape],
-        .kind = args->query.count ? CLI_COUNTS(CLI_SHAPE_NONE)
-                                  : (cli_answer_kind){"query,object", "query,object,group,name,id", CLI_SHAPE_OBJECT},
-        .answer = answer_range,
-        .given = args};
+    if (args->relation && !args->groups) return cli_fail(CLI_USE, NULL, "--relation: It needs --groups.");
+    const cli_answer_kind objects = {"query,object", "query,object,group,name,id", CLI_SHAPE_OBJECT},
+                          groups = {"query,group,name", "query,group,name,id", CLI_SHAPE_NONE};
+    const cli_queries queries = {.common = &args->common,
+                                 .tree = &args->tree,
+                                 .args = &args->query,
+                                 .columns = columns[args->shape],
+                                 .kind = args->query.count ? CLI_COUNTS(CLI_SHAPE_NONE)
+                                         : args->groups    ? groups
+                                                           : objects,
+                                 .answer = answer_range,
+                                 .given = args};
     return cli_queries_run(&queries);
 }
 
@@ -133,11 +150,15 @@ const cli_command cli_command_range = {
         "ball x,y,r; capsule ax,ay,bx,by,r; segment ax,ay,bx,by; ray ox,oy,dx,dy. Of simplex and hull, query,x,y, "
         "each row is a corner; of halfspaces, query,nx,ny,c, each row is a halfspace n . x <= c; rows of one query "
         "follow each other.\n\n"
+        "With --groups, lines query,group,name: the groups that meet the range, or with --relation those that lie in "
+        "it "
+        "or cover it. A group of closed rings is an area, holes left out, and its border belongs to it.\n\n"
         "With --columns, each line has the columns that are named there. The command has query, object, group, name "
         "and id. " CLI_COLUMNS_ABOUT
         "With --json a summary takes the place of the answers: how many there are, and what was visited for them.",
     .examples = "froe range floor.geojson --queries windows.csv\n"
-                "froe range floor.geojson --queries discs.csv --shape ball --count\n",
+                "froe range floor.geojson --queries discs.csv --shape ball --count\n"
+                "froe range countries.geojson --queries windows.csv --groups --relation covers\n",
     .parts = parts,
     .defaults = &(
         const range_args){.common = CLI_COMMON_DEFAULTS, .tree = CLI_TREE_DEFAULTS, .query.table = CLI_TABLE_DEFAULTS},

@@ -174,15 +174,24 @@ void cli_sort_answers(froe_answers *answers) {
     }
 }
 
-void cli_table_put_lists(cli_table *table, froe_answers *answers, bool count) {
-    if (!count) cli_sort_answers(answers);
+/* Answers i are ids of objects, or of groups. */
+static void put_lists(cli_table *table, const froe_answers *answers, bool groups, bool count) {
     for (size_t i = 0; i < answers->queries; i++) {
         const size_t first = answers->starts[i], end = answers->starts[i + 1];
         cli_answer a = {.at = i, .object = FROE_NONE, .group = FROE_NONE, .count = end - first};
         if (count) cli_table_put(table, &a);
         for (size_t j = first; j < end && !count; j++) {
-            a.object = answers->ids[j];
+            *(groups ? &a.group : &a.object) = answers->ids[j];
             cli_table_put(table, &a);
         }
     }
+}
+
+void cli_table_put_lists(cli_table *table, froe_answers *answers, bool count) {
+    if (!count) cli_sort_answers(answers);
+    put_lists(table, answers, false, count);
+}
+
+void cli_table_put_groups(cli_table *table, const froe_answers *answers, bool count) {
+    put_lists(table, answers, true, count);
 }

@@ -86,6 +86,8 @@ int cli_table_open(const cli_common *common, const cli_table_args *args, const c
 void cli_table_put(cli_table *table, const cli_answer *answer);
 /** All answers of a batch, by query, then object, or how many each query has. */
 void cli_table_put_lists(cli_table *table, froe_answers *answers, bool count);
+/** The same of answers that are groups, ascending for each query. */
+void cli_table_put_groups(cli_table *table, const froe_answers *answers, bool count);
 /** Puts the ids of each query in ascending order. */
 void cli_sort_answers(froe_answers *answers);
 /** Writes what stands behind the last row. Returns 0, or an exit code after saying why not all was written. */

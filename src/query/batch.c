@@ -479,7 +479,7 @@ static froe_status run_relation(froe_query *query, batch *b, froe_relation relat
     if (!query || !out || (b->count && !b->ranges && !b->boxes)) return support_fail_null(diag, "a batch of relations");
     b->query = query;
     b->ask = ask_groups_range;
-    const froe_status status = query_relating_begin(query, relation, &b->relating, diag);
+    const froe_status status = b->count ? query_relating_begin(query, relation, &b->relating, diag) : FROE_OK;
     return status ? status : run_batch(b, options, out, diag);
 }
 

@@ -240,6 +240,12 @@ static void ask_points(floats_run *r, froe_query *q, const places *p, int dim) {
         MUST(r, froe_query_locate(q, at, &list, NULL));
         floats_note(r, list.ids, 4 * list.count);
         if (!ASK(r, froe_query_groups(q, at, &list, NULL))) floats_note(r, list.ids, 4 * list.count);
+        for (froe_relation relation = 0; relation < FROE_RELATION_COUNT; relation++) {
+            froe_range box = froe_range_defaults();
+            box.points = p->boxes[i];
+            if (!ASK(r, froe_query_groups_range(q, &box, relation, &list, NULL)))
+                floats_note(r, list.ids, 4 * list.count);
+        }
         if (!ASK(r, froe_query_vertical(q, at, 1, &object, NULL))) floats_note(r, &object, 4);
         if (!ASK(r, froe_query_ray(q, at, along, 3, &hit, NULL)))
             floats_note(r, &hit.object, 4), floats_note(r, &hit.t, 8);
@@ -280,6 +286,9 @@ static void ask_batches(floats_run *r, froe_query *q, const places *p, size_t di
     if (!ASK(r, froe_batch_any(q, ranges, POINTS, &o, objects, NULL))) floats_note(r, objects, sizeof objects);
     if (!ASK(r, froe_batch_locate(q, p->at[0], POINTS, &o, &answers, NULL))) note_answers(r, &answers);
     if (!ASK(r, froe_batch_groups(q, p->at[0], POINTS, &o, &answers, NULL))) note_answers(r, &answers);
+    if (!ASK(r, froe_batch_groups_boxes(q, boxes, POINTS, FROE_COVERS, &o, &answers, NULL))) note_answers(r, &answers);
+    if (!ASK(r, froe_batch_groups_range(q, ranges, POINTS, FROE_MEETS, &o, &answers, NULL))) note_answers(r, &answers);
+    if (!ASK(r, froe_batch_groups_join(q, q, FROE_WITHIN, &o, &answers, NULL))) note_answers(r, &answers);
     if (!ASK(r, froe_batch_vertical(q, p->at[0], POINTS, -1, &o, objects, NULL)))
         floats_note(r, objects, sizeof objects);
     if (!ASK(r, froe_batch_ray(q, p->at[0], p->along[0], POINTS, 3, &o, hits, NULL)))

@@ -173,6 +173,19 @@ static froe_status all_groups(froe_query *q, const questions *ask, size_t count,
     return take(froe_batch_groups(q, ask->points, count, o, &answers, why), &answers, out);
 }
 
+static froe_status one_relation(froe_query *q, const questions *ask, size_t i, answers_found *out,
+                                froe_diagnostic *why) {
+    froe_list list = {0};
+    const froe_status status = froe_query_groups_range(q, ask->ranges + i, FROE_WITHIN, &list, why);
+    put_list(out, &list);
+    return status;
+}
+static froe_status all_relations(froe_query *q, const questions *ask, size_t count, const froe_batch_options *o,
+                                 answers_found *out, froe_diagnostic *why) {
+    froe_answers answers;
+    return take(froe_batch_groups_range(q, ask->ranges, count, FROE_WITHIN, o, &answers, why), &answers, out);
+}
+
 static froe_status one_vertical(froe_query *q, const questions *ask, size_t i, answers_found *out,
                                 froe_diagnostic *why) {
     uint32_t object = 0;
@@ -256,6 +269,7 @@ static const struct form {
     {"any", one_any, any_of_all},
     {"locate", one_locate, all_locate},
     {"groups", one_groups, all_groups},
+    {"relation", one_relation, all_relations},
     {"vertical", one_vertical, all_vertical},
     {"ray", one_ray, all_rays},
     {"ray any", one_ray_any, all_rays_any},
