@@ -6,15 +6,15 @@
 
 /* ------------------------------------------------------------------- lines -- */
 
-static bool put_line(query_groups_work *work, const froe_allocator *alloc, int which, const double *u, const double *v,
-                     bool border) {
+static bool keep_line(query_groups_work *work, const froe_allocator *alloc, int which, const double *u, const double *v,
+                      bool border) {
     query_line line = {.border = border};
     memcpy(line.u, u, sizeof line.u);
     memcpy(line.v, v, sizeof line.v);
     return array_push(alloc, &work->lines[which], line);
 }
 
-static const double *corner_of(const query_region *r, uint32_t i) {
+static const double *region_corner(const query_region *r, uint32_t i) {
     return r->corners + 2 * (size_t)(i < r->count ? i : i - r->count);
 }
 
@@ -24,8 +24,8 @@ froe_status query_region_lines(const query_region *r, query_groups_work *work, c
     froe_range edge = froe_range_defaults();
     work->lines[which].count = 0;
     for (uint32_t i = 0; !r->query && i < (r->count > 2 ? r->count : 1); i++) {
-        const double *u = corner_of(r, i), *v = corner_of(r, i + 1);
-        if (query_segments_meet(numbers, p, q, u, v) && !put_line(work, alloc, which, u, v, r->count > 2))
+        const double *u = region_corner(r, i), *v = region_corner(r, i + 1);
+        if (query_segments_meet(numbers, p, q, u, v) && !keep_line(work, alloc, which, u, v, r->count > 2))
             return FROE_E_MEMORY;
     }
     if (!r->query) return FROE_OK;
@@ -36,8 +36,8 @@ froe_status query_region_lines(const query_region *r, query_groups_work *work, c
     for (size_t i = 0; i < r->query->found.count; i++) {
         const uint32_t object = r->query->found.data[i];
         if (s->groups[object] != r->group || scene_form(s, object) != FROE_SEGMENT) continue;
-        if (!put_line(work, alloc, which, scene_point(s, object, 0), scene_point(s, object, 1),
-                      r->areas->roles[object] == AREA_BORDER))
+        if (!keep_line(work, alloc, which, scene_point(s, object, 0), scene_point(s, object, 1),
+                       r->areas->roles[object] == AREA_BORDER))
             return FROE_E_MEMORY;
     }
     return FROE_OK;
@@ -80,7 +80,7 @@ static void sides_in_polygon(const query_region *r, num_context *numbers, const 
                              bool sides[2]) {
     sides[REGION_LEFT] = sides[REGION_RIGHT] = r->count > 2;
     for (uint32_t i = 0; r->count > 2 && i < r->count; i++) {
-        const double *a = corner_of(r, i), *b = corner_of(r, i + 1);
+        const double *a = region_corner(r, i), *b = region_corner(r, i + 1);
         int side = query_turn(numbers, a, b, p);
         if (!side) side = query_turn(numbers, a, b, q);
         const int k = a[0] == b[0]; /* along the edge, the inner side is on the left of its direction */
