@@ -360,13 +360,13 @@ static void check_join(uint64_t seed, const map *m, int grid) {
 
 static void ranges_on_small_grids(void **state) {
     (void)state;
-    for (uint64_t seed = 1; seed <= 60 / EXACT_SHARE; seed++)
+    for (uint64_t seed = 1; seed <= 36 / EXACT_SHARE; seed++)
         check_ranges(seed, maps + seed % MAPS, 3 + (int)(seed % 5), 12);
 }
 
 static void groups_of_two_trees(void **state) {
     (void)state;
-    for (uint64_t seed = 1; seed <= 60 / EXACT_SHARE; seed++) check_join(seed, maps + seed % MAPS, 3 + (int)(seed % 5));
+    for (uint64_t seed = 1; seed <= 36 / EXACT_SHARE; seed++) check_join(seed, maps + seed % MAPS, 3 + (int)(seed % 5));
 }
 
 /* ------------------------------------------------------------ other ranges -- */
@@ -385,7 +385,7 @@ static bool is_near(const edge *e, const int *c, int radius) {
 /* A disc meets a group whose segments come near its centre, or that has its centre, and has one whose corners do. */
 static void discs_and_boxes_without_bounds(void **state) {
     (void)state;
-    for (uint64_t seed = 1; seed <= 40 / EXACT_SHARE; seed++) {
+    for (uint64_t seed = 1; seed <= 20 / EXACT_SHARE; seed++) {
         world_dice d = {seed, 0};
         picture p = {.count = 0};
         const drawing w = {new_scene(), &p, maps, &d, 6};
