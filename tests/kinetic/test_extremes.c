@@ -196,9 +196,39 @@ static void test_contacts_in_the_shortest_window(void **state) {
     froe_motion_free(m);
 }
 
+static bool keep(void *user, const froe_contact *c) {
+    *(froe_contact *)user = *c;
+    return true;
+}
+
+/* A third of the window: no double. Error bounds, which end at 2^-1000, said no more than that it was in the window. */
+static void test_contacts_in_tiny_windows_are_close(void **state) {
+    (void)state;
+    const double windows[] = {0x1p-500, 0x1p-960, 0x1p-1000, 0x1p-1040, 0x1p-1060};
+    for (size_t i = 0; i < sizeof windows / sizeof *windows; i++) {
+        const size_t starts[] = {0, 2, 4, 5, 6};
+        const double end = windows[i], coords[] = {0, 0, 0, 3, 8, 0, 8, 3, 4, 1, 5, 1};
+        const double times[] = {0, end, 0, end, 0, 0};
+        froe_motion_options w = froe_motion_defaults();
+        froe_motion *m = NULL;
+        froe_contact c = {.begin = {-1, -1}};
+        w.begin = 0, w.end = end;
+        assert_int_equal(froe_motion_new(&w, NULL, &m, NULL), FROE_OK);
+        froe_moving b = froe_moving_defaults();
+        b.vertex_count = 4, b.count = 2, b.starts = starts, b.times = times, b.coords = coords;
+        assert_int_equal(froe_motion_add(m, &b, NULL), FROE_OK);
+        assert_int_equal(froe_motion_contacts(m, NULL, keep, &c, NULL), FROE_OK);
+        const double low = c.begin[0], high = c.begin[1];
+        assert_true(c.instant && low <= end / 3 && high >= end / 3);
+        assert_true(high - low <= end * 0x1p-50 + 0x1p-1072);
+        froe_motion_free(m);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_all_is_answered_or_refused),
                                        cmocka_unit_test(test_a_segment_near_the_largest_double),
-                                       cmocka_unit_test(test_contacts_in_the_shortest_window)};
+                                       cmocka_unit_test(test_contacts_in_the_shortest_window),
+                                       cmocka_unit_test(test_contacts_in_tiny_windows_are_close)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

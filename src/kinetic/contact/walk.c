@@ -89,7 +89,15 @@ static bool middle_between(num_arena *arena, num_isolated *before, num_isolated 
     }
 }
 
-/* From share to time: an enclosure of two doubles. */
+/* x 2^-lift, rounded down, or up where `way` is 1. */
+static double lower_by(double x, int lift, int way) {
+    const double y = ldexp(x, -lift), back = ldexp(y, lift);
+    if (way < 0 ? back > x : back < x) return nextafter(y, way * (double)INFINITY);
+    return y;
+}
+
+/* From share to time: an enclosure of two doubles. Small times are raised by a power of 2 meanwhile, since error bounds
+ * of balls do not become as small as they are. */
 static bool time_of_event(num_arena *arena, walk_room *w, int k, meet_time *out) {
     *out = k < 0 ? (meet_time){w->from, w->from} : (meet_time){w->to, w->to};
     if (k < 0 || k == w->event_count) return true;
@@ -97,12 +105,14 @@ static bool time_of_event(num_arena *arena, walk_room *w, int k, meet_time *out)
     frexp(w->to - w->from, &length);
     frexp(fabs(w->from) > fabs(w->to) ? w->from : w->to, &size);
     const int depth = length - size + 55; /* a quarter of the last place of the greater end */
+    const int lift = size < -400 ? -size : 0;
     num_isolated *root = w->events[k].at;
     if (!num_isolated_narrow(arena, root, depth > 1 ? depth : 1)) return false;
-    const num_ball from = num_ball_from(w->from), span = num_ball_sub(num_ball_from(w->to), from);
-    const num_ball t = num_ball_add(from, num_ball_mul(span, num_isolated_ball(root)));
+    const num_ball from = num_ball_from(ldexp(w->from, lift)), to = num_ball_from(ldexp(w->to, lift));
+    const num_ball t = num_ball_add(from, num_ball_mul(num_ball_sub(to, from), num_isolated_ball(root)));
     double low = t.x - t.e, high = t.x + t.e;
     if (t.e > 0) low = nextafter(low, -(double)INFINITY), high = nextafter(high, (double)INFINITY);
+    if (lift) low = lower_by(low, lift, -1), high = lower_by(high, lift, 1);
     *out = (meet_time){low > w->from ? low : w->from, high < w->to ? high : w->to};
     return true;
 }
