@@ -104,7 +104,7 @@ static froe_status count_crossings(const build_job *job, const froe_tree *tree, 
         if (tree->cuts[i].kind == FROE_CUT_CROSSING)
             pairs[count++] = a < b ? (uint64_t)a << 32 | b : (uint64_t)b << 32 | a;
     }
-    base_sort(pairs, count, sizeof *pairs, compare_pairs);
+    base_sort(pairs, (size_t)count, sizeof *pairs, compare_pairs);
     *out = count > 0;
     for (uint64_t i = 1; i < count; i++) *out += pairs[i] != pairs[i - 1];
     support_free(&job->alloc, pairs, tree->cut_count ? tree->cut_count * sizeof *pairs : 1);

@@ -62,7 +62,7 @@ uint32_t now_ask(now_state *now, const double from[2], const double to[2]) {
         motion_knot *knot = now->asked + i;
         *knot = (motion_knot){.at = {at[0], at[1]}, .control = {(double)NAN, (double)NAN}};
         now->courses.data[first + i] = (now_course){.last = INT64_MAX, .x = {at[0]}, .y = {at[1]}};
-        now->bends.data[first + i] = (now_bend){.piece = {knot, knot, 0, MOTION_FAR, NULL}};
+        now->bends.data[first + i] = (now_bend){.piece = {.from = knot, .to = knot, .last = MOTION_FAR}};
     }
     now_segment *s = now->segments.data + segment;
     *s = (now_segment){{first, first + 1}, segment, false, false};

@@ -27,7 +27,7 @@ froe_status packed_work_new(const froe_tree *t, packed_work **out) {
     packed_work *work = support_calloc(&t->alloc, 1, sizeof *work);
     if (!work) return FROE_E_MEMORY;
     work->kernels = packed_kernels_at(0);
-    work->climb_size = t->report.height + 2;
+    work->climb_size = (size_t)t->report.height + 2;
     work->climbs = support_calloc(&t->alloc, PACKED_FLIGHT * work->climb_size, sizeof *work->climbs);
     if (!work->climbs || !array_reserve(&t->alloc, &work->stack, t->report.height + 2) ||
         !array_reserve(&t->alloc, &work->far, t->report.height + 2)) {
