@@ -258,6 +258,9 @@ static froe_status make_motion(pose_reading *r, const froe_motion_read_options *
     froe_diagnostic why;
     froe_motion_options w = froe_motion_defaults();
     w.dim = 3;
+    if (r->first == r->last && isnan(o->from) && isnan(o->to))
+        return support_fail(r->diag, FROE_E_INPUT, "%s: All of the file is at one instant, %.17g.",
+                            support_short(r->path), r->first);
     w.begin = isnan(o->from) ? r->first : o->from;
     w.end = isnan(o->to) ? r->last : o->to;
     froe_status status = froe_motion_new(&w, o->alloc, &r->motion, &why);
@@ -283,7 +286,8 @@ froe_status froe_read_poses(const char *path, const froe_scene *model, const fro
     const froe_motion_read_options standard = froe_motion_read_defaults();
     if (!path || !model || !out) return support_fail_null(diag, __func__);
     if (options && options->size != sizeof *options) return support_fail_defaults(diag, "froe_motion_read_defaults");
-    if (froe_scene_dim(model) != 3) return support_fail(diag, FROE_E_UNSUPPORTED, "The model is not in space.");
+    if (froe_scene_dim(model) != 3)
+        return support_fail(diag, FROE_E_UNSUPPORTED, "%s: The model is not in space.", support_short(path));
     if (!options) options = &standard;
     const double start = formats_seconds();
     pose_reading r = {.path = path, .model = model, .alloc = support_allocator(options->alloc), .diag = diag};

@@ -93,6 +93,8 @@ static void what_is_wrong_is_said_with_line_or_part(void **state) {
         {"body,time,x,y\n", "poses.csv: The table of poses has no column 'z'.", FROE_E_FORMAT},
         {"body,time,x,y,z,qx,qy,qz\n", "poses.csv: The table of poses has no column 'qw'.", FROE_E_FORMAT},
         {"body,time,x,y,z\n", "poses.csv: There are no poses.", FROE_E_INPUT},
+        {"body,time,x,y,z\nlid,2,0,0,0\nfloor,2,0,0,0\n", "poses.csv: All of the file is at one instant, 2.",
+         FROE_E_INPUT},
         {"body,time,x,y,z\nlid,0,0,0,0\nroof,1,0,0,0\n", "poses.csv: line 3: The model has no part 'roof'.",
          FROE_E_INPUT},
         {"body,time,x,y,z\nlid,0,0,nan,0\n", "poses.csv: line 2: There is no finite number, but 'nan'.", FROE_E_INPUT},
@@ -112,6 +114,12 @@ static void what_is_wrong_is_said_with_line_or_part(void **state) {
         assert_string_equal(diag.message, bad[i].message);
         assert_null(m);
     }
+    froe_scene_free(model);
+    froe_diagnostic diag;
+    froe_motion *m = NULL;
+    assert_int_equal(froe_scene_new(2, NULL, &model), FROE_OK);
+    assert_int_equal(froe_read_poses("poses.csv", model, NULL, &m, NULL, &diag), FROE_E_UNSUPPORTED);
+    assert_string_equal(diag.message, "poses.csv: The model is not in space.");
     froe_scene_free(model);
 }
 
