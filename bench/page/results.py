@@ -27,10 +27,10 @@ def quartiles(values):
 
 
 class Results:
-    def __init__(self, folder):
+    def __init__(self, paths):
         self.heads, self.values, self.notes, self.failed, self.objects = {}, {}, {}, {}, {}
         self.order = []  # keys as they came
-        for path in sorted(folder.glob("*.jsonl")):
+        for path in paths:
             for line in path.read_text().splitlines():
                 self.take(path.stem, json.loads(line))
 
