@@ -1,6 +1,7 @@
-/* geos.c: the calls of GEOS that shapely 2 makes for arrays of questions (its src/strtree.c), for race.py where shapely 2
- * is not installed: an STR-packed tree of the geometries' boxes, and the predicate of the question, prepared, for each
- * geometry found. Questions begin as doubles, answers end as numbers of geometries and, for each question, their end. */
+/* geos.c: the calls of GEOS that shapely 2 makes for arrays of questions (its src/strtree.c), for race.py where
+ * shapely 2 is not installed: an STR-packed tree of the geometries' boxes, and the predicate of the question, prepared,
+ * for each geometry found. Questions begin as doubles. Answers end as numbers of geometries, and where those of each
+ * question end. */
 #include <geos_c.h>
 #include <stdint.h>
 #include <stdlib.h>
