@@ -7,7 +7,7 @@ PREFIX ?= /usr/local
 export CMAKE_GENERATOR = $(if $(shell command -v ninja 2>/dev/null),Ninja,Unix Makefiles)
 
 .DEFAULT_GOAL := build
-.PHONY: help build demo test install uninstall bench build-bench bench-peers claims oracle mutations coverage bare docs python site format lint clean
+.PHONY: help build demo test install uninstall bench build-bench bench-peers claims oracle mutations coverage bare docs python web site format lint clean
 
 deps-%:
 	@scripts/deps $*
@@ -76,6 +76,9 @@ docs: build ## tables, outputs and pictures in the documents, as they come out n
 
 python: deps-python ## wheel and source distribution of the Python package, tested: build/python/dist
 	@scripts/python $(BUILD)
+
+web: build deps-web ## froe as WebAssembly and its npm package, tested: build/web/package
+	@scripts/web $(BUILD)
 
 site: build deps-site ## the documents with search, and the functions: build/site/index.html
 	@scripts/site/build $(BUILD)
