@@ -34,9 +34,10 @@ shows. Two others answer the same questions in the same process, and all take tu
 - *shapely 1.8*: its STRtree and prepared geometries, a question at a time in a loop of Python. It takes part up to
   100,000 segments. Where shapely 2 is installed, its bulk calls take part instead.
 
-The segments are short and lie anywhere (seed 1). The questions are other ones in each of the seven rounds. Times are
-processor times on one thread, from arrays of doubles to arrays of answers. The answers to 20 questions of each kind are
-compared, and the number of all pairs. *Boxes only* is what STRtree answers without a predicate; froe then has a tree of
+The segments are short and lie anywhere (seed 1). The questions are other ones in each of the seven rounds; making the
+index and all pairs have three to five. Times are processor times on one thread, from arrays of doubles to arrays of
+answers. The answers to 20 questions of each kind are compared, and the number of all pairs. Of all pairs froe lists each
+once; the calls of GEOS find each from both sides, and every segment with itself, and have no other way. *Boxes only* is what STRtree answers without a predicate; froe then has a tree of
 the bounding boxes. Its answers to the other questions are exact.
 """
 
