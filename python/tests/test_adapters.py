@@ -85,7 +85,7 @@ class PolyData:
 
 def test_polygons_of_pyvista_become_fans():
     tree = froe.from_pyvista(PolyData()).build()
-    assert tree.report["objects"] == 3
+    assert tree.report.objects == 3
     assert tree.ray([[1.5, 0.5, 9], [0.5, 1.5, 9]], [[0, 0, -1]] * 2)[0].tolist() == [0, 1]
 
     class Broken(PolyData):

@@ -65,8 +65,9 @@ PyObject *core_ask_vertical(PyObject *self, PyObject *const *args, Py_ssize_t co
     core_ask ask;
     PyObject *answer = NULL;
     if (!core_ask_begin(&ask, self, "vertical", args, count, 4)) return NULL;
-    const int below = PyObject_IsTrue(args[1]);
-    if (below >= 0 && core_ask_points(&ask, args[0], "points")) answer = ask_vertical(&ask, below ? -1 : 1);
+    bool below;
+    if (core_flag(args[1], &below) && core_ask_points(&ask, args[0], "points"))
+        answer = ask_vertical(&ask, below ? -1 : 1);
     core_ask_end(&ask);
     return answer;
 }
@@ -119,8 +120,7 @@ PyObject *core_ask_pairs(PyObject *self, PyObject *const *args, Py_ssize_t count
     core_ask ask;
     froe_pairs pairs;
     if (!core_ask_begin(&ask, self, "pairs", args, count, 3)) return NULL;
-    const int shared = PyObject_IsTrue(args[0]);
-    bool done = shared >= 0;
+    bool shared, done = core_flag(args[0], &shared);
     if (done) {
         core_ask_run(&ask);
         done = core_ask_ran(&ask, froe_batch_pair_array(ask.query, shared, &ask.options, &pairs, &ask.diag));

@@ -24,5 +24,6 @@ bool core_errors_begin(void);
 bool core_add_memory(PyObject *module);
 bool core_add_scene(PyObject *module);
 bool core_add_tree(PyObject *module);
+bool core_add_read(PyObject *module);
 bool core_add_tree_files(PyObject *module);
 #endif

@@ -53,12 +53,43 @@ bool core_arguments(const char *function, Py_ssize_t given, Py_ssize_t wanted) {
     return false;
 }
 
+static bool is_whole(PyObject *object, const char *name) {
+    return PyIndex_Check(object) || core_fail_as("ArrayError", "%s is %R, and must be a whole number.", name, object);
+}
+
 bool core_unsigned(PyObject *object, const char *name, uint32_t most, uint32_t *out) {
     int overflow;
+    if (!is_whole(object, name)) return false;
     const long long value = PyLong_AsLongLongAndOverflow(object, &overflow);
     if (value == -1 && !overflow && PyErr_Occurred()) return false;
     if (overflow || value < 0 || value > most)
         return core_fail(FROE_E_ARG, "%s is %S, and must be between 0 and %lu.", name, object, (unsigned long)most);
     *out = (uint32_t)value;
     return true;
+}
+
+bool core_long(PyObject *object, const char *name, uint64_t *out) {
+    if (!is_whole(object, name)) return false;
+    PyObject *number = PyNumber_Index(object);
+    if (!number) return false;
+    *out = PyLong_AsUnsignedLongLong(number);
+    Py_DECREF(number);
+    if (*out != UINT64_MAX || !PyErr_Occurred()) return true;
+    PyErr_Clear();
+    return core_fail(FROE_E_ARG, "%s is %S, and must be between 0 and 2^64 - 1.", name, object);
+}
+
+const char *core_text(PyObject *object, const char *name) {
+    Py_ssize_t length;
+    if (!PyUnicode_Check(object)) return (const char *)core_fail_as("ArrayError", "%s must be a str.", name);
+    const char *text = PyUnicode_AsUTF8AndSize(object, &length);
+    if (text && strlen(text) == (size_t)length) return text;
+    PyErr_Clear();
+    return (const char *)core_fail(FROE_E_ARG, "%s has a character that is not allowed: %A.", name, object);
+}
+
+bool core_flag(PyObject *object, bool *out) {
+    const int truth = PyObject_IsTrue(object);
+    *out = truth == 1;
+    return truth >= 0;
 }

@@ -15,7 +15,7 @@ typedef void core_free_fn(void *block);
 PyObject *core_owner(const void *block, size_t bytes, core_free_fn *free_block);
 
 /** `count` items, or rows of `width` items where width is not 0, that lie in memory of `owner` every `stride` bytes
- * (0: one after the other): an object with the buffer protocol. format: one of "i" (int32), "q" (int64), "d", "B". */
+ * (0: one after the other): an object with the buffer protocol. format: one of "i" (int32), "q" (int64), "Q" (uint64), "d", "B". */
 PyObject *core_array(PyObject *owner, const void *data, const char *format, size_t count, size_t width, size_t stride);
 /** Takes memory from core_allocate(), also on failure, for several arrays. */
 PyObject *core_block(void *memory, size_t bytes);

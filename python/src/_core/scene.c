@@ -7,11 +7,12 @@
 #include "memory.h"
 #include "tree.h"
 
-typedef struct core_scene {
+struct core_scene {
     PyObject_HEAD;
     froe_scene *scene;
+    core_tree *keeper; /* the tree that the scene belongs to; NULL: the object's own reference keeps it */
     bool busy;
-} core_scene;
+};
 
 static PyTypeObject *scene_type;
 
@@ -22,30 +23,58 @@ PyObject *core_scene_object(froe_scene *scene) {
         return NULL;
     }
     self->scene = scene;
+    self->keeper = NULL;
     self->busy = false;
     return (PyObject *)self;
 }
 
+PyObject *core_scene_of_tree(core_tree *tree) {
+    const froe_tree *used = core_tree_use(tree);
+    PyObject *object = used ? core_scene_object(NULL) : NULL;
+    if (used && !object) core_tree_leave(tree);
+    if (!object) return NULL;
+    core_scene *self = (core_scene *)object;
+    self->keeper = (core_tree *)Py_NewRef((PyObject *)tree);
+    self->scene = (froe_scene *)froe_tree_scene(used); /* see core_scene_take_growing() */
+    return object;
+}
+
 static void free_scene(PyObject *object) {
-    froe_scene_free(((core_scene *)object)->scene);
+    core_scene *self = (core_scene *)object;
+    if (self->keeper) {
+        core_tree_leave(self->keeper);
+        Py_DECREF((PyObject *)self->keeper);
+    } else {
+        froe_scene_free(self->scene);
+    }
     core_free_object(object);
 }
 
-static bool take(core_scene *self) {
-    if (self->busy) return core_fail_as("BusyError", "Another call is using the scene.");
-    return self->busy = true;
+froe_scene *core_scene_take(core_scene *self) {
+    if (self->busy) return (froe_scene *)core_fail_as("BusyError", "Another call is using the scene.");
+    self->busy = true;
+    return self->scene;
+}
+
+froe_scene *core_scene_take_growing(core_scene *self) {
+    if (!self->keeper) return core_scene_take(self);
+    return (froe_scene *)core_fail(FROE_E_FROZEN, "A tree holds the scene, which can no longer grow.");
+}
+
+void core_scene_give(core_scene *self) {
+    self->busy = false;
 }
 
 /* scene(dim) */
 static PyObject *new_scene(PyObject *module, PyObject *const *args, Py_ssize_t count) {
     (void)module;
     if (!core_arguments("scene", count, 1)) return NULL;
-    const long dim = PyLong_AsLong(args[0]);
-    if (dim == -1 && PyErr_Occurred()) return NULL;
+    uint32_t dim;
+    if (!core_unsigned(args[0], "dim", UINT32_MAX, &dim)) return NULL;
     froe_scene *scene;
-    const froe_status status = froe_scene_new(dim < 2 || dim > FROE_MAX_DIM ? 0 : (int)dim, &core_allocator, &scene);
+    const froe_status status = froe_scene_new(dim > FROE_MAX_DIM ? 0 : (int)dim, &core_allocator, &scene);
     if (status == FROE_E_ARG)
-        return core_fail(status, "The dimension is %ld, and must be between 2 and %d.", dim, FROE_MAX_DIM);
+        return core_fail(status, "The dimension is %u, and must be between 2 and %d.", dim, FROE_MAX_DIM);
     return status ? core_fail(status, "There is no memory for a scene.") : core_scene_object(scene);
 }
 
@@ -93,11 +122,12 @@ static bool take_batch(batch *b, const core_scene *self, PyObject *const *args) 
     froe_objects *o = &b->objects;
     size_t count = 0;
     *o = froe_objects_defaults();
-    o->kind = (froe_kind)PyLong_AsLong(args[0]);
-    o->group = args[8] == Py_None ? FROE_NONE : (uint32_t)PyLong_AsUnsignedLong(args[8]);
-    o->threads = (unsigned)PyLong_AsUnsignedLong(args[9]);
-    if (PyErr_Occurred()) return false;
-    if ((unsigned)o->kind >= FROE_KIND_COUNT) return core_fail(FROE_E_ARG, "There is no kind %d.", (int)o->kind);
+    uint32_t kind = 0;
+    if (!core_unsigned(args[0], "kind", FROE_KIND_COUNT - 1, &kind) ||
+        (args[8] != Py_None && !core_unsigned(args[8], "group", FROE_NONE - 1, &o->group)) ||
+        !core_unsigned(args[9], "threads", UINT32_MAX, &o->threads))
+        return false;
+    o->kind = (froe_kind)kind;
     if (!core_input_take(&b->coords, args[1], "coords", 'd', dim, false) ||
         !core_input_take(&b->indices, args[2], "indices", 'I', 1, true) ||
         !core_input_take(&b->starts, args[3], "starts", 'Q', 1, true) || !count_objects(b, o->kind, &count) ||
@@ -125,11 +155,11 @@ static bool run_batch(core_scene *self, batch *b) {
 
 static PyObject *add(PyObject *object, PyObject *const *args, Py_ssize_t count) {
     core_scene *self = (core_scene *)object;
-    if (!core_arguments("add", count, 11) || !take(self)) return NULL;
+    if (!core_arguments("add", count, 11) || !core_scene_take_growing(self)) return NULL;
     batch b = {0};
     const bool done = take_batch(&b, self, args) && run_batch(self, &b);
     give_batch(&b);
-    self->busy = false;
+    core_scene_give(self);
     return done ? Py_NewRef(Py_None) : NULL;
 }
 
@@ -138,14 +168,13 @@ static PyObject *add(PyObject *object, PyObject *const *args, Py_ssize_t count) 
 /* args: method, purpose, settings, leaf, seed, order, max_pieces, threads, progress */
 static bool take_options(froe_build_options *o, core_input *order, PyObject *const *args) {
     *o = froe_build_defaults();
-    o->method = PyUnicode_AsUTF8AndSize(args[0], NULL);
-    o->purpose = PyUnicode_AsUTF8AndSize(args[1], NULL);
-    o->settings = PyUnicode_AsUTF8AndSize(args[2], NULL);
-    if (args[3] != Py_None) o->leaf = (uint32_t)PyLong_AsUnsignedLong(args[3]);
-    o->seed = PyLong_AsUnsignedLongLong(args[4]);
-    o->max_fragments = PyLong_AsUnsignedLongLong(args[6]);
-    o->threads = (unsigned)PyLong_AsUnsignedLong(args[7]);
-    if (PyErr_Occurred() || !core_input_take(order, args[5], "order", 'I', 1, true)) return false;
+    if (!(o->method = core_text(args[0], "method")) || !(o->purpose = core_text(args[1], "purpose")) ||
+        !(o->settings = core_text(args[2], "settings")) ||
+        (args[3] != Py_None && !core_unsigned(args[3], "leaf", UINT32_MAX, &o->leaf)) ||
+        !core_long(args[4], "seed", &o->seed) || !core_long(args[6], "max_pieces", &o->max_fragments) ||
+        !core_unsigned(args[7], "threads", UINT32_MAX, &o->threads) ||
+        !core_input_take(order, args[5], "order", 'I', 1, true))
+        return false;
     o->order = order->data, o->order_count = order->count;
     return true;
 }
@@ -164,40 +193,31 @@ static PyObject *build(PyObject *object, PyObject *const *args, Py_ssize_t count
     core_scene *self = (core_scene *)object;
     froe_build_options options;
     core_input order = {0};
-    if (!core_arguments("build", count, 9) || !take(self)) return NULL;
+    if (!core_arguments("build", count, 9) || !core_scene_take(self)) return NULL;
     froe_tree *tree = take_options(&options, &order, args) ? run_build(self, &options, args[8]) : NULL;
     core_input_give(&order);
-    self->busy = false;
+    core_scene_give(self);
     return tree ? core_tree_object(tree) : NULL;
-}
-
-static PyObject *add_group(PyObject *object, PyObject *const *args, Py_ssize_t count) {
-    core_scene *self = (core_scene *)object;
-    if (!core_arguments("add_group", count, 1) || !take(self)) return NULL;
-    froe_group group = {.name = PyUnicode_AsUTF8AndSize(args[0], NULL)};
-    uint32_t id = 0;
-    const froe_status status = group.name ? froe_scene_add_group(self->scene, &group, &id) : FROE_OK;
-    self->busy = false;
-    if (!group.name) return NULL;
-    return status ? core_fail(status, "The scene takes no group.") : PyLong_FromUnsignedLong(id);
 }
 
 /* --------------------------------------------------------------------- type -- */
 
-static PyObject *counts(PyObject *object, PyObject *const *args, Py_ssize_t count) {
-    const core_scene *self = (core_scene *)object;
-    (void)args;
-    if (!core_arguments("counts", count, 0)) return NULL;
-    const froe_scene *s = self->scene;
-    return Py_BuildValue("iKKK", froe_scene_dim(s), (unsigned long long)froe_scene_object_count(s),
-                         (unsigned long long)froe_scene_vertex_count(s), (unsigned long long)froe_scene_group_count(s));
-}
-
-static PyMethodDef methods[] = {CORE_METHOD("add", add),
-                                CORE_METHOD("add_group", add_group),
-                                CORE_METHOD("build", build),
-                                CORE_METHOD("counts", counts),
-                                {NULL, NULL, 0, NULL}};
+static PyMethodDef methods[] = {
+    CORE_METHOD("add", add),
+    CORE_METHOD("build", build),
+    CORE_METHOD("add_group", core_scene_add_group),
+    CORE_METHOD("group", core_scene_group),
+    CORE_METHOD("counts", core_scene_counts),
+    CORE_METHOD("bounds", core_scene_bounds),
+    CORE_METHOD("arrays", core_scene_arrays),
+    CORE_METHOD("write", core_scene_write),
+    CORE_METHOD("defects", core_measure_defects),
+    CORE_METHOD("fatness", core_measure_fatness),
+    CORE_METHOD("density", core_measure_density),
+    CORE_METHOD("clutter", core_measure_clutter),
+    CORE_METHOD("directional", core_measure_directional),
+    {NULL, NULL, 0, NULL},
+};
 static PyType_Slot slots[] = {{Py_tp_dealloc, free_scene}, {Py_tp_methods, methods}, {0, NULL}};
 static PyType_Spec spec = {"froe._core.Scene", sizeof(core_scene), 0,
                            Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, slots};

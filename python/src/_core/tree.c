@@ -7,6 +7,7 @@
  * close() frees the tree once the calls that are using it have returned. */
 #include "tree.h"
 #include "errors.h"
+#include "scene.h"
 
 static PyTypeObject *tree_type;
 
@@ -22,6 +23,7 @@ struct core_tree {
     froe_query *idle[IDLE_MOST];
     unsigned idle_count;
     size_t users;
+    int dim;
     bool closed;
 };
 
@@ -84,10 +86,11 @@ PyObject *core_tree_object(froe_tree *tree) {
     PyThread_type_lock lock = self ? PyThread_allocate_lock() : NULL;
     if (!self || !lock) {
         froe_tree_free(tree);
-        if (self) PyObject_Free(self);
+        if (self) core_free_object((PyObject *)self);
         return PyErr_NoMemory();
     }
     self->tree = tree;
+    self->dim = froe_scene_dim(froe_tree_scene(tree));
     self->lock = lock;
     self->first = NULL;
     self->idle_count = 0;
@@ -116,11 +119,25 @@ static PyObject *close_tree(PyObject *object, PyObject *const *args, Py_ssize_t 
 
 /* --------------------------------------------------------------------- type -- */
 
+static PyObject *dim(PyObject *object, PyObject *const *args, Py_ssize_t count) {
+    (void)args;
+    return core_arguments("dim", count, 0) ? PyLong_FromLong(((core_tree *)object)->dim) : NULL;
+}
+
+static PyObject *scene(PyObject *object, PyObject *const *args, Py_ssize_t count) {
+    (void)args;
+    return core_arguments("scene", count, 0) ? core_scene_of_tree((core_tree *)object) : NULL;
+}
+
 static PyMethodDef methods[] = {
     CORE_METHOD("close", close_tree),
     CORE_METHOD("save", core_tree_save),
     CORE_METHOD("to_bytes", core_tree_to_bytes),
+    CORE_METHOD("dim", dim),
+    CORE_METHOD("scene", scene),
     CORE_METHOD("report", core_tree_report),
+    CORE_METHOD("render", core_tree_render),
+    CORE_METHOD("export", core_tree_export),
     CORE_METHOD("audit", core_tree_audit),
     CORE_METHOD("pieces", core_tree_pieces),
     CORE_METHOD("cells", core_tree_cells),

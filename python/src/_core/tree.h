@@ -39,4 +39,6 @@ PyObject *core_tree_audit(PyObject *self, PyObject *const *args, Py_ssize_t coun
 PyObject *core_tree_pieces(PyObject *self, PyObject *const *args, Py_ssize_t count);
 PyObject *core_tree_cells(PyObject *self, PyObject *const *args, Py_ssize_t count);
 PyObject *core_tree_order(PyObject *self, PyObject *const *args, Py_ssize_t count);
+PyObject *core_tree_render(PyObject *self, PyObject *const *args, Py_ssize_t count);
+PyObject *core_tree_export(PyObject *self, PyObject *const *args, Py_ssize_t count);
 #endif

@@ -82,9 +82,9 @@ PyObject *core_tree_report(PyObject *object, PyObject *const *args, Py_ssize_t c
 PyObject *core_tree_audit(PyObject *object, PyObject *const *args, Py_ssize_t count) {
     core_tree *self = (core_tree *)object;
     froe_audit_options options = froe_audit_defaults();
-    if (!core_arguments("audit", count, 3) || !core_unsigned(args[1], "threads", UINT32_MAX, &options.threads))
+    if (!core_arguments("audit", count, 3) || !core_flag(args[0], &options.exact_only) ||
+        !core_unsigned(args[1], "threads", UINT32_MAX, &options.threads))
         return NULL;
-    options.exact_only = PyObject_IsTrue(args[0]) == 1;
     const froe_tree *tree = core_tree_use(self);
     if (!tree) return NULL;
     core_call call;
@@ -153,11 +153,11 @@ static PyObject *cells_object(const froe_cell_arrays *a) {
 /* cells(lo and hi as one array, inner) */
 PyObject *core_tree_cells(PyObject *object, PyObject *const *args, Py_ssize_t count) {
     core_tree *self = (core_tree *)object;
-    if (!core_arguments("cells", count, 2)) return NULL;
+    bool inner;
+    if (!core_arguments("cells", count, 2) || !core_flag(args[1], &inner)) return NULL;
     const froe_tree *tree = core_tree_use(self);
     if (!tree) return NULL;
     const size_t dim = (size_t)froe_scene_dim(froe_tree_scene(tree));
-    const bool inner = PyObject_IsTrue(args[1]) == 1;
     core_input box = {0};
     froe_cell_arrays arrays;
     bool done = core_input_take_count(&box, args[0], "box", 'd', dim, 2, false);
@@ -190,7 +190,8 @@ static bool take_piece(void *user, size_t piece) {
 /* order(eye of dim doubles, parallel): all pieces, back to front */
 PyObject *core_tree_order(PyObject *object, PyObject *const *args, Py_ssize_t count) {
     core_tree *self = (core_tree *)object;
-    if (!core_arguments("order", count, 2)) return NULL;
+    froe_eye from = {.parallel = false};
+    if (!core_arguments("order", count, 2) || !core_flag(args[1], &from.parallel)) return NULL;
     const froe_tree *tree = core_tree_use(self);
     if (!tree) return NULL;
     const size_t dim = (size_t)froe_scene_dim(froe_tree_scene(tree)), pieces = froe_tree_piece_count(tree);
@@ -198,7 +199,6 @@ PyObject *core_tree_order(PyObject *object, PyObject *const *args, Py_ssize_t co
     order_list list = {core_allocate(pieces, sizeof *list.pieces), 0};
     bool done = list.pieces && core_input_take_count(&eye, args[0], "eye", 'd', dim, 1, false);
     if (done) {
-        froe_eye from = {.parallel = PyObject_IsTrue(args[1]) == 1};
         for (size_t i = 0; i < dim && i < 3; i++) from.at[i] = ((const double *)eye.data)[i];
         core_call call;
         froe_diagnostic diag;

@@ -6,7 +6,7 @@
 [1, 2]
 """
 
-from . import errors
+from . import _selftest, errors, measure
 from ._core import version as __version__
 from .adapters.geojson import from_geojson
 from .adapters.geopandas import from_geopandas
@@ -14,27 +14,54 @@ from .adapters.meshes import from_pyvista, from_trimesh
 from .adapters.shapely import from_shapely, to_shapely
 from .answers import Answers
 from .errors import Error
-from .scene import Scene, boxes, points, segments, triangles
+from .pictures import Picture, RenderReport
+from .report import Promise, Report
+from .scene import (
+    Group,
+    ReadReport,
+    Scene,
+    SceneArrays,
+    boxes,
+    compare,
+    generate,
+    points,
+    read,
+    segments,
+    triangles,
+)
 from .tree import Cells, Pieces, Tree, open
 
 __all__ = [
     "Answers",
     "Cells",
     "Error",
+    "Group",
+    "Picture",
     "Pieces",
+    "Promise",
+    "ReadReport",
+    "RenderReport",
+    "Report",
     "Scene",
+    "SceneArrays",
     "Tree",
     "boxes",
+    "compare",
     "errors",
     "from_geojson",
     "from_geopandas",
     "from_pyvista",
     "from_shapely",
     "from_trimesh",
+    "generate",
+    "measure",
     "open",
     "points",
+    "read",
     "segments",
     "to_shapely",
     "triangles",
     "__version__",
 ]
+
+_selftest.check()

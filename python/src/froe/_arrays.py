@@ -15,6 +15,16 @@ Ids = npt.NDArray[np.int32]
 EXACT = 2**53  # whole numbers up to this are doubles
 
 
+def plain(values: npt.ArrayLike, name: str) -> npt.NDArray[Any]:
+    """An array of anything. Rows of different lengths make none, and masks are not passed over."""
+    if isinstance(values, np.ma.MaskedArray) and np.asarray(values.mask).any():
+        raise ArrayError(f"{name} has masked items, which have no value.")
+    try:
+        return np.asarray(values)
+    except ValueError as error:
+        raise ArrayError(f"{name} is no array: {error}.") from None
+
+
 def doubles(values: npt.ArrayLike, name: str) -> Doubles:
     """An array of float64. One that already is is used as it is; others are copied if every number stays the same.
 
@@ -25,7 +35,7 @@ def doubles(values: npt.ArrayLike, name: str) -> Doubles:
         ...
     froe.errors.ArrayError: values has numbers that are no doubles, the first of them 9007199254740993 at (0,).
     """
-    array = np.asarray(values)
+    array = plain(values, name)
     if array.dtype != np.float64:
         array = _converted(array, name)
     return np.require(array, np.float64, ["C", "A"])
@@ -71,7 +81,7 @@ def whole(values: npt.ArrayLike, name: str, kind: type[np.unsignedinteger[Any]])
         ...
     froe.errors.ArrayError: groups has numbers that are not between 0 and 4294967295, the first of them -2 at (1,).
     """
-    array = np.asarray(values)
+    array = plain(values, name)
     if array.size == 0:
         return np.empty(array.shape, kind)
     if array.dtype.kind not in "iu":
@@ -84,3 +94,11 @@ def whole(values: npt.ArrayLike, name: str, kind: type[np.unsignedinteger[Any]])
             f"{name} has numbers that are not between 0 and {most}, the first of them {array[where]} at {where}."
         )
     return np.ascontiguousarray(array, kind)
+
+
+def point(values: npt.ArrayLike, name: str, dim: int) -> Doubles:
+    """One point of `dim` numbers."""
+    array = doubles(values, name)
+    if array.shape != (dim,):
+        raise ArrayError(f"{name} must have the shape ({dim},), and has {array.shape}.")
+    return array

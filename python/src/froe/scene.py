@@ -2,19 +2,71 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import os
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import doubles, rows, whole
+from ._arrays import Doubles, Ids, doubles, rows, whole
+from .errors import ArrayError, UnsupportedError
+from .report import Report
 from .tree import Tree
 
 Progress = Callable[[float], object]
 
 _POINT, _SEGMENT, _POLYGON, _BOX, _BALL, _HULL = range(6)  # froe_kind
+
+
+@dataclass(frozen=True)
+class Group:
+    """What the objects of one feature, mesh or layer share. ``colour`` is 0xRRGGBBAA, or 0: unknown."""
+
+    name: str
+    material: str
+    left: str
+    right: str
+    colour: int
+
+
+@dataclass(frozen=True)
+class SceneArrays:
+    """A scene. Object ``i`` has the vertices ``corners[starts[i]:starts[i + 1]]``, whose places are in ``coords``.
+
+    :ivar kinds: of each object, as it was added: 0 point, 1 segment, 2 polygon, 3 box, 4 ball, 5 hull
+    :ivar forms: the same, as it is: a segment without length is a point
+    :ivar groups: of each object, -1: none
+    """
+
+    coords: Doubles
+    kinds: npt.NDArray[np.uint8]
+    forms: npt.NDArray[np.uint8]
+    starts: npt.NDArray[np.int64]
+    corners: Ids
+    radii: Doubles
+    tags: npt.NDArray[np.uint64]
+    faces: Ids
+    groups: Ids
+
+
+@dataclass(frozen=True)
+class ReadReport:
+    """How a file was read: nothing is done to a scene that is not counted here."""
+
+    format: str
+    precision: str
+    features: int
+    groups: int
+    triangulated: int
+    closed: int
+    skipped: int
+    no_geometry: int
+    wrapped: int
+    unread_library: str
+    no_degrees: bool
 
 
 class Scene:
@@ -33,6 +85,14 @@ class Scene:
 
     def __init__(self, dim: int = 2) -> None:
         self._core = _core.scene(dim)
+        self.read_report: ReadReport | None = None
+
+    @classmethod
+    def _of(cls, core: _core.Scene, report: ReadReport | None = None) -> Scene:
+        scene = cls.__new__(cls)
+        scene._core = core
+        scene.read_report = report
+        return scene
 
     @property
     def dim(self) -> int:
@@ -42,9 +102,53 @@ class Scene:
     def __len__(self) -> int:
         return self._core.counts()[1]
 
-    def add_group(self, name: str = "") -> int:
-        """A group, which objects may then belong to. Returns its number."""
-        return self._core.add_group(name)
+    @property
+    def bounds(self) -> Doubles | None:
+        """The lower and the upper corner of everything, as two rows; None for an empty scene.
+
+        >>> import froe
+        >>> froe.points([[0, 3], [1, 1]]).bounds.tolist()
+        [[0.0, 1.0], [1.0, 3.0]]
+        """
+        found = self._core.bounds()
+        return None if found is None else np.asarray(found)
+
+    def add_group(
+        self, name: str = "", *, material: str = "", left: str = "", right: str = "", colour: int = 0
+    ) -> int:
+        """A group, which objects may then belong to. Returns its number. ``colour`` is 0xRRGGBBAA, or 0: unknown."""
+        return self._core.add_group(name, material, left, right, colour)
+
+    @property
+    def group_count(self) -> int:
+        """How many groups there are."""
+        return self._core.counts()[3]
+
+    def group(self, group: int) -> Group:
+        """What the objects of a group share.
+
+        >>> import froe
+        >>> scene = froe.Scene(2)
+        >>> scene.group(scene.add_group("harbour")).name
+        'harbour'
+        """
+        return Group(*self._core.group(group))
+
+    def arrays(self) -> SceneArrays:
+        """The whole scene as arrays, which are copies.
+
+        >>> import froe
+        >>> froe.segments([[0, 0, 1, 1], [1, 1, 2, 0]]).arrays().corners.tolist()
+        [0, 1, 1, 2]
+        """
+        return SceneArrays(*(np.asarray(part) for part in self._core.arrays()))
+
+    def write(self, path: str | os.PathLike[str]) -> None:
+        """Writes a file that ``froe.read`` gives back, exactly: .geojson, .csv, .off or .obj."""
+        self._core.write(path)
+
+    def __repr__(self) -> str:
+        return f"<froe.Scene: {len(self)} objects in R^{self.dim}>"
 
     def add_points(self, points: npt.ArrayLike, **about: Any) -> None:
         """Adds points: an array (n, dim)."""
@@ -62,12 +166,26 @@ class Scene:
         """Adds balls: an array (n, dim) of centres, and n radii."""
         self._add(_BALL, rows(centres, "centres", self.dim, self.dim), radii=doubles(radii, "radii"), **about)
 
+    def add_hulls(self, points: npt.ArrayLike, starts: npt.ArrayLike, **about: Any) -> None:
+        """Adds convex hulls: hull ``i`` is the smallest convex set around ``points[starts[i]:starts[i + 1]]``."""
+        at = whole(starts, "starts", np.uint64)
+        self._add(_HULL, rows(points, "points", self.dim, self.dim), starts=at, **about)
+
+    def add_polygons(self, points: npt.ArrayLike, starts: npt.ArrayLike, **about: Any) -> None:
+        """Adds polygons in space, planar, convex and simple: their corners in order, as for hulls."""
+        at = whole(starts, "starts", np.uint64)
+        self._add(_POLYGON, rows(points, "points", self.dim, self.dim), starts=at, **about)
+
     def add_triangles(self, vertices: npt.ArrayLike, triangles: npt.ArrayLike | None = None, **about: Any) -> None:
         """Adds triangles in space: (n, 3) vertices and (m, 3) numbers of these, or (m, 3, 3) or (m, 9) corners."""
+        if self.dim != 3:
+            raise UnsupportedError(f"Triangles are added to scenes of dimension 3, and this one has {self.dim}.")
         if triangles is None:
             self._add(_POLYGON, rows(vertices, "triangles", 9, 3), **about)
         else:
             corners = whole(triangles, "triangles", np.uint32)
+            if corners.ndim != 2 or corners.shape[1] != 3:
+                raise ArrayError(f"triangles must have the shape (m, 3), and has {corners.shape}.")
             self._add(_POLYGON, rows(vertices, "vertices", 3, 3), indices=corners.ravel(), **about)
 
     def _add(
@@ -76,6 +194,7 @@ class Scene:
         coords: npt.NDArray[np.float64],
         *,
         indices: Any = None,
+        starts: Any = None,
         radii: Any = None,
         tags: npt.ArrayLike | None = None,
         faces: npt.ArrayLike | None = None,
@@ -88,7 +207,7 @@ class Scene:
             kind,
             coords,
             indices,
-            None,
+            starts,
             radii,
             None if tags is None else whole(tags, "tags", np.uint64),
             None if faces is None else whole(faces, "faces", np.uint32),
@@ -140,3 +259,56 @@ def triangles(vertices: npt.ArrayLike, triangles: npt.ArrayLike | None = None) -
     scene = Scene(3)
     scene.add_triangles(vertices, triangles)
     return scene
+
+
+def read(
+    path: str | os.PathLike[str],
+    *,
+    polygons: bool = False,
+    boxes: bool = False,
+    wrap: bool = False,
+    progress: Progress | None = None,
+) -> Scene:
+    """A scene from a file: GeoJSON, CSV with a header, OBJ, OFF or PLY. ``scene.read_report`` tells how it was read.
+
+    :param polygons: planar, convex polygons of models stay whole; otherwise all are triangulated
+    :param boxes: the bounding box of each feature in place of its shape
+    :param wrap: borders on maps that cross the antimeridian are cut there
+
+    >>> import froe, tempfile, os
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     froe.segments([[0, 0, 1, 1]]).write(os.path.join(folder, "a.geojson"))
+    ...     scene = froe.read(os.path.join(folder, "a.geojson"))
+    >>> len(scene), scene.read_report.format
+    (1, 'GeoJSON')
+    """
+    core, report = _core.read(path, polygons, boxes, wrap, progress)
+    return Scene._of(core, ReadReport(**report))
+
+
+def generate(kind: str, count: int, seed: int = 1) -> Scene:
+    """A made-up scene of about so many objects, the same everywhere: ``froe generate --help`` lists the kinds.
+
+    >>> import froe
+    >>> len(froe.generate("segments", 100))
+    100
+    """
+    return Scene._of(_core.generate(kind, count, seed))
+
+
+def compare(scene: Scene, methods: Sequence[str], **options: Any) -> dict[str, Report]:
+    """The report of a tree by each method; those that do not serve the scene are left out.
+
+    >>> import froe
+    >>> found = froe.compare(froe.segments([[0, 0, 2, 2], [0, 2, 2, 0]]), ["kd", "cylindrical", "autopartition"])
+    >>> found["autopartition"].pieces
+    3
+    """
+    found = {}
+    for method in methods:
+        try:
+            with scene.build(method, **options) as tree:
+                found[method] = tree.report
+        except UnsupportedError:
+            continue
+    return found

@@ -4,17 +4,26 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Literal, overload
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 import numpy.typing as npt
 
-from . import _core
-from ._arrays import Doubles, Ids, doubles, rows, whole
+from . import _core, _ranges, pictures, report
+from ._arrays import Doubles, Ids, doubles, point, rows, whole
+from ._ranges import Points, Round
 from .answers import Answers
+from .errors import ClosedError, OptionError
+from .pictures import Picture
+from .report import Report
 
-_BOX, _BALL, _CAPSULE, _SEGMENT = 0, 1, 3, 6  # froe_range_shape
+if TYPE_CHECKING:
+    from .scene import Scene
+
+Progress = Callable[[float], object]
+
 _IDS, _COUNTS, _ANY = range(3)
 _FIRST, _ALL = range(2)
 
@@ -80,79 +89,105 @@ class Tree:
     ranges are closed, so that touching counts as meeting, and every answer is exact.
     """
 
-    def __init__(self, core: _core.Tree) -> None:
+    def __init__(self, core: _core.Tree, path: str | None = None) -> None:
         self._core = core
+        self._path = path
 
     def query(
         self,
         boxes: npt.ArrayLike | None = None,
         *,
-        balls: tuple[npt.ArrayLike, npt.ArrayLike] | None = None,
+        balls: Round | None = None,
         segments: npt.ArrayLike | None = None,
-        capsules: tuple[npt.ArrayLike, npt.ArrayLike] | None = None,
+        capsules: Round | None = None,
+        hulls: Points | None = None,
+        eps: float = 0.0,
         threads: int = 0,
+        progress: Progress | None = None,
     ) -> Answers:
         """The objects that meet each range, of one kind: boxes (n, 2 dim) of lower and upper corners; balls, centres
-        (n, dim) and radii (n,); segments (n, 2 dim); or capsules, segments and radii: all points that near to them.
+        (n, dim) and radii; segments (n, 2 dim); capsules, segments and radii: all points that near to them; or hulls, a
+        sequence of arrays of points, each the smallest convex set around its points.
+
+        With ``eps`` above 0 answers may be found faster: all objects that meet a range, and some others that are no
+        farther from it than ``eps`` times its diameter.
 
         >>> import froe
         >>> tree = froe.segments([[0, 0, 2, 2], [3, 0, 3, 2]]).build()
         >>> tree.query([[0, 0, 1, 1]]).pairs().tolist()
         [[0], [0]]
-        >>> tree.query(balls=([[3, 3]], [1])).pairs().tolist()
+        >>> tree.query(balls=([[3, 3]], 1)).pairs().tolist()
+        [[0], [1]]
+        >>> tree.query(hulls=[[[2, 0], [4, 0], [4, 2]]]).pairs().tolist()
         [[0], [1]]
         """
-        return Answers(*self._ranges(_IDS, threads, boxes, balls, segments, capsules))
+        found = _ranges.of(self.dim, boxes, balls, segments, capsules, hulls)
+        if found.shape == _ranges.BOX and eps == 0:
+            return Answers(*self._core.boxes(found.points, threads, progress))
+        return Answers(*self._core.ranges(_IDS, *found, eps, 0, threads, progress))
 
-    def count(self, boxes: npt.ArrayLike, *, threads: int = 0) -> npt.NDArray[np.int64]:
-        """How many objects meet each box.
+    def query_one(self, box: npt.ArrayLike) -> Ids:
+        """The objects that meet one box, for loops: less than a microsecond around the search.
+
+        >>> import froe
+        >>> froe.segments([[0, 0, 2, 2], [3, 0, 3, 2]]).build().query_one([0, 0, 1, 1])
+        array([0], dtype=int32)
+        """
+        return np.asarray(self._core.box(box if type(box) is np.ndarray else doubles(box, "box")))
+
+    def count(
+        self,
+        boxes: npt.ArrayLike | None = None,
+        *,
+        balls: Round | None = None,
+        segments: npt.ArrayLike | None = None,
+        capsules: Round | None = None,
+        hulls: Points | None = None,
+        threads: int = 0,
+        progress: Progress | None = None,
+    ) -> npt.NDArray[np.int64]:
+        """How many objects meet each range.
 
         >>> import froe
         >>> froe.points([[0, 0], [1, 1]]).build().count([[0, 0, 1, 1], [5, 5, 6, 6]]).tolist()
         [2, 0]
         """
-        return np.asarray(self._ranges(_COUNTS, threads, boxes, None, None, None))
+        found = _ranges.of(self.dim, boxes, balls, segments, capsules, hulls)
+        return np.asarray(self._core.ranges(_COUNTS, *found, 0.0, 0, threads, progress))
 
-    def any(self, boxes: npt.ArrayLike, *, threads: int = 0) -> Ids:
-        """One object that meets each box, -1 where there is none.
+    def any(
+        self,
+        boxes: npt.ArrayLike | None = None,
+        *,
+        balls: Round | None = None,
+        segments: npt.ArrayLike | None = None,
+        capsules: Round | None = None,
+        hulls: Points | None = None,
+        threads: int = 0,
+        progress: Progress | None = None,
+    ) -> Ids:
+        """One object that meets each range, -1 where there is none.
 
         >>> import froe
         >>> froe.points([[0, 0], [1, 1]]).build().any([[1, 1, 1, 1], [5, 5, 6, 6]]).tolist()
         [1, -1]
         """
-        return np.asarray(self._ranges(_ANY, threads, boxes, None, None, None))
-
-    def _ranges(self, mode: int, threads: int, boxes: Any, balls: Any, segments: Any, capsules: Any) -> Any:
-        given = [shape is not None for shape in (boxes, balls, segments, capsules)]
-        if sum(given) != 1:
-            raise TypeError(f"A query takes ranges of one kind, and {sum(given)} are given.")
-        radii = None
-        if boxes is not None:
-            points, shape = self._rows(boxes, "boxes", 2), _BOX
-            if mode == _IDS:
-                return self._core.boxes(points, threads, None)
-        elif balls is not None:
-            points, radii, shape = self._rows(balls[0], "centres", 1), doubles(balls[1], "radii"), _BALL
-        elif segments is not None:
-            points, shape = self._rows(segments, "segments", 2), _SEGMENT
-        else:
-            points, radii, shape = self._rows(capsules[0], "segments", 2), doubles(capsules[1], "radii"), _CAPSULE
-        return self._core.ranges(mode, shape, points, None, radii, 0.0, 0, threads, None)
+        found = _ranges.of(self.dim, boxes, balls, segments, capsules, hulls)
+        return np.asarray(self._core.ranges(_ANY, *found, 0.0, 0, threads, progress))
 
     def _rows(self, values: npt.ArrayLike, name: str, width: int) -> Doubles:
-        dim = self._core.report()["dim"]
-        return rows(values, name, width * dim, dim)
+        return rows(values, name, width * self.dim, self.dim)
 
-    def locate(self, points: npt.ArrayLike, *, threads: int = 0) -> Answers:
+    def locate(self, points: npt.ArrayLike, *, threads: int = 0, progress: Progress | None = None) -> Answers:
         """The objects that contain each point.
 
         >>> import froe
         >>> froe.segments([[0, 0, 2, 2]]).build().locate([[1, 1], [1, 0]]).counts().tolist()
         [1, 0]
         """
-        return Answers(*self._core.locate(self._rows(points, "points", 1), threads, None))
+        return Answers(*self._core.locate(self._rows(points, "points", 1), threads, progress))
 
-    def groups(self, points: npt.ArrayLike, *, threads: int = 0) -> Answers:
+    def groups(self, points: npt.ArrayLike, *, threads: int = 0, progress: Progress | None = None) -> Answers:
         """The groups that each point of the plane lies in: countries of a map, for example.
 
         >>> import froe
@@ -162,18 +197,36 @@ class Tree:
         >>> scene.build().groups([[1, 1], [4, 4]]).counts().tolist()
         [1, 0]
         """
-        return Answers(*self._core.groups(self._rows(points, "points", 1), threads, None))
+        return Answers(*self._core.groups(self._rows(points, "points", 1), threads, progress))
 
     @overload
     def nearest(  # type: ignore[misc] # an int that is 1 is of both kinds
-        self, points: npt.ArrayLike, k: Literal[1] = 1, max_distance: float = math.inf, *, threads: int = 0
+        self,
+        points: npt.ArrayLike,
+        k: Literal[1] = 1,
+        max_distance: float = math.inf,
+        *,
+        threads: int = 0,
+        progress: Progress | None = None,
     ) -> tuple[Ids, Doubles]: ...
     @overload
     def nearest(
-        self, points: npt.ArrayLike, k: int, max_distance: float = math.inf, *, threads: int = 0
+        self,
+        points: npt.ArrayLike,
+        k: int,
+        max_distance: float = math.inf,
+        *,
+        threads: int = 0,
+        progress: Progress | None = None,
     ) -> Answers: ...
     def nearest(
-        self, points: npt.ArrayLike, k: int = 1, max_distance: float = math.inf, *, threads: int = 0
+        self,
+        points: npt.ArrayLike,
+        k: int = 1,
+        max_distance: float = math.inf,
+        *,
+        threads: int = 0,
+        progress: Progress | None = None,
     ) -> Answers | tuple[Ids, Doubles]:
         """The nearest object to each point and its distance, -1 and infinity where none is within ``max_distance``.
         With ``k`` above 1 answers with distances as values, nearest first. Of equally near ones the lowest id is first.
@@ -185,15 +238,19 @@ class Tree:
         >>> tree.nearest([[1, 0]], k=2).values.tolist()
         [1.0, 2.0]
         """
-        found = Answers(*self._core.near(self._rows(points, "points", 1), k, max_distance, threads, None))
+        found = Answers(*self._core.near(self._rows(points, "points", 1), k, max_distance, threads, progress))
         if k != 1:
             return found
+        if found.values is not None and len(found.ids) == len(found):
+            return found.ids, found.values
         there = found.counts() > 0
         ids, distances = np.full(len(found), -1, np.int32), np.full(len(found), np.inf)
         ids[there], distances[there] = found.ids, found.values
         return ids, distances
 
-    def nearest_points(self, objects: npt.ArrayLike, points: npt.ArrayLike, *, threads: int = 0) -> Doubles:
+    def nearest_points(
+        self, objects: npt.ArrayLike, points: npt.ArrayLike, *, threads: int = 0, progress: Progress | None = None
+    ) -> Doubles:
         """The point of each object that is nearest to the point beside it.
 
         >>> import froe
@@ -202,7 +259,7 @@ class Tree:
         [[1.0, 0.0]]
         """
         ids = whole(objects, "objects", np.uint32)
-        return np.asarray(self._core.nearest_points(ids, self._rows(points, "points", 1), threads, None))
+        return np.asarray(self._core.nearest_points(ids, self._rows(points, "points", 1), threads, progress))
 
     @overload
     def ray(
@@ -213,6 +270,7 @@ class Tree:
         *,
         all: Literal[False] = False,
         threads: int = 0,
+        progress: Progress | None = None,
     ) -> tuple[Ids, Doubles]: ...
     @overload
     def ray(
@@ -223,6 +281,7 @@ class Tree:
         *,
         all: Literal[True],
         threads: int = 0,
+        progress: Progress | None = None,
     ) -> Answers: ...
     def ray(
         self,
@@ -232,6 +291,7 @@ class Tree:
         *,
         all: bool = False,
         threads: int = 0,
+        progress: Progress | None = None,
     ) -> Answers | tuple[Ids, Doubles]:
         """The object that each ray meets first, and where: at ``origin + t * direction``; -1 and infinity where there
         is none. With ``all`` answers with every object met, by ``t``.
@@ -244,21 +304,46 @@ class Tree:
         [2.0, 5.0]
         """
         start, way = self._rows(origins, "origins", 1), self._rows(directions, "directions", 1)
-        found = self._core.rays(_ALL if all else _FIRST, start, way, t_max, threads, None)
+        found = self._core.rays(_ALL if all else _FIRST, start, way, t_max, threads, progress)
         if all:
             return Answers(*found)
         return np.asarray(found[0]), np.asarray(found[1])
 
-    def above(self, points: npt.ArrayLike, *, below: bool = False, threads: int = 0) -> Ids:
+    def hit_places(
+        self,
+        objects: npt.ArrayLike,
+        origins: npt.ArrayLike,
+        directions: npt.ArrayLike,
+        *,
+        threads: int = 0,
+        progress: Progress | None = None,
+    ) -> tuple[Doubles, Doubles, Doubles]:
+        """Where each ray meets the object beside it first: points, normals and distances from the origin.
+
+        >>> import froe
+        >>> tree = froe.segments([[2, -1, 2, 1]]).build()
+        >>> [found.tolist() for found in tree.hit_places([0], [[0, 0]], [[1, 0]])]
+        [[[2.0, 0.0]], [[-1.0, 0.0]], [2.0]]
+        """
+        ids = whole(objects, "objects", np.uint32)
+        start, way = self._rows(origins, "origins", 1), self._rows(directions, "directions", 1)
+        points, normals, distances = self._core.hit_places(ids, start, way, threads, progress)
+        return np.asarray(points), np.asarray(normals), np.asarray(distances)
+
+    def above(
+        self, points: npt.ArrayLike, *, below: bool = False, threads: int = 0, progress: Progress | None = None
+    ) -> Ids:
         """The first segment of the plane above each point, or below it; -1 where there is none.
 
         >>> import froe
         >>> froe.segments([[0, 2, 4, 2]]).build().above([[1, 1], [1, 3]]).tolist()
         [0, -1]
         """
-        return np.asarray(self._core.vertical(self._rows(points, "points", 1), below, threads, None))
+        return np.asarray(self._core.vertical(self._rows(points, "points", 1), below, threads, progress))
 
-    def pairs(self, *, shared: bool = True, threads: int = 0) -> npt.NDArray[np.int32]:
+    def pairs(
+        self, *, shared: bool = True, threads: int = 0, progress: Progress | None = None
+    ) -> npt.NDArray[np.int32]:
         """All pairs of objects that meet: rows of two objects and how they meet (0: cross, 1: touch, 2: overlap).
         ``shared=False`` leaves out those that touch in nothing but one corner of both.
 
@@ -266,17 +351,34 @@ class Tree:
         >>> froe.segments([[0, 0, 2, 2], [0, 2, 2, 0]]).build().pairs().tolist()
         [[0, 1, 0]]
         """
-        return np.asarray(self._core.pairs(shared, threads, None))
+        return np.asarray(self._core.pairs(shared, threads, progress))
 
     @property
-    def report(self) -> dict[str, Any]:
+    def dim(self) -> int:
+        """The dimension of the space."""
+        return self._core.dim()
+
+    @property
+    def scene(self) -> Scene:
+        """The scene, which can no longer grow, and which keeps the tree.
+
+        >>> import froe
+        >>> len(froe.points([[0, 0], [1, 1]]).build().scene)
+        2
+        """
+        from .scene import Scene
+
+        return Scene._of(self._core.scene())
+
+    @property
+    def report(self) -> Report:
         """What the tree consists of: method, objects, nodes, pieces, height, bytes and more.
 
         >>> import froe
-        >>> froe.points([[0, 0], [1, 1]]).build().report["objects"]
+        >>> froe.points([[0, 0], [1, 1]]).build().report.objects
         2
         """
-        return self._core.report()
+        return report.of(self._core.report())
 
     def pieces(self) -> Pieces:
         """All pieces.
@@ -295,7 +397,7 @@ class Tree:
         >>> froe.segments([[0, 1, 2, 1]]).build("autopartition").cells([0, 0], [2, 2]).polygons()[0].shape
         (4, 2)
         """
-        box = np.stack([doubles(lo, "lo"), doubles(hi, "hi")])
+        box = np.stack([point(lo, "lo", self.dim), point(hi, "hi", self.dim)])
         return Cells(*(np.asarray(part) for part in self._core.cells(box, inner)))
 
     def order(self, eye: npt.ArrayLike, *, parallel: bool = False) -> Ids:
@@ -306,22 +408,86 @@ class Tree:
         >>> [int(tree.pieces().objects[piece]) for piece in tree.order([1, 0])]
         [1, 0]
         """
-        return np.asarray(self._core.order(doubles(eye, "eye"), parallel))
+        return np.asarray(self._core.order(point(eye, "eye", self.dim), parallel))
 
-    def audit(self, *, exact_only: bool = False, threads: int = 0) -> None:
+    def audit(self, *, exact_only: bool = False, threads: int = 0, progress: Progress | None = None) -> None:
         """Proves that the tree is right; otherwise AuditError.
 
         >>> import froe
         >>> froe.points([[0, 0], [1, 1]]).build().audit()
         """
-        self._core.audit(exact_only, threads, None)
+        self._core.audit(exact_only, threads, progress)
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the tree with its scene: the old file or the whole new one is there, whatever happens."""
         self._core.save(path)
 
+    def export(
+        self,
+        path: str | os.PathLike[str],
+        what: Literal["fragments", "cells", "cuts"] = "fragments",
+        *,
+        progress: Progress | None = None,
+    ) -> None:
+        """Writes pieces, cells or cuts for other programs: .geojson of the plane, .obj of space, or .csv."""
+        parts = ("fragments", "cells", "cuts")
+        if what not in parts:
+            raise OptionError(f"what is {what!r}, and must be one of {', '.join(parts)}.")
+        self._core.export(path, parts.index(what), progress)
+
+    def render(self, *, progress: Progress | None = None, **options: Any) -> Picture:
+        """A picture of a tree in space with hidden surfaces removed, exactly. The tree has to be built with
+        ``purpose="draw"`` or ``"pieces"``. Options, all of which may be left out:
+
+        ============================================================== ==============================================
+        ``eye, target, up``                                            points; with ``fit`` only their direction counts
+        ``parallel, fit, fov, scale``                                  how the scene becomes a page
+        ``size, margin, millimetres, background``                      of the page; a colour like ``"#a0b1c2"``
+        ``shading``                                                    ``flat, cel, plain, white, none``
+        ``cel_levels, own_colours, cull_back, min_area``               how faces are filled, and which
+        ``paint, seams, seam_width``                                   ``whole, regions, fragments``; ``underlap, ...``
+        ``lines``                                                      kinds: ``border, silhouette, crease, ...``
+        ``line_width, point_width, crease, halo, hidden, interleaved`` how lines are drawn
+        ``decimals, ids, layers, title, description``                  of the file
+        ============================================================== ==============================================
+
+        >>> import froe
+        >>> scene = froe.triangles([[[0, 0, 0], [4, 0, 0], [2, 0, 3]], [[0, 5, 0], [4, 5, 0], [2, 5, 3]]])
+        >>> picture = scene.build(purpose="draw").render(eye=(0, -9, 0), parallel=True, lines=["border"])
+        >>> picture.report.visible_faces, picture.report.hidden_faces, picture.svg[:4]
+        (1, 1, '<svg')
+        """
+        return pictures.render(self, progress, options)
+
+    def draw(
+        self, *, width: float = 800, lo: npt.ArrayLike | None = None, hi: npt.ArrayLike | None = None
+    ) -> Picture:
+        """A picture of a partition of the plane: cells, deeper in colour where more cuts lead to them, and pieces.
+
+        >>> import froe
+        >>> froe.segments([[0, 0, 2, 2], [0, 2, 2, 0]]).build("autopartition").draw().svg[:4]
+        '<svg'
+        """
+        return pictures.draw(self, width, lo, hi)
+
     def __reduce__(self) -> tuple[Any, ...]:
+        """A pickle holds the path of a tree that was opened, and the bytes of another one."""
+        if self._path is not None:
+            return open, (self._path,)
         return _from_bytes, (self._core.to_bytes(),)
+
+    def __enter__(self) -> Tree:
+        return self
+
+    def __exit__(self, *failure: object) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        try:
+            found = self.report
+        except ClosedError:
+            return "<froe.Tree: closed>"
+        return f"<froe.Tree: {found.objects} objects in R^{found.dim}, {found.pieces} pieces, by {found.method}>"
 
     def close(self) -> None:
         """Frees the tree. Questions raise ClosedError from now on."""
@@ -334,10 +500,10 @@ def open(path: str | os.PathLike[str]) -> Tree:
     >>> import froe, tempfile, os
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     froe.points([[0, 0]]).build().save(os.path.join(folder, "a.froe"))
-    ...     froe.open(os.path.join(folder, "a.froe")).report["objects"]
+    ...     froe.open(os.path.join(folder, "a.froe")).report.objects
     1
     """
-    return Tree(_core.open(path))
+    return Tree(_core.open(path), os.path.abspath(os.fsdecode(path)))
 
 
 def _from_bytes(saved: bytes) -> Tree:

@@ -1,0 +1,186 @@
+"""Pictures: of trees in space with hidden surfaces removed, exactly, and of partitions of the plane."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ._arrays import doubles
+from .errors import OptionError, UnsupportedError
+
+if TYPE_CHECKING:
+    from .tree import Tree
+
+# In the order of the C interface's enumerators.
+SHADINGS = ("flat", "cel", "plain", "white", "none")
+PAINTS = ("whole", "regions", "fragments")
+SEAMS = ("underlap", "none", "twice", "stroke")
+IDS = ("none", "object", "face")
+LAYERS = ("none", "object", "kind")
+LINES = ("border", "silhouette", "object", "material", "crease", "mesh", "crossing", "section", "wire", "point")
+CHOICES = {"shading": SHADINGS, "paint": PAINTS, "seams": SEAMS, "ids": IDS, "layers": LAYERS}
+SVG, PDF, EPS = range(3)
+FORMATS = {".svg": SVG, ".pdf": PDF, ".eps": EPS}
+
+
+@dataclass(frozen=True)
+class RenderReport:
+    """What a picture shows.
+
+    :ivar pieces: pieces of the tree that were looked at before the picture was closed
+    :ivar visible_faces: faces of which something is visible, and ``hidden_faces`` those behind others
+    :ivar shapes: in the file, as are ``lines``, ``points`` and ``paths``
+    """
+
+    paint: str
+    pieces: int
+    visible_pieces: int
+    visible_faces: int
+    hidden_faces: int
+    shapes: int
+    lines: int
+    points: int
+    paths: int
+    bytes: int
+
+
+class Picture:
+    """A picture, as SVG, which notebooks show. ``save`` writes a file; its ending says of which format.
+
+    :ivar svg: the picture as text
+    :ivar report: what it shows, for those with hidden surfaces removed; otherwise None
+    """
+
+    def __init__(
+        self, svg: str, report: RenderReport | None = None, writer: Callable[[str], object] | None = None
+    ) -> None:
+        self.svg = svg
+        self.report = report
+        self._writer = writer
+
+    def _repr_svg_(self) -> str:
+        return self.svg
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Writes ``.svg``; pictures with hidden surfaces removed also ``.pdf``, ``.eps``, and the lines alone as
+        ``.csv`` and ``.geojson``.
+
+        >>> import froe, tempfile, os
+        >>> picture = froe.segments([[0, 0, 1, 1]]).build().draw()
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     picture.save(os.path.join(folder, "a.svg"))
+        ...     os.listdir(folder)
+        ['a.svg']
+        """
+        if self._writer is not None:
+            self._writer(os.fspath(path))
+        elif Path(path).suffix.lower() == ".svg":
+            Path(path).write_text(self.svg, encoding="utf-8")
+        else:
+            raise UnsupportedError(f"{os.fspath(path)}: Pictures of partitions are saved as .svg only.")
+
+
+def _bits(lines: Any) -> int:
+    names = [lines] if isinstance(lines, str) else list(lines)
+    for name in names:
+        if name not in LINES:
+            raise OptionError(f"There is no kind of line {name!r}. There are: {', '.join(LINES)}.")
+    return sum(1 << LINES.index(name) for name in set(names))
+
+
+def _colour(value: Any) -> int:
+    """0xRRGGBB of a number, or of text like #a0b1c2."""
+    if not isinstance(value, str):
+        return int(value)
+    digits = value.removeprefix("#")
+    if len(digits) != 6 or any(digit not in "0123456789abcdefABCDEF" for digit in digits):
+        raise OptionError(f"{value!r} is no colour like '#a0b1c2'.")
+    return int(digits, 16)
+
+
+def _numbers(options: Mapping[str, Any]) -> dict[str, Any]:
+    """Options of ``Tree.render`` as the extension takes them."""
+    found: dict[str, Any] = {}
+    for name, value in options.items():
+        if value is None:
+            continue
+        if name in CHOICES:
+            if value not in CHOICES[name]:
+                raise OptionError(f"{name} is {value!r}, and must be one of {', '.join(CHOICES[name])}.")
+            found[name] = CHOICES[name].index(value)
+        elif name in ("eye", "target", "up"):
+            found[name] = doubles(value, name)
+        elif name == "lines":
+            found[name] = _bits(value)
+        elif name == "background":
+            found[name] = _colour(value)
+        elif name == "size":
+            found["width"], found["height"] = (float(length) for length in value)
+        else:
+            found[name] = value
+    return found
+
+
+def render(tree: Tree, progress: Callable[[float], object] | None, options: Mapping[str, Any]) -> Picture:
+    """The picture that ``Tree.render`` returns."""
+    numbers = _numbers(options)
+    core = tree._core
+    svg, report = core.render(None, SVG, numbers, progress)
+    return Picture(svg.decode(), RenderReport(**report), lambda path: core.render(path, SVG, numbers, None))
+
+
+# --------------------------------------------------------------------- partitions
+
+PALE, DEEP = np.array([0xF3, 0xF6, 0xE4]), np.array([0x1F, 0x6F, 0x78])
+
+
+def _shade(depth: int, most: int) -> str:
+    """Pale near the root, deep far from it."""
+    mixed = PALE + (DEEP - PALE) * (depth / most if most else 0.0)
+    return "#" + "".join(f"{round(float(part)):02x}" for part in mixed)
+
+
+def _window(tree: Tree, lo: npt.ArrayLike | None, hi: npt.ArrayLike | None) -> tuple[Any, Any]:
+    """The box that is drawn: all objects, and a little more."""
+    bounds = tree.scene.bounds
+    found = np.array([[0.0, 0.0], [1.0, 1.0]]) if bounds is None else bounds
+    margin = 0.03 * float((found[1] - found[0]).max() or 1.0)
+    lower = found[0] - margin if lo is None else doubles(lo, "lo")
+    upper = found[1] + margin if hi is None else doubles(hi, "hi")
+    return lower, upper
+
+
+def draw(tree: Tree, width: float, lo: npt.ArrayLike | None, hi: npt.ArrayLike | None) -> Picture:
+    """The picture that ``Tree.draw`` returns."""
+    if tree.dim != 2:
+        raise UnsupportedError(f"Partitions of the plane are drawn, and this tree has dimension {tree.dim}.")
+    lower, upper = _window(tree, lo, hi)
+    cells, pieces = tree.cells(lower, upper), tree.pieces()
+    scale = width / float(upper[0] - lower[0])
+    height = scale * float(upper[1] - lower[1])
+
+    def page(points: Any) -> Any:
+        return (points - lower) * [scale, -scale] + [0.0, height]
+
+    def path(points: Any, end: str) -> str:
+        return "M" + "L".join(f"{x:.2f} {y:.2f}" for x, y in page(points)) + end
+
+    most = int(cells.depths.max(initial=0))
+    by_depth: dict[int, list[str]] = {}
+    for depth, corners in zip(cells.depths.tolist(), cells.polygons()):
+        by_depth.setdefault(depth, []).append(path(corners, "Z"))
+    fills = [f'<path fill="{_shade(depth, most)}" d="{"".join(by_depth[depth])}"/>' for depth in sorted(by_depth)]
+    shapes = [pieces[i] for i in range(len(pieces))]
+    lines = "".join(path(corners if len(corners) > 1 else corners[[0, 0]], "") for corners in shapes)
+    return Picture(
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:.2f}" height="{height:.2f}" '
+        f'viewBox="0 0 {width:.2f} {height:.2f}">\n<title>{len(cells)} cells, {len(pieces)} pieces</title>\n'
+        f'<g stroke="#ffffff" stroke-width="0.6" stroke-linejoin="round">{"".join(fills)}</g>\n'
+        f'<path fill="none" stroke="#1b2630" stroke-width="1.4" stroke-linecap="round" d="{lines}"/>\n</svg>\n'
+    )

@@ -1,0 +1,280 @@
+"""Bad input becomes an exception that says what is wrong, and nothing is changed."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+import froe
+from froe.errors import (
+    ArgumentError,
+    ArrayError,
+    BusyError,
+    CancelledError,
+    ClosedError,
+    FileError,
+    FormatError,
+    FrozenError,
+    InputError,
+    OptionError,
+    UnsupportedError,
+)
+
+SEGMENTS = np.array([[0.0, 0, 2, 2], [0, 2, 2, 0], [5, 5, 6, 6]])
+
+
+@pytest.fixture
+def tree():
+    return froe.segments(SEGMENTS).build()
+
+
+@pytest.mark.parametrize(
+    "bad, word",
+    [
+        ([[0, 0, 1, 1j]], "complex"),
+        ([["a", "b", "c", "d"]], "<U1"),
+        (np.zeros((2, 4), bool), "bool"),
+        ([[None] * 4], "object"),
+        (np.array([["2020-01-01"] * 4], "M8[D]"), "datetime"),
+        ([[0, 0, 1]], r"\(1, 3\)"),
+        (np.zeros((2, 2, 3)), r"\(2, 2, 3\)"),
+        (np.zeros((1, 1, 4)), r"\(1, 1, 4\)"),
+        (5, r"\(\)"),
+        ([[0, 0, 1], [0]], "no array"),
+        ([[2**60 + 1, 0, 0, 0]], "1152921504606846977"),
+        ([[2**80, 0, 0, 0]], "object"),
+        (np.ma.masked_array(np.zeros((1, 4)), mask=[[1, 0, 0, 0]]), "masked"),
+    ],
+)
+def test_arrays_that_are_none(bad, word):
+    with pytest.raises(ArrayError, match=word):
+        froe.segments(bad)
+
+
+@pytest.mark.parametrize("number", [np.nan, np.inf, -np.inf])
+def test_numbers_that_are_not_finite(number):
+    scene = froe.segments(SEGMENTS)
+    bad = SEGMENTS + 10
+    bad[1, 3] = number
+    with pytest.raises(InputError) as caught:
+        scene.add_segments(bad)
+    assert (caught.value.object, caught.value.corner, caught.value.axis) == (1, 1, 1)
+    assert caught.value.status == "FROE_E_INPUT" and isinstance(caught.value, ValueError)
+    assert len(scene) == 3
+
+
+@pytest.mark.parametrize(
+    "same",
+    [
+        SEGMENTS.astype(">f8"),
+        np.asfortranarray(SEGMENTS),
+        np.repeat(SEGMENTS, 2, axis=1)[:, ::2],
+        SEGMENTS[::-1][::-1],
+        SEGMENTS.astype("f4"),
+        SEGMENTS.astype("i2"),
+        SEGMENTS.tolist(),
+        SEGMENTS.reshape(3, 2, 2),
+        np.frombuffer(b"x" + SEGMENTS.tobytes(), "f8", 12, 1).reshape(3, 4),
+        np.ma.masked_array(SEGMENTS),
+    ],
+)
+def test_layouts_that_lose_nothing(same):
+    assert np.array_equal(froe.segments(same).arrays().coords, froe.segments(SEGMENTS).arrays().coords)
+
+
+def test_empty_arrays(tree):
+    for empty in ([], np.zeros((0, 4)), np.zeros((0, 2, 2))):
+        assert len(froe.segments(empty)) == 0 and len(tree.query(empty)) == 0
+    nothing = froe.segments([]).build()
+    assert nothing.query([[0, 0, 1, 1]]).counts().tolist() == [0]
+    ids, distances = nothing.nearest([[0, 0]])
+    assert ids.tolist() == [-1] and distances.tolist() == [np.inf]
+    assert len(nothing.pairs()) == 0 and nothing.scene.bounds is None
+
+
+@pytest.mark.parametrize(
+    "ask, kind, word",
+    [
+        (lambda t: t.query([[0, 0, 1, 1], [1, 1, 0, 0]]), InputError, "low corner"),
+        (lambda t: t.query([[0, 0, np.nan, 1]]), InputError, "nan"),
+        (lambda t: t.query(), TypeError, "one kind"),
+        (lambda t: t.query([[0, 0, 1, 1]], segments=[[0, 0, 1, 1]]), TypeError, "one kind"),
+        (lambda t: t.query(balls=([[0, 0]], [-1])), InputError, "radius"),
+        (lambda t: t.query(balls=([[0, 0]], [1, 2])), ArrayError, "2 rows"),
+        (lambda t: t.query(balls=[[0, 0, 1]]), ArrayError, "tuple"),
+        (lambda t: t.query(hulls=[[[0, 0]], []]), InputError, "no points"),
+        (lambda t: t.query([[0, 0, 1, 1]], eps=-1), InputError, "eps"),
+        (lambda t: t.query_one([0, 0, 1]), ArrayError, "multiple"),
+        (lambda t: t.query_one(np.zeros((2, 4))), ArrayError, "4 numbers"),
+        (lambda t: t.query_one(np.zeros(4, "f4")), ArrayError, "float64"),
+        (lambda t: t.query_one(np.zeros(8)[::2]), ArrayError, "contiguous"),
+        (lambda t: t.query([[0, 0, 1, 1]], threads=-1), ArgumentError, "threads"),
+        (lambda t: t.query([[0, 0, 1, 1]], threads=2**40), ArgumentError, "threads"),
+        (lambda t: t.query([[0, 0, 1, 1]], threads=1.5), ArrayError, "threads"),
+        (lambda t: t.nearest([[0, 0]], k=-1), ArgumentError, "k is -1"),
+        (lambda t: t.nearest([[0, 0]], k=1.5), ArrayError, "whole"),
+        (lambda t: t.nearest([[0, 0]], max_distance=-1), InputError, "-1"),
+        (lambda t: t.nearest([[0, 0]], max_distance=np.nan), InputError, "nan"),
+        (lambda t: t.ray([[0, 0]], [[0, 0]]), InputError, "direction"),
+        (lambda t: t.ray([[0, 0]], [[0, 1], [1, 1]]), ArrayError, "2 rows"),
+        (lambda t: t.nearest_points([9], [[0, 0]]), ArgumentError, "object 9"),
+        (lambda t: t.nearest_points([-1], [[0, 0]]), ArrayError, "-1"),
+        (lambda t: t.hit_places([0], [[9, 9]], [[1, 0]]), InputError, "not meet"),
+        (lambda t: t.cells([0, 0], [np.nan, 1]), ArgumentError, "nan"),
+        (lambda t: t.cells([0, 0, 0], [1, 1]), ArrayError, r"\(3,\)"),
+        (lambda t: t.order([0]), ArrayError, r"\(1,\)"),
+        (lambda t: t.export("x.csv", "trees"), OptionError, "trees"),
+        (lambda t: t.save("/nonexistent/a"), FileError, "nonexistent"),
+    ],
+)
+def test_bad_questions(tree, ask, kind, word):
+    with pytest.raises(kind, match=word):
+        ask(tree)
+    assert tree.query([[0, 0, 9, 9]]).counts().tolist() == [3]
+
+
+def test_which_question_is_bad(tree):
+    with pytest.raises(InputError) as caught:
+        tree.query([[0, 0, 1, 1], [0, 0, 1, 1], [0, 0, np.nan, 1]])
+    assert caught.value.object == 2
+
+
+@pytest.mark.parametrize(
+    "add, kind, word",
+    [
+        (lambda s: s.add_segments(SEGMENTS, group=3), InputError, "group 3"),
+        (lambda s: s.add_segments(SEGMENTS, groups=[0, 0, 7]), InputError, "group 0|group 7"),
+        (lambda s: s.add_segments(SEGMENTS, tags=[1, 2]), ArrayError, "2 rows"),
+        (lambda s: s.add_segments(SEGMENTS, tags=[1, -2, 3]), ArrayError, "-2"),
+        (lambda s: s.add_balls([[0, 0]], [-1]), InputError, "radius"),
+        (lambda s: s.add_boxes([[1, 1, 0, 0]]), InputError, "above"),
+        (lambda s: s.add_hulls([[0, 0], [1, 1]], [0, 5]), InputError, "2 corners"),
+        (lambda s: s.add_hulls([[0, 0], [1, 1]], [2, 0]), InputError, "falls"),
+        (lambda s: s.add_hulls([[0, 0], [1, 1]], []), ArrayError, "at least one"),
+        (lambda s: s.add_triangles(np.eye(3)), UnsupportedError, "dimension"),
+        (lambda s: s.add_group(5), ArrayError, "name"),
+        (lambda s: s.add_group("a\0b"), ArgumentError, "name"),
+        (lambda s: s.add_group("\udc80"), ArgumentError, "name"),
+        (lambda s: s.group(0), ArgumentError, "group 0"),
+        (lambda s: s.build("best"), OptionError, "best"),
+        (lambda s: s.build(5), ArrayError, "method"),
+        (lambda s: s.build(leaf=-1), ArgumentError, "leaf"),
+        (lambda s: s.build(seed=-1), ArgumentError, "seed"),
+        (lambda s: s.build(seed=2**70), ArgumentError, "seed"),
+        (lambda s: s.build(settings="x=1"), OptionError, "x"),
+        (lambda s: s.write("/nonexistent/a.csv"), FileError, "nonexistent"),
+    ],
+)
+def test_bad_scenes(add, kind, word):
+    scene = froe.Scene(2)
+    with pytest.raises(kind, match=word):
+        add(scene)
+    assert len(scene) == 0
+    scene.add_segments(SEGMENTS)
+    assert len(scene) == 3
+
+
+def test_triangles_and_dimensions():
+    with pytest.raises(InputError, match="point 7"):
+        froe.triangles(np.eye(3), [[0, 1, 7]])
+    with pytest.raises(ArrayError, match=r"\(1, 2\)"):
+        froe.triangles(np.eye(3), [[0, 1]])
+    for dim in (1, 9, -1, 2**40):
+        with pytest.raises(ArgumentError, match="dim"):
+            froe.Scene(dim)
+    with pytest.raises(ArrayError, match="whole"):
+        froe.Scene("2")
+
+
+def test_a_frozen_scene(tree):
+    with pytest.raises(FrozenError):
+        tree.scene.add_segments(SEGMENTS)
+    assert tree.scene.build("kd").report.method == "kd"
+
+
+def test_a_closed_tree(tree):
+    scene = tree.scene
+    tree.close()
+    tree.close()
+    for ask in (
+        lambda: tree.query([[0, 0, 1, 1]]),
+        lambda: tree.query_one([0, 0, 1, 1]),
+        lambda: tree.report,
+        lambda: tree.scene,
+        lambda: pickle.dumps(tree),
+        lambda: tree.pieces(),
+        lambda: tree.save("x"),
+        lambda: tree.render(),
+        lambda: tree.audit(),
+    ):
+        with pytest.raises(ClosedError, match="closed"):
+            ask()
+    assert repr(tree) == "<froe.Tree: closed>" and len(scene) == 3  # the scene keeps what it needs
+
+
+def test_files_that_are_no_trees(tree, tmp_path):
+    saved = tree._core.to_bytes()
+    version = bytearray(saved)
+    version[8:12] = b"\xff\xff\xff\x7f"
+    for bad in (b"", b"x", saved[:100], b"nope" + saved[4:], bytes(version), saved[:-1] + bytes([saved[-1] ^ 1])):
+        (tmp_path / "bad.froe").write_bytes(bad)
+        with pytest.raises(FormatError):
+            froe.open(tmp_path / "bad.froe")
+        with pytest.raises(FormatError):
+            froe.tree._from_bytes(bad)
+    with pytest.raises(FileError) as caught:
+        froe.open(tmp_path / "none.froe")
+    assert isinstance(caught.value, OSError) and "none.froe" in str(caught.value)
+    with pytest.raises(TypeError):
+        froe.open(5)
+    with pytest.raises(FileError):
+        froe.read(tmp_path / "none.geojson")
+
+
+def test_progress_that_stops_or_fails(tree):
+    with pytest.raises(CancelledError) as caught:
+        froe.generate("segments", 100000).build("autopartition", progress=lambda done: False)
+    assert isinstance(caught.value, KeyboardInterrupt)
+
+    def fail(done):
+        raise ZeroDivisionError("of the function's own")
+
+    with pytest.raises(ZeroDivisionError):
+        froe.generate("segments", 100000).build("autopartition", progress=fail)
+    with pytest.raises(TypeError, match="not callable"):
+        froe.generate("segments", 100000).build("autopartition", progress=5)
+
+
+def test_a_scene_in_use():
+    scene, caught = froe.generate("segments", 100000), []
+
+    def use(done):
+        for call in (lambda: scene.add_segments(SEGMENTS), lambda: scene.build(), lambda: len(scene)):
+            try:
+                call()
+            except BusyError as error:
+                caught.append(error)
+
+    scene.build("autopartition", progress=use)
+    assert len(caught) >= 3 and len(scene) == 100000
+
+
+def test_objects_of_the_extension_are_not_made_by_hand():
+    for kind in (froe._core.Tree, froe._core.Scene, froe._core.Array):
+        with pytest.raises(TypeError):
+            kind()
+
+
+def test_calls_of_the_extension_with_any_arguments(tree):
+    """Whatever the package passes on by mistake, the extension refuses."""
+    anything = (None, -1, 1.5, "x", b"x", [], {}, np.zeros(3), np.zeros((2, 2), "f4"), object())
+    for owner in (tree._core, froe.segments(SEGMENTS)._core):
+        for name in (name for name in dir(owner) if not name.startswith("_") and name not in ("close", "save")):
+            call = getattr(owner, name)
+            for count in range(12):
+                for value in anything:
+                    try:
+                        call(*[value] * count)
+                    except (froe.Error, TypeError, ValueError, OSError):
+                        pass
+    assert tree.query([[0, 0, 9, 9]]).counts().tolist() == [3]

@@ -1,0 +1,249 @@
+"""Long calls: signals, threads, processes, and arrays that change meanwhile."""
+
+import multiprocessing
+import os
+import pickle
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import froe
+
+
+def windows(count, side, seed=3):
+    corners = np.random.default_rng(seed).random((count, 2))
+    return np.hstack([corners, corners + side])
+
+
+@pytest.fixture(scope="module")
+def tree():
+    return froe.segments(short_segments(100000)).build()
+
+
+def short_segments(count, seed=1):
+    random = np.random.default_rng(seed)
+    middles = random.random((count, 2))
+    return np.hstack([middles, middles + random.normal(size=(count, 2)) * 0.002])
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda tree: froe.segments(short_segments(300000)).build("autopartition"),
+        lambda tree: tree.query(windows(10**6, 0.05), threads=1),
+        lambda tree: tree.count(windows(10**6, 0.05), threads=2),
+        lambda tree: tree.nearest(np.random.default_rng(1).random((10**6, 2)), k=20),
+        lambda tree: tree.query(balls=(windows(10**6, 0)[:, :2], 0.05)),
+        lambda tree: tree.audit(),
+    ],
+    ids=["build", "query", "count", "nearest", "balls", "audit"],
+)
+def test_interrupted(tree, call):
+    """The signal comes from the call itself, by its progress, so that it always meets it at work."""
+
+    class Alarm(Exception):
+        pass
+
+    def ring(number, frame):
+        raise Alarm
+
+    before = signal.signal(signal.SIGALRM, ring)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.1)
+        with pytest.raises(Alarm):
+            while True:
+                call(tree)
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+    assert len(tree.query([[0, 0, 1, 1]])[0]) > 90000
+
+
+def test_control_c_ends_a_program():
+    program = """
+import sys, froe, numpy as np
+scene = froe.generate("segments", 300000)
+print("begins", flush=True)
+while True:
+    scene.build("autopartition")
+"""
+    path = os.pathsep.join(path for path in sys.path if path)
+    child = subprocess.Popen(
+        [sys.executable, "-c", program], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True,
+        env={**os.environ, "PYTHONPATH": path},
+    )
+    assert child.stdout.readline() == "begins\n"
+    time.sleep(0.2)
+    child.send_signal(signal.SIGINT)
+    _, complaint = child.communicate(timeout=20)
+    assert complaint.strip().endswith("KeyboardInterrupt")
+
+
+def test_progress_grows_to_one():
+    shares = []
+    froe.segments(short_segments(200000)).build("autopartition", progress=shares.append, threads=1)
+    assert shares == sorted(shares) and 0 <= shares[0] and shares[-1] == 1
+
+
+def test_threads_ask_one_tree(tree):
+    ranges, wrong = windows(2000, 0.02), []
+    expected = [tree.query(ranges), tree.nearest(ranges[:, :2])[1], tree.count(ranges), tree.above(ranges[:, :2])]
+
+    def ask():
+        for _ in range(5):
+            found = [tree.query(ranges, threads=1), tree.nearest(ranges[:, :2])[1], tree.count(ranges)]
+            found.append(tree.above(ranges[:, :2]))
+            same = found[0].ids.tolist() == expected[0].ids.tolist()
+            if not same or any(not np.array_equal(a, b) for a, b in zip(found[1:], expected[1:])):
+                wrong.append(found)
+            tree.query_one(ranges[0])
+
+    threads = [threading.Thread(target=ask) for _ in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not wrong
+
+
+def test_other_threads_run_meanwhile(tree):
+    seen, done = [0], threading.Event()
+
+    def count():
+        while not done.is_set():
+            seen[0] += 1
+            time.sleep(0.001)
+
+    thread = threading.Thread(target=count)
+    thread.start()
+    begun = seen[0]
+    tree.query(windows(200000, 0.05), threads=1)
+    done.set()
+    thread.join()
+    assert seen[0] > begun + 10
+
+
+def test_closed_while_asked():
+    """A tree that is closed while a call uses it lasts until the call returns."""
+    ranges = windows(200000, 0.03)
+    tree = froe.segments(short_segments(50000)).build()
+    expected, found, begun = tree.count(ranges).sum(), [], threading.Event()
+
+    def ask():
+        found.append(tree.count(ranges, threads=1, progress=lambda done: begun.set()).sum())
+
+    thread = threading.Thread(target=ask)
+    thread.start()
+    begun.wait()
+    tree.close()
+    with pytest.raises(froe.errors.ClosedError):
+        tree.query(ranges)
+    thread.join()
+    assert found == [expected]
+
+
+def test_arrays_that_change_meanwhile():
+    """A call answers what its arrays held when it began."""
+    tree = froe.segments(short_segments(50000)).build()
+    ranges = windows(100000, 0.02)
+    expected = tree.count(ranges)
+    stop = threading.Event()
+
+    changing = ranges.copy()
+
+    def change():
+        while not stop.is_set():
+            changing[:] = np.nan
+            changing[:] = ranges[:, [2, 3, 0, 1]]
+            changing[:] = ranges
+
+    # The progress function alone begins the change: then the call has its copy.
+    thread = threading.Thread(target=change)
+    found = tree.count(changing, threads=2, progress=lambda done: thread.is_alive() or stop.is_set() or thread.start())
+    stop.set()
+    if thread.ident:
+        thread.join()
+    assert np.array_equal(found, expected)
+
+    stop.clear()
+    thread = threading.Thread(target=change)
+    thread.start()
+    for _ in range(20):  # torn arrays may be refused, and nothing else may happen
+        try:
+            froe.boxes(changing).build().query(changing)
+        except froe.errors.InputError:
+            pass
+    stop.set()
+    thread.join()
+
+
+def test_an_array_that_is_read_only_is_not_copied():
+    ranges = windows(1000, 0.02)
+    ranges.flags.writeable = False
+    tree = froe.segments(short_segments(1000)).build()
+    assert np.array_equal(tree.count(ranges), tree.count(ranges.copy()))
+
+
+def ask_in_child(tree, ranges, queue):
+    queue.put(int(tree.count(ranges).sum()))
+
+
+@pytest.mark.parametrize("how", ["fork", "spawn"])
+def test_processes(tree, how):
+    """A fork between two calls, on several threads each, and a process that gets a pickle."""
+    ranges = windows(5000, 0.02)
+    expected = int(tree.count(ranges, threads=4).sum())
+    context = multiprocessing.get_context(how)
+    queue = context.Queue()
+    children = [context.Process(target=ask_in_child, args=(tree, ranges, queue)) for _ in range(2)]
+    for child in children:
+        child.start()
+    assert [queue.get(timeout=60) for _ in children] == [expected] * 2
+    for child in children:
+        child.join()
+        assert child.exitcode == 0
+
+
+def test_fork_while_another_thread_asks(tree):
+    ranges, stop = windows(20000, 0.03), threading.Event()
+
+    def ask():
+        while not stop.is_set():
+            tree.count(ranges, threads=2)
+
+    thread = threading.Thread(target=ask)
+    thread.start()
+    try:
+        for _ in range(5):
+            child = os.fork()
+            if child == 0:
+                os._exit(0 if tree.count(ranges[:100], threads=2).sum() > 0 else 1)
+            assert os.waitpid(child, 0)[1] == 0
+    finally:
+        stop.set()
+        thread.join()
+
+
+def test_pickles(tmp_path):
+    tree = froe.segments(short_segments(1000)).build()
+    ranges = windows(100, 0.05)
+    again = pickle.loads(pickle.dumps(tree))
+    assert np.array_equal(again.query(ranges).ids, tree.query(ranges).ids)
+    tree.save(tmp_path / "a.froe")
+    opened = froe.open(tmp_path / "a.froe")
+    assert len(pickle.dumps(opened)) < 500 < len(pickle.dumps(tree))
+    assert np.array_equal(pickle.loads(pickle.dumps(opened)).query(ranges).ids, tree.query(ranges).ids)
+
+
+def test_answers_outlive_the_tree(tree):
+    asked = froe.segments(short_segments(1000)).build()
+    answers, pieces, rays = asked.query([[0, 0, 1, 1]]), asked.pieces(), asked.ray([[0, 0]], [[1, 1]])
+    expected = answers.ids.tolist(), pieces.coords.tolist(), rays[1].tolist()
+    asked.close()
+    del asked
+    assert (answers.ids.tolist(), pieces.coords.tolist(), rays[1].tolist()) == expected
