@@ -90,9 +90,9 @@ setup(
     ext_modules=[
         Extension(
             "froe._core",
-            [str(file.relative_to(HERE)) for file in sorted((HERE / "src/_core").glob("*.c"))],
-            depends=[str(file.relative_to(HERE)) for file in sorted((HERE / "src/_core").glob("*.h"))],
-            include_dirs=[str(ROOT / "include")],
+            [str(file.relative_to(HERE)) for file in sorted((HERE / "src/_core").glob("**/*.c"))],
+            depends=[str(file.relative_to(HERE)) for file in sorted((HERE / "src/_core").glob("**/*.h"))],
+            include_dirs=[str(ROOT / "include"), str(HERE / "src/_core")],
             define_macros=[("FROE_API", "")],
             extra_compile_args=FLAGS,
             extra_link_args=["-Wl,--exclude-libs,ALL", "-pthread", "-lm"],

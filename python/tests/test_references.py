@@ -23,6 +23,15 @@ def refused(call, *arguments):
     raise AssertionError("It was not refused.")
 
 
+def moving():
+    motion = froe.Motion(0, 4)
+    motion.add([0, 4, 0, 4], [[0, 0], [4, 0], [0, 1], [4, 1]], [0, 2, 4])
+    motion.add([0, 0], [[2, 0], [2, 1]], [0, 1, 2])
+    return motion
+
+
+MOTION = moving()
+KINETIC = MOTION.kinetic()
 TREE = froe.segments(SEGMENTS).build("autopartition", purpose="pieces")
 SPACE = froe.triangles([[[0, 0, 0], [4, 0, 0], [2, 0, 3]]]).build(purpose="draw")
 CALLS = {
@@ -60,21 +69,28 @@ CALLS = {
     "render": lambda: SPACE._core.render(None, 0, OPTIONS, None),
     "render refused": lambda: refused(SPACE._core.render, None, 0, {"title": 5}, None),
     "render of an option too many": lambda: refused(SPACE._core.render, None, 0, {"tidle": 5}, None),
+    "motion": lambda: moving(),
+    "motion refused": lambda: refused(froe._core.motion, 2, 1.0, 1.0, 0.0),
+    "contacts": lambda: MOTION._core.contacts(0.0, 4.0, False, False, 1, None),
+    "kinetic": lambda: MOTION.kinetic().advance(2),
+    "snapshot": lambda: KINETIC.snapshot(),
+    "points of a partition": lambda: KINETIC.locate(POINT),
+    "generate": lambda: froe.generate("segments", 3),
     "closed": lambda: froe.segments(SEGMENTS).build(threads=1).close(),
 }
 WATCHED = (None, True, False, SEGMENTS, BOXES, POINT, WAY, IDS, OPTIONS, TREE._core, SPACE._core, froe._core.Array,
-           froe._core.Tree, froe._core.Scene)
+           froe._core.Tree, froe._core.Scene, froe._core.Motion, froe._core.Kinetic, MOTION._core)
 
 
 @pytest.mark.parametrize("name", CALLS)
 def test_references(name):
-    """Of 3000 calls each: 10^5 in all."""
+    """Of 2500 calls each: 10^5 in all."""
     call = CALLS[name]
     for _ in range(50):
         call()
     gc.collect()
     before = [sys.getrefcount(watched) for watched in WATCHED], len(gc.get_objects()), sys.getallocatedblocks()
-    for _ in range(3000):
+    for _ in range(2500):
         call()
     gc.collect()
     after = [sys.getrefcount(watched) for watched in WATCHED], len(gc.get_objects()), sys.getallocatedblocks()

@@ -16,12 +16,27 @@ static bool fails(void) {
     if (atomic_load(&left) < 0) return false;
     return atomic_fetch_sub(&left, 1) <= 0 && (atomic_store(&left, 0), true);
 }
-void core_fail_after(long count) {
-    atomic_store(&left, count);
+
+/* fail_after(count): so many allocations succeed from now on, and all others fail; below 0: none fails */
+static PyObject *fail_after(PyObject *module, PyObject *const *args, Py_ssize_t count) {
+    (void)module;
+    if (!core_arguments("fail_after", count, 1)) return NULL;
+    atomic_store(&left, PyLong_AsLong(args[0]));
+    Py_RETURN_NONE;
+}
+
+static bool add_faults(PyObject *module) {
+    static PyMethodDef functions[] = {CORE_METHOD("fail_after", fail_after), {NULL, NULL, 0, NULL}};
+    return PyModule_AddFunctions(module, functions) == 0;
 }
 #else
 static bool fails(void) {
     return false;
+}
+
+static bool add_faults(PyObject *module) {
+    (void)module;
+    return true;
 }
 #endif
 
@@ -60,7 +75,7 @@ static void free_owned(PyObject *capsule) {
 }
 
 PyObject *core_owner(const void *block, size_t bytes, core_free_fn *free_block) {
-    owned *own = malloc(sizeof *own + bytes);
+    owned *own = allocate(NULL, NULL, 0, sizeof *own + bytes);
     if (!own) {
         core_fail(FROE_E_MEMORY, "There is no memory to hand out an array.");
         void *copy = (void *)block;
@@ -135,7 +150,7 @@ static PyType_Spec array_spec = {"froe._core.Array", sizeof(core_array_object), 
 
 bool core_add_memory(PyObject *module) {
     array_type = core_add_type(module, &array_spec);
-    return array_type;
+    return array_type && add_faults(module);
 }
 
 PyObject *core_array(PyObject *owner, const void *data, const char *format, size_t count, size_t width, size_t stride) {
@@ -186,4 +201,31 @@ PyObject *core_tuple(size_t count, PyObject *const *objects) {
         else
             Py_XDECREF(objects[i]);
     return tuple;
+}
+
+/* -------------------------------------------------------------------- piles -- */
+
+bool core_pile_put(void *user, const void *bytes, size_t count) {
+    core_pile *pile = user;
+    if (count >= pile->room - pile->count) { /* so that there are bytes, even if they are none */
+        const size_t room = 2 * pile->room + count + 4096;
+        char *grown = allocate(NULL, pile->bytes, pile->room, room);
+        pile->full = !grown;
+        if (!grown) return false;
+        pile->bytes = grown, pile->room = room;
+    }
+    memcpy(pile->bytes + pile->count, bytes, count);
+    pile->count += count;
+    return true;
+}
+
+void core_pile_free(core_pile *pile) {
+    allocate(NULL, pile->bytes, pile->room, 0);
+    *pile = (core_pile){0};
+}
+
+PyObject *core_pile_owner(core_pile *pile) {
+    if (!pile->bytes && !core_pile_put(pile, "", 0))
+        return core_fail(FROE_E_MEMORY, "There is no memory for an array.");
+    return core_block(pile->bytes, pile->room);
 }

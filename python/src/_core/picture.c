@@ -76,24 +76,6 @@ static bool set_options(froe_render_options *options, PyObject *dict) {
 
 /* --------------------------------------------------------------- to memory -- */
 
-typedef struct pile {
-    char *bytes;
-    size_t count, room;
-} pile;
-
-static bool put(void *user, const void *bytes, size_t count) {
-    pile *p = user;
-    if (count > p->room - p->count) {
-        const size_t room = 2 * p->room + count + 4096;
-        char *grown = core_allocator.fn(NULL, p->bytes, p->room, room);
-        if (!grown) return false;
-        p->bytes = grown, p->room = room;
-    }
-    memcpy(p->bytes + p->count, bytes, count);
-    p->count += count;
-    return true;
-}
-
 static PyObject *report_of(const froe_render_report *r) {
     const froe_visibility_report *v = &r->picture.visibility;
     return Py_BuildValue("{s:s,s:K,s:K,s:K,s:K,s:K,s:K,s:K,s:K,s:K}", "paint", froe_paint_name(r->picture.paint),
@@ -106,13 +88,18 @@ static PyObject *report_of(const froe_render_report *r) {
 
 /* Into memory where path is NULL. */
 static bool run(const froe_tree *tree, froe_render_options *options, const char *path, froe_render_format format,
-                PyObject *progress, pile *to, froe_render_report *report) {
+                PyObject *progress, core_pile *to, froe_render_report *report) {
     core_call call;
     froe_diagnostic diag;
     core_call_begin(&call, progress);
     options->progress = core_call_progress, options->user = &call;
-    const froe_status status = path ? froe_render(tree, path, options, report, &diag)
-                                    : froe_render_write(tree, format, put, to, options, report, &diag);
+    froe_status status = path ? froe_render(tree, path, options, report, &diag)
+                              : froe_render_write(tree, format, core_pile_put, to, options, report, &diag);
+    if (to->full) {
+        status = FROE_E_MEMORY;
+        diag.message[0] = 0;
+        diag.object = diag.corner = diag.axis = FROE_NONE;
+    }
     return core_call_end(&call, status, &diag);
 }
 
@@ -123,7 +110,7 @@ PyObject *core_tree_render(PyObject *object, PyObject *const *args, Py_ssize_t c
     froe_render_report report;
     uint32_t format;
     PyObject *path = NULL;
-    pile to = {0};
+    core_pile to = {0};
     if (!core_arguments("render", count, 4) ||
         !core_unsigned(args[1], "format", FROE_RENDER_FORMAT_COUNT - 1, &format) || !set_options(&options, args[2]) ||
         (args[0] != Py_None && !PyUnicode_FSConverter(args[0], &path)))
@@ -135,6 +122,6 @@ PyObject *core_tree_render(PyObject *object, PyObject *const *args, Py_ssize_t c
     Py_XDECREF(path);
     PyObject *parts[] = {done ? PyBytes_FromStringAndSize(to.bytes, (Py_ssize_t)to.count) : NULL,
                          done ? report_of(&report) : NULL};
-    if (to.bytes) core_allocator.fn(NULL, to.bytes, to.room, 0);
+    core_pile_free(&to);
     return core_tuple(2, parts);
 }

@@ -14,6 +14,7 @@ from .adapters.meshes import from_pyvista, from_trimesh
 from .adapters.shapely import from_shapely, to_shapely
 from .answers import Answers
 from .errors import Error
+from .motion import Contacts, Events, Kinetic, Motion, Snapshot, read_motion
 from .pictures import Picture, RenderReport
 from .report import Promise, Report
 from .scene import (
@@ -34,8 +35,12 @@ from .tree import Cells, Pieces, Tree, open
 __all__ = [
     "Answers",
     "Cells",
+    "Contacts",
     "Error",
+    "Events",
     "Group",
+    "Kinetic",
+    "Motion",
     "Picture",
     "Pieces",
     "Promise",
@@ -44,6 +49,7 @@ __all__ = [
     "Report",
     "Scene",
     "SceneArrays",
+    "Snapshot",
     "Tree",
     "boxes",
     "compare",
@@ -58,6 +64,7 @@ __all__ = [
     "open",
     "points",
     "read",
+    "read_motion",
     "segments",
     "to_shapely",
     "triangles",

@@ -16,6 +16,7 @@ class Promise:
 
     @property
     def holds(self) -> bool:
+        """Is what was measured within what was promised?"""
         return self.measured <= self.promised
 
 

@@ -72,6 +72,7 @@ class Cells:
 
     @property
     def dim(self) -> int:
+        """2 or 3."""
         return int(self.coords.shape[1])
 
     def __len__(self) -> int:
