@@ -16,6 +16,11 @@ static size_t place_of_member(const query_members *set, uint32_t number) {
     return low;
 }
 
+bool query_members_has(const query_members *set, uint32_t number) {
+    const size_t at = place_of_member(set, number);
+    return at < set->count && set->data[at] == number;
+}
+
 static bool put_member(query_members *set, const froe_allocator *alloc, size_t at, uint32_t number) {
     if (!array_reserve(alloc, set, 1)) return false;
     memmove(set->data + at + 1, set->data + at, (set->count - at) * sizeof *set->data);

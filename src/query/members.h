@@ -10,6 +10,7 @@
 /** A set: ascending numbers. */
 typedef ARRAY(uint32_t) query_members;
 
+bool query_members_has(const query_members *set, uint32_t number);
 /** Takes a number out if it is in, and in if not; or in for good. False without memory. */
 bool query_members_flip(query_members *set, const froe_allocator *alloc, uint32_t number);
 bool query_members_add(query_members *set, const froe_allocator *alloc, uint32_t number);

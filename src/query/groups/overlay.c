@@ -157,16 +157,6 @@ static froe_status refuse_solid(const query_region *r, uint32_t object, froe_dia
                            r->group, froe_scene_group(r->query->tree->scene, r->group).name, object);
 }
 
-/* A point of the inner region. */
-static froe_status test_point(const overlay *o, const double *x, bool *good, froe_diagnostic *diag) {
-    const query_region *r = o->regions[OUTER];
-    const froe_status status = query_groups_at(r->query, r->areas, x, diag);
-    *good = false;
-    for (size_t i = 0; !status && i < r->query->groups.inside.count && !*good; i++)
-        *good = r->query->groups.inside.data[i] == r->group;
-    return status;
-}
-
 static froe_status follow_inner(overlay *o, bool *good, froe_diagnostic *diag) {
     const query_region *r = o->regions[INNER];
     froe_status status = FROE_OK;
@@ -176,35 +166,20 @@ static froe_status follow_inner(overlay *o, bool *good, froe_diagnostic *diag) {
     }
     for (uint32_t i = 0; r->query && *good && !status && i < query_roster_size(r->roster, r->group); i++) {
         const froe_scene *s = r->query->tree->scene;
-        const uint32_t object = r->roster->objects[r->roster->starts[r->group] + i];
+        const uint32_t object = query_roster_object(r->roster, r->group, i);
         if (is_solid(r, object)) return refuse_solid(r, object, diag);
         const double *p = scene_point(s, object, 0), *q = scene_point(s, object, scene_corners(s, object) - 1);
-        status = p[0] == q[0] && p[1] == q[1] ? test_point(o, p, good, diag) : follow_edge(o, p, q, true, good);
+        status = p[0] == q[0] && p[1] == q[1] ? query_region_has(o->regions[OUTER], p, good, diag)
+                                              : follow_edge(o, p, q, true, good);
     }
     return status;
 }
 
-static void bound_point(double box[4], const double *x) {
-    for (int k = 0; k < 2; k++) {
-        box[k] = x[k] < box[k] ? x[k] : box[k];
-        box[2 + k] = x[k] > box[2 + k] ? x[k] : box[2 + k];
-    }
-}
-
 /* Finds the objects of the outer group within the bounds of the inner one. */
 static froe_status find_near(overlay *o) {
-    const query_region *r = o->regions[INNER], *outer = o->regions[OUTER];
-    double box[4] = {INFINITY, INFINITY, -INFINITY, -INFINITY};
-    froe_range window = froe_range_defaults();
-    window.points = box;
-    for (uint32_t i = 0; !r->query && i < r->count; i++) bound_point(box, r->corners + 2 * (size_t)i);
-    for (uint32_t i = 0; r->query && i < query_roster_size(r->roster, r->group); i++) {
-        double lo[2], hi[2];
-        scene_object_bounds(r->query->tree->scene, r->roster->objects[r->roster->starts[r->group] + i], lo, hi);
-        bound_point(box, lo), bound_point(box, hi);
-    }
+    const query_region *outer = o->regions[OUTER];
     o->work->near.count = 0;
-    if (query_range_ask(outer->query, &window, false, NULL)) return FROE_E_MEMORY;
+    if (query_region_near(o->regions[INNER], outer->query, NULL)) return FROE_E_MEMORY;
     for (size_t i = 0; i < outer->query->found.count; i++) {
         const uint32_t object = outer->query->found.data[i];
         if (outer->query->tree->scene->groups[object] == outer->group && !array_push(o->alloc, &o->work->near, object))

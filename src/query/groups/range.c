@@ -12,34 +12,13 @@
 #include "support/fail.h"
 #include <string.h>
 
-const char *froe_relation_name(froe_relation relation) {
-    static const char *const names[FROE_RELATION_COUNT] = {"meets", "within", "covers"};
-    return (unsigned)relation < FROE_RELATION_COUNT ? names[relation] : NULL;
-}
-
-froe_status query_relating_begin(froe_query *q, froe_relation relation, query_relating *out, froe_diagnostic *diag) {
-    if ((unsigned)relation >= FROE_RELATION_COUNT)
-        return support_fail(diag, FROE_E_ARG, "There is no relation of number %u.", (unsigned)relation);
-    *out = (query_relating){.relation = relation};
-    const froe_status status = query_groups_prepare(q, &out->areas, diag);
-    return status || relation == FROE_MEETS ? status : query_roster_of(q, &out->roster, diag);
-}
-
 /* ------------------------------------------------------------------- meets -- */
 
 /* A range with a point beyond the bounds of all objects is in no area that it does not meet the border of. */
 static froe_status relate_met(froe_query *q, const query_relating *r, const froe_range *range, froe_diagnostic *diag) {
-    const uint32_t *groups = q->tree->scene->groups;
     const bool here = query_in_scene(q->tree->scene, range->points);
-    froe_status status = here ? query_groups_at(q, r->areas, range->points, diag) : FROE_OK;
-    for (size_t i = 0; here && !status && i < q->groups.inside.count; i++)
-        if (!query_groups_put_once(&q->work, &q->alloc, q->groups.inside.data[i])) return support_fail_memory(diag);
-    if (!status) status = query_range_ask(q, range, false, diag);
-    for (size_t i = 0; !status && i < q->found.count; i++) {
-        const uint32_t group = groups[q->found.data[i]];
-        if (group != FROE_NONE && !query_groups_put_once(&q->work, &q->alloc, group)) return support_fail_memory(diag);
-    }
-    return status;
+    const froe_status status = here ? query_relate_point(q, r, range->points, diag) : FROE_OK;
+    return status ? status : query_relate_objects(q, range, diag);
 }
 
 /* ------------------------------------------------------------------ within -- */
@@ -150,10 +129,7 @@ static froe_status relate_cover(froe_query *q, const query_relating *r, const fr
     for (int k = 0; k < 2 && range->shape == FROE_SHAPE_BOX; k++)
         if (range->points[k] < s->lo[k] || range->points[2 + k] > s->hi[k]) return FROE_OK;
     froe_status status = find_corners(q, range, diag);
-    if (!status) status = query_groups_at(q, r->areas, w->corners.data, diag);
-    w->candidates.count = 0;
-    const query_members *at = &q->groups.inside;
-    if (!status && !array_append(&q->alloc, &w->candidates, at->data, at->count)) return support_fail_memory(diag);
+    if (!status) status = query_relate_candidates(q, r, w->corners.data, diag);
     const bool point = w->corners.count == 2;
     if (!status && !point && w->candidates.count) status = query_range_ask(q, range, false, diag);
     for (size_t i = 0; !status && !point && w->candidates.count && i < q->found.count; i++)

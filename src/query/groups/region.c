@@ -43,6 +43,35 @@ froe_status query_region_lines(const query_region *r, query_groups_work *work, c
     return FROE_OK;
 }
 
+/* ------------------------------------------------------------------ points -- */
+
+static void bound_point(double box[4], const double *x) {
+    for (int k = 0; k < 2; k++) {
+        box[k] = x[k] < box[k] ? x[k] : box[k];
+        box[2 + k] = x[k] > box[2 + k] ? x[k] : box[2 + k];
+    }
+}
+
+froe_status query_region_near(const query_region *r, froe_query *other, froe_diagnostic *diag) {
+    double box[4];
+    froe_range window = froe_range_defaults();
+    for (int k = 0; k < 2; k++) box[k] = (double)INFINITY, box[2 + k] = -(double)INFINITY;
+    for (uint32_t i = 0; !r->query && i < r->count; i++) bound_point(box, r->corners + 2 * (size_t)i);
+    for (uint32_t i = 0; r->query && i < query_roster_size(r->roster, r->group); i++) {
+        double lo[2], hi[2];
+        scene_object_bounds(r->query->tree->scene, query_roster_object(r->roster, r->group, i), lo, hi);
+        bound_point(box, lo), bound_point(box, hi);
+    }
+    window.points = box;
+    return query_range_ask(other, &window, false, diag);
+}
+
+froe_status query_region_has(const query_region *r, const double *x, bool *out, froe_diagnostic *diag) {
+    const froe_status status = query_groups_at(r->query, r->areas, x, diag);
+    *out = !status && query_members_has(&r->query->groups.inside, r->group);
+    return status;
+}
+
 /* ------------------------------------------------------------------- turns -- */
 
 /* Does x lie ahead of p in the direction of a, all three on one line? */
@@ -107,12 +136,6 @@ static void turn_to_edge(num_context *numbers, const query_line *lines, size_t c
     sides[REGION_RIGHT] ^= left ^ along;
 }
 
-static bool is_member(const query_members *set, uint32_t number) {
-    size_t i = 0;
-    while (i < set->count && set->data[i] < number) i++;
-    return i < set->count && set->data[i] == number;
-}
-
 froe_status query_region_sides(const query_region *r, num_context *numbers, const query_line *lines, size_t count,
                                const double *p, const double *q, bool sides[2]) {
     if (!r->query) return sides_in_polygon(r, numbers, p, q, sides), FROE_OK;
@@ -129,7 +152,7 @@ froe_status query_region_sides(const query_region *r, num_context *numbers, cons
         t->groups.from = r->areas->outside;
         if (query_areas_travel(t, r->areas, r->areas->outside, p, NULL)) return FROE_E_MEMORY;
     }
-    sides[REGION_LEFT] = sides[REGION_RIGHT] = is_member(&t->groups.inside, r->group);
+    sides[REGION_LEFT] = sides[REGION_RIGHT] = query_members_has(&t->groups.inside, r->group);
     if (touching) turn_to_edge(numbers, lines, count, t->groups.from, p, q, sides);
     return FROE_OK;
 }

@@ -1,7 +1,9 @@
 /* region.h: groups and convex ranges as closed sets of the plane, and whether one lies in the other.
  *
- *     region.c     which segments bound a region near an edge; whether it lies left and right of a point of the edge
+ *     region.c     objects near a region, and points of it; which segments bound it near an edge, and on which sides
+ *                  of the edge it lies
  *     overlay.c    query_region_inside: an edge is followed from end to end, and both regions with it
+ *     relation.c   what the next two share
  *     range.c      groups and a convex range
  *     join.c       groups and the groups of another tree
  *
@@ -27,6 +29,12 @@ typedef struct query_region {
     const double *corners;
     uint32_t count;
 } query_region;
+
+/** Finds the objects of a tree that meet the bounds of a region, of this tree or another: other->found.
+ * FROE_E_MEMORY. */
+froe_status query_region_near(const query_region *region, froe_query *other, froe_diagnostic *diag);
+/** Is a point in the region, a group? FROE_E_MEMORY. */
+froe_status query_region_has(const query_region *region, const double *x, bool *out, froe_diagnostic *diag);
 
 /** Which side of an edge, as places in an array of two. */
 enum { REGION_LEFT, REGION_RIGHT };

@@ -12,6 +12,12 @@ typedef struct query_relating {
 
 /** Prepares it for a tree. FROE_E_ARG: no such relation; FROE_E_UNSUPPORTED, FROE_E_MEMORY. */
 froe_status query_relating_begin(froe_query *query, froe_relation relation, query_relating *out, froe_diagnostic *diag);
+/** Puts the groups that have a point; those whose objects meet a range. FROE_E_MEMORY. */
+froe_status query_relate_point(froe_query *query, const query_relating *r, const double *x, froe_diagnostic *diag);
+froe_status query_relate_objects(froe_query *query, const froe_range *range, froe_diagnostic *diag);
+/** Makes the groups that have a point the candidates. FROE_E_MEMORY. */
+froe_status query_relate_candidates(froe_query *query, const query_relating *r, const double *x, froe_diagnostic *diag);
+
 /** The groups that have the relation to a range: query->work.groups. */
 froe_status query_relate_range(froe_query *query, const query_relating *r, const froe_range *range,
                                froe_diagnostic *diag);

@@ -18,4 +18,8 @@ froe_status query_roster_of(froe_query *query, const query_roster **out, froe_di
 static inline uint32_t query_roster_size(const query_roster *r, uint32_t group) {
     return r->starts[group + 1] - r->starts[group];
 }
+/** The i-th object of a group. */
+static inline uint32_t query_roster_object(const query_roster *r, uint32_t group, uint32_t i) {
+    return r->objects[r->starts[group] + i];
+}
 #endif
