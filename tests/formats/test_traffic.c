@@ -1,23 +1,10 @@
 /* test_traffic.c: contacts in real and made-up files against exact brute force over all pairs. */
 #include "support/scenes.h"
 
+#include "kinetic/found.h"
 #include "oracle/moving.h"
 #include <math.h>
 #include <stdlib.h>
-
-enum { MOST = 4096 };
-
-typedef struct found {
-    froe_contact list[MOST];
-    size_t count;
-} found;
-
-static bool note(void *user, const froe_contact *c) {
-    found *f = user;
-    assert_true(f->count < MOST);
-    f->list[f->count++] = *c;
-    return true;
-}
 
 /* The box of an object over its whole life, exactly: the hull of its knots and control points. */
 static void hull_of(const froe_motion *m, uint32_t object, double lo[2], double hi[2]) {
@@ -62,7 +49,7 @@ static size_t check_pair(const froe_motion *m, const found *f, uint32_t a, uint3
 static size_t check_all(const froe_motion *m) {
     static found f;
     f.count = 0;
-    assert_int_equal(froe_motion_contacts(m, NULL, note, &f, NULL), FROE_OK);
+    found_in(m, NULL, &f);
     size_t confirmed = 0;
     oracle_contacts truth;
     oracle_contacts_init(&truth);

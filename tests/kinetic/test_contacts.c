@@ -6,29 +6,11 @@
 
 #include <cmocka.h>
 
+#include "found.h"
 #include "kinetic/contact/meet.h"
 #include "motions.h"
 #include "oracle/moving.h"
 #include "support/memory.h"
-
-enum { MOST_CONTACTS = 8192 };
-
-typedef struct found {
-    froe_contact list[MOST_CONTACTS];
-    size_t count;
-} found;
-
-static bool note(void *user, const froe_contact *c) {
-    found *f = user;
-    assert_true(f->count < MOST_CONTACTS);
-    f->list[f->count++] = *c;
-    return true;
-}
-
-static void find(const froe_motion *m, const froe_contact_options *o, found *out) {
-    out->count = 0;
-    assert_int_equal(froe_motion_contacts(m, o, note, out, NULL), FROE_OK);
-}
 
 /* ------------------------------------------------------------ against the oracle -- */
 
@@ -77,9 +59,9 @@ static void check_motion(const froe_motion *m, tally *t) {
     static found f, again;
     froe_contact_options o = froe_contact_defaults();
     o.threads = 1;
-    find(m, &o, &f);
+    found_in(m, &o, &f);
     o.threads = 3;
-    find(m, &o, &again);
+    found_in(m, &o, &again);
     assert_int_equal(f.count, again.count);
     assert_memory_equal(f.list, again.list, f.count * sizeof *f.list);
     oracle_contacts truth;
@@ -110,7 +92,7 @@ static void contacts_are_those_of_exact_brute_force(void **state) {
 
 static size_t contacts_of(const froe_moving *batch, const froe_contact_options *o, found *out) {
     froe_motion *m = motion_of(batch, NULL);
-    find(m, o, out);
+    found_in(m, o, out);
     froe_motion_free(m);
     return out->count;
 }
@@ -193,7 +175,7 @@ static void objects_of_one_group_or_vertex_may_be_left_out(void **state) {
     assert_int_equal(froe_motion_add(m, &b, NULL), FROE_OK);
     froe_contact_options o = froe_contact_defaults();
     o.apart = true;
-    find(m, &o, &f);
+    found_in(m, &o, &f);
     assert_int_equal(f.count, 2);
     assert_int_equal(f.list[0].b, 2);
     froe_motion_free(m);
@@ -272,7 +254,7 @@ static froe_status find_with(void *user, const froe_allocator *alloc) {
     f.count = 0;
     froe_status status = froe_motion_new(&w, alloc, &m, NULL);
     if (!status) status = froe_motion_add(m, &b, NULL);
-    if (!status) status = froe_motion_contacts(m, &o, note, &f, NULL);
+    if (!status) status = froe_motion_contacts(m, &o, found_note, &f, NULL);
     if (!status) assert_int_equal(f.count, 3);
     (void)user;
     froe_motion_free(m);

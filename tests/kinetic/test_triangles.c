@@ -7,29 +7,13 @@
 
 #include <cmocka.h>
 
+#include "found.h"
 #include "kinetic/contact/meet.h"
 #include "oracle/touching.h"
 #include "support/fuzz.h"
 #include "support/memory.h"
 
-enum { MOST_CONTACTS = 4096, MOST = 8, KNOTS = 3, WINDOW = 8 };
-
-typedef struct found {
-    froe_contact list[MOST_CONTACTS];
-    size_t count;
-} found;
-
-static bool note(void *user, const froe_contact *c) {
-    found *f = user;
-    assert_true(f->count < MOST_CONTACTS);
-    f->list[f->count++] = *c;
-    return true;
-}
-
-static void find(const froe_motion *m, const froe_contact_options *o, found *out) {
-    out->count = 0;
-    assert_int_equal(froe_motion_contacts(m, o, note, out, NULL), FROE_OK);
-}
+enum { MOST = 8, KNOTS = 3, WINDOW = 8 };
 
 /* ----------------------------------------------------------------- made-up scenes -- */
 
@@ -224,7 +208,7 @@ static void check_samples(asking *q, const froe_contact *list, int count) {
 }
 
 static void check_pair(asking *q, const found *f, tally *t) {
-    static froe_contact list[MOST_CONTACTS];
+    static froe_contact list[FOUND_MOST];
     int count = 0;
     for (size_t i = 0; i < f->count; i++)
         if (f->list[i].a == q->a && f->list[i].b == q->b) list[count++] = f->list[i];
@@ -239,9 +223,9 @@ static void check_motion(const froe_motion *m, tally *t) {
     static found f, again;
     froe_contact_options o = froe_contact_defaults();
     o.threads = 1;
-    find(m, &o, &f);
+    found_in(m, &o, &f);
     o.threads = 3;
-    find(m, &o, &again);
+    found_in(m, &o, &again);
     assert_int_equal(f.count, again.count);
     assert_memory_equal(f.list, again.list, f.count * sizeof *f.list);
     for (size_t i = 1; i < f.count; i++) assert_true(f.list[i - 1].begin[0] <= f.list[i].begin[0]);
@@ -289,7 +273,7 @@ static bool overlap(const double a[2], const double b[2]) {
 static void assert_alike(const found *f, const froe_moving *batch) {
     static found again;
     froe_motion *m = motion_of(batch);
-    find(m, NULL, &again);
+    found_in(m, NULL, &again);
     assert_int_equal(f->count, again.count);
     for (size_t i = 0; i < f->count; i++) {
         const froe_contact *c = &f->list[i], *d = again.list;
@@ -319,7 +303,7 @@ static void contacts_do_not_depend_on_place_size_and_order(void **state) {
     for (int kind = LATTICE; kind <= LIVES; kind++) {
         froe_moving batch = make(&r, (scene_kind)kind, MOST, &s);
         froe_motion *m = motion_of(&batch);
-        find(m, NULL, &f);
+        found_in(m, NULL, &f);
         froe_motion_free(m);
         for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
             changed = s;
@@ -379,9 +363,9 @@ static froe_motion *thrown_bodies(void) {
 static void boxes_miss_nothing_among_bodies_that_fall_and_turn(void **state) {
     (void)state;
     static found f;
-    static uint32_t next[MOST_CONTACTS], first[CROWD]; /* of the contacts of each first object, in order of time */
+    static uint32_t next[FOUND_MOST], first[CROWD]; /* of the contacts of each first object, in order of time */
     froe_motion *m = thrown_bodies();
-    find(m, NULL, &f);
+    found_in(m, NULL, &f);
     assert_true(f.count > 300);
     for (uint32_t a = 0; a < CROWD; a++) first[a] = FROE_NONE;
     for (uint32_t i = (uint32_t)f.count; i-- > 0;) {
@@ -427,7 +411,7 @@ static size_t contacts_of(const double rest[9], const double start[9], const dou
     froe_moving b = froe_moving_defaults();
     b.vertex_count = 6, b.count = 2, b.starts = starts, b.times = times, b.coords = at, b.controls = controls;
     froe_motion *m = motion_of(&b);
-    find(m, NULL, f);
+    found_in(m, NULL, f);
     froe_motion_free(m);
     return f->count;
 }
@@ -488,7 +472,7 @@ static void neighbours_are_left_out(void **state) {
     b.coords = at;
     b.vertices = (const uint32_t[]){0, 1, 2, 2, 1, 3, 4, 5, 6};
     froe_motion *m = motion_of(&b);
-    find(m, NULL, &f);
+    found_in(m, NULL, &f);
     assert_int_equal(f.count, 1);
     assert_true(f.list[0].a == 0 && f.list[0].b == 2 && f.list[0].since_start && f.list[0].to_stop);
     froe_motion_free(m);
@@ -527,7 +511,7 @@ static froe_status find_with(void *user, const froe_allocator *alloc) {
     o.threads = 2;
     f.count = 0;
     froe_status status = motion_in_space(&batch, alloc, &m);
-    if (!status) status = froe_motion_contacts(m, &o, note, &f, NULL);
+    if (!status) status = froe_motion_contacts(m, &o, found_note, &f, NULL);
     if (!status) assert_true(f.count > 0);
     (void)user;
     froe_motion_free(m);

@@ -28,6 +28,15 @@ enum {
     ALL = WALK_POLYNOMIALS
 };
 
+/* Do the pieces of all corners have one degree, and begin and end together? */
+static bool same_times(const motion_piece piece[3]) {
+    for (int i = 1; i < 3; i++)
+        if (piece[i].degree != piece->degree ||
+            (piece->degree && (piece[i].from->time != piece->from->time || piece[i].to->time != piece->to->time)))
+            return false;
+    return true;
+}
+
 #define T num_ball
 #define CURVE motion_ball_curve
 #define POLY num_ball_poly
@@ -38,6 +47,8 @@ enum {
 #define FROM(x) num_ball_from(x)
 #define MARK (void)arena
 #define KEEP(a) (a)
+#define SPAN(m, piece, from, to, out) motion_span_ball(m, piece, from, to, out)
+#define TURN(m, piece, from, to, out) motion_turn_ball(m, piece, from, to, out)
 #include "kinetic/contact/triangles_body.inc"
 
 #define T num_dyadic
@@ -50,6 +61,8 @@ enum {
 #define FROM(x) num_dyadic_from(arena, x)
 #define MARK const size_t mark = arena->top
 #define KEEP(a) num_dyadic_keep(arena, mark, a)
+#define SPAN(m, piece, from, to, out) motion_span_dyadic(arena, m, piece, from, to, out)
+#define TURN(m, piece, from, to, out) motion_turn_dyadic(arena, m, piece, from, to, out)
 #define EXACT
 #include "kinetic/contact/triangles_body.inc"
 
@@ -72,34 +85,6 @@ static void crossing_signs(int edge, int out[5]) {
 }
 
 /* --------------------------------------------------------------- error bounds -- */
-
-static bool same_times(const motion_piece piece[3]) {
-    for (int i = 1; i < 3; i++)
-        if (piece[i].degree != piece->degree ||
-            (piece->degree && (piece[i].from->time != piece->from->time || piece[i].to->time != piece->to->time)))
-            return false;
-    return true;
-}
-
-static void shape_by_balls(const encounter *g, int of, trio_ball *out) {
-    const motion_piece *piece = g->piece[of];
-    motion_ball_curve curve[3];
-    int degree[3];
-    if (piece->corner) {
-        num_ball turn[4][2];
-        const double *const v[3] = {piece[0].corner, piece[1].corner, piece[2].corner};
-        motion_span_ball(g->m, piece, g->w->from, g->w->to, curve);
-        const int turning = motion_turn_ball(g->m, piece, g->w->from, g->w->to, turn);
-        body_of_ball(NULL, curve, piece->degree, turn, turning, v, out);
-        return;
-    }
-    for (int i = 0; i < 3; i++) {
-        motion_span_ball(g->m, &piece[i], g->w->from, g->w->to, &curve[i]);
-        degree[i] = piece[i].degree;
-    }
-    corners_of_ball(NULL, curve, degree, same_times(piece), g->origin, out);
-    finish_shape_ball(NULL, out);
-}
 
 static bool surely_no_crossing(const signed char *sign, int edge) {
     int of[5];
@@ -171,7 +156,7 @@ static bool surely_apart(encounter *g) {
     trios_ball p;
     ball_patch all = {.depth = 0};
     num_ball_poly of[2][3];
-    for (int i = 0; i < 2; i++) shape_by_balls(g, i, &p.shape[i]);
+    for (int i = 0; i < 2; i++) shape_of_ball(NULL, g->m, g->piece[i], g->w, g->origin, &p.shape[i]);
     finish_pair_ball(NULL, &p);
     memset(all.sign, NUM_UNSURE, sizeof all.sign);
     for (int i = 0; i < 2; i++) {
@@ -197,26 +182,6 @@ static bool surely_apart(encounter *g) {
 }
 
 /* ------------------------------------------------------------------- exactly -- */
-
-static void shape_exactly(const encounter *g, int of, trio_dyadic *out) {
-    const motion_piece *piece = g->piece[of];
-    motion_dyadic_curve curve[3];
-    int degree[3];
-    if (piece->corner) {
-        num_dyadic turn[4][2];
-        const double *const v[3] = {piece[0].corner, piece[1].corner, piece[2].corner};
-        motion_span_dyadic(g->arena, g->m, piece, g->w->from, g->w->to, curve);
-        const int turning = motion_turn_dyadic(g->arena, g->m, piece, g->w->from, g->w->to, turn);
-        body_of_dyadic(g->arena, curve, piece->degree, turn, turning, v, out);
-        return;
-    }
-    for (int i = 0; i < 3; i++) {
-        motion_span_dyadic(g->arena, g->m, &piece[i], g->w->from, g->w->to, &curve[i]);
-        degree[i] = piece[i].degree;
-    }
-    corners_of_dyadic(g->arena, curve, degree, same_times(piece), g->origin, out);
-    finish_shape_dyadic(g->arena, out);
-}
 
 static void take_in_space(const encounter *g, const trios_dyadic *p, const bool needed[IN_SPACE]) {
     num_poly *f = g->w->f, of[2][3];
@@ -264,7 +229,7 @@ static bool list_events(const encounter *g) {
     walk_room *w = g->w;
     bool needed[IN_SPACE] = {false}, told = true, always_flat = g->may_be_flat;
     trios_dyadic p;
-    for (int i = 0; i < 2; i++) shape_exactly(g, i, &p.shape[i]);
+    for (int i = 0; i < 2; i++) shape_of_dyadic(g->arena, g->m, g->piece[i], g->w, g->origin, &p.shape[i]);
     finish_pair_dyadic(g->arena, &p);
     for (int edge = 0; edge < 6; edge++) {
         int of[5];
