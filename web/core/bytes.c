@@ -1,4 +1,4 @@
-/* bytes.c: what froe writes to a function, in memory */
+/* bytes.c: what froe writes to a function, and what its visitors collect, in memory */
 #include "web.h"
 #include <stdlib.h>
 #include <string.h>
@@ -17,12 +17,16 @@ bool web_bytes_take(void *user, const void *bytes, size_t count) {
     return true;
 }
 
-froe_status web_bytes_end(web_bytes *all, froe_status status, void **bytes, size_t *count, froe_diagnostic *diag) {
-    if (status == FROE_OK) {
-        *bytes = all->at;
-        *count = all->count;
-        return FROE_OK;
-    }
+WEB_EXPORT void web_bytes_free(web_bytes *all) {
     free(all->at);
-    return all->no_memory ? web_no_memory(diag) : status;
+    *all = (web_bytes){NULL, 0, 0, false};
+}
+froe_status web_bytes_end(web_bytes *all, froe_status status, froe_diagnostic *diag) {
+    if (all->no_memory) status = web_no_memory(diag);
+    if (status != FROE_OK) web_bytes_free(all);
+    return status;
+}
+
+WEB_EXPORT void web_free(void *memory) {
+    free(memory);
 }

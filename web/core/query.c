@@ -1,38 +1,32 @@
 /* query.c: ranges of every shape; all other questions are functions of <froe/query.h> as they are */
 #include "web.h"
 #include <froe/query.h>
-#include <stdlib.h>
 
 static const char *shape_name(int value) {
     return froe_range_shape_name((froe_range_shape)value);
 }
+static const char *walk_name(int value) {
+    return froe_walk_name((froe_walk)value);
+}
 
-static const web_member members[] = {
-    {"shape", WEB_NAMED, offsetof(froe_range, shape), shape_name},
-    {"points", WEB_ADDRESS, offsetof(froe_range, points), NULL},
-    {"count", WEB_INT, offsetof(froe_range, count), NULL},
-    {"offsets", WEB_ADDRESS, offsetof(froe_range, offsets), NULL},
-    {"radius", WEB_DOUBLE, offsetof(froe_range, radius), NULL},
-    {"eps", WEB_DOUBLE, offsetof(froe_range, eps), NULL},
-    {NULL, WEB_INT, 0, NULL},
+#define AT(member) offsetof(froe_range, member)
+static const web_member range_members[] = {
+    {"shape", WEB_NAMED, AT(shape), shape_name}, {"points", WEB_ADDRESS, AT(points), NULL},
+    {"count", WEB_INT, AT(count), NULL},         {"offsets", WEB_ADDRESS, AT(offsets), NULL},
+    {"radius", WEB_DOUBLE, AT(radius), NULL},    {"eps", WEB_DOUBLE, AT(eps), NULL},
+    {"walk", WEB_NAMED, AT(walk), walk_name},    {NULL, WEB_INT, 0, NULL},
 };
+#undef AT
+static void range_defaults(void *options) {
+    *(froe_range *)options = froe_range_defaults();
+}
+const web_kind web_range = {"range", sizeof(froe_range), range_defaults, range_members};
 
-WEB_EXPORT froe_range *web_range_new(void) {
-    froe_range *range = malloc(sizeof *range);
-    if (range) *range = froe_range_defaults();
-    return range;
+static const web_member batch_members[] = {{NULL, WEB_INT, 0, NULL}};
+static void batch_defaults(void *options) {
+    froe_batch_options *o = options;
+    *o = froe_batch_defaults();
+    o->threads = 1;
+    o->progress = web_progress;
 }
-WEB_EXPORT froe_status web_range_number(froe_range *range, const char *name, double value, froe_diagnostic *diag) {
-    return web_set_number(range, members, name, value, diag);
-}
-WEB_EXPORT froe_status web_range_name(froe_range *range, const char *name, const char *value, froe_diagnostic *diag) {
-    return web_set_name(range, members, name, value, diag);
-}
-
-/** What the questions since the last call have cost: nodes, leaves, objects tested. */
-WEB_EXPORT void web_statistics(froe_query *query, double out[3]) {
-    const froe_query_stats stats = froe_query_statistics(query);
-    out[0] = (double)stats.nodes;
-    out[1] = (double)stats.leaves;
-    out[2] = (double)stats.tests;
-}
+const web_kind web_batch = {"batch", sizeof(froe_batch_options), batch_defaults, batch_members};

@@ -1,85 +1,70 @@
 /* scene.c: scenes from arrays, and from the bytes of a file */
 #include "web.h"
 #include <froe/formats.h>
-#include <stdlib.h>
 #include <string.h>
-
-/* Module.progress is what package/core.js sets. */
-EM_JS(void, web_tell, (double done), {
-    if (Module.progress) Module.progress(done);
-})
-
-bool web_progress(void *user, double done) {
-    (void)user;
-    web_tell(done);
-    return true;
-}
 
 static const char *kind_name(int value) {
     return froe_kind_name((froe_kind)value);
 }
 
-static const web_member members[] = {
-    {"kind", WEB_NAMED, offsetof(froe_objects, kind), kind_name},
-    {"count", WEB_INT, offsetof(froe_objects, count), NULL},
-    {"coords", WEB_ADDRESS, offsetof(froe_objects, coords), NULL},
-    {"pointCount", WEB_INT, offsetof(froe_objects, point_count), NULL},
-    {"indices", WEB_ADDRESS, offsetof(froe_objects, indices), NULL},
-    {"starts", WEB_ADDRESS, offsetof(froe_objects, starts), NULL},
-    {"radii", WEB_ADDRESS, offsetof(froe_objects, radii), NULL},
-    {"tags", WEB_ADDRESS, offsetof(froe_objects, tags), NULL},
-    {"faces", WEB_ADDRESS, offsetof(froe_objects, faces), NULL},
-    {"groups", WEB_ADDRESS, offsetof(froe_objects, groups), NULL},
-    {"group", WEB_INT, offsetof(froe_objects, group), NULL},
-    {NULL, WEB_INT, 0, NULL},
+#define AT(member) offsetof(froe_objects, member)
+static const web_member object_members[] = {
+    {"kind", WEB_NAMED, AT(kind), kind_name},    {"count", WEB_INT, AT(count), NULL},
+    {"coords", WEB_ADDRESS, AT(coords), NULL},   {"pointCount", WEB_INT, AT(point_count), NULL},
+    {"indices", WEB_ADDRESS, AT(indices), NULL}, {"starts", WEB_ADDRESS, AT(starts), NULL},
+    {"radii", WEB_ADDRESS, AT(radii), NULL},     {"tags", WEB_ADDRESS, AT(tags), NULL},
+    {"faces", WEB_ADDRESS, AT(faces), NULL},     {"groups", WEB_ADDRESS, AT(groups), NULL},
+    {"group", WEB_INT, AT(group), NULL},         {NULL, WEB_INT, 0, NULL},
 };
-
-/** A batch to be filled by name; freed by web_free(). NULL: no memory. */
-WEB_EXPORT froe_objects *web_objects_new(void) {
-    froe_objects *batch = malloc(sizeof *batch);
-    if (!batch) return NULL;
+#undef AT
+static void object_defaults(void *options) {
+    froe_objects *batch = options;
     *batch = froe_objects_defaults();
     batch->threads = 1;
     batch->progress = web_progress;
-    return batch;
 }
-WEB_EXPORT froe_status web_objects_number(froe_objects *batch, const char *name, double value, froe_diagnostic *diag) {
-    return web_set_number(batch, members, name, value, diag);
-}
-WEB_EXPORT froe_status web_objects_name(froe_objects *batch, const char *name, const char *value,
-                                        froe_diagnostic *diag) {
-    return web_set_name(batch, members, name, value, diag);
-}
-WEB_EXPORT void web_free(void *memory) {
-    free(memory);
+const web_kind web_objects = {"objects", sizeof(froe_objects), object_defaults, object_members};
+
+static const char *faces_name(int value) {
+    static const char *const names[] = {"triangles", "polygons", NULL};
+    return names[value];
 }
 
-/** Adds a group; colour is 0xRRGGBBAA. */
-WEB_EXPORT froe_status web_scene_add_group(froe_scene *scene, const char *name, const char *material, uint32_t colour,
-                                           uint32_t *id) {
-    const froe_group group = {.name = name, .material = material, .colour = colour};
-    return froe_scene_add_group(scene, &group, id);
+#define AT(member) offsetof(froe_read_options, member)
+static const web_member read_members[] = {
+    {"name", WEB_TEXT, AT(name), NULL},
+    {"faces", WEB_NAMED, AT(faces), faces_name},
+    {"boxes", WEB_BOOL, AT(boxes), NULL},
+    {"wrap", WEB_BOOL, AT(wrap), NULL},
+    {NULL, WEB_INT, 0, NULL},
+};
+#undef AT
+static void read_defaults(void *options) {
+    froe_read_options *o = options;
+    *o = froe_read_defaults();
+    o->progress = web_progress;
 }
-WEB_EXPORT const char *web_scene_group_name(const froe_scene *scene, uint32_t group) {
-    return froe_scene_group(scene, group).name;
-}
-WEB_EXPORT uint32_t web_scene_group_colour(const froe_scene *scene, uint32_t group) {
-    return froe_scene_group(scene, group).colour;
-}
+const web_kind web_read_options = {"read", sizeof(froe_read_options), read_defaults, read_members};
 
-/** Reads the file `path` of the module's own file system. What was read is told in `format`, of 64 bytes. */
-WEB_EXPORT froe_status web_read(const char *path, const char *name, froe_scene **out, char *format,
-                                froe_diagnostic *diag) {
-    froe_read_options options = froe_read_defaults();
-    froe_read_report report;
-    options.name = name;
-    options.progress = web_progress;
-    const froe_status status = froe_read_own(path, &options, out, &report, diag);
-    if (status == FROE_OK) memcpy(format, report.format, sizeof report.format);
-    return status;
-}
+/** How a file was read: texts, and the numbers in the order of READ in package/files.js. */
+typedef struct web_read_report {
+    char format[64], precision[16], unread[64];
+    double numbers[10];
+} web_read_report;
 
-WEB_EXPORT froe_status web_generate(const char *kind, uint32_t n, uint32_t seed, froe_scene **out,
-                                    froe_diagnostic *diag) {
-    return froe_generate(kind, n, seed, NULL, out, diag);
+/** Reads the file `path` of the module's own file system. */
+WEB_EXPORT froe_status web_read(const char *path, const froe_read_options *options, web_read_report *report,
+                                froe_scene **out, froe_diagnostic *diag) {
+    froe_read_report r;
+    const froe_status status = froe_read_own(path, options, out, &r, diag);
+    if (status != FROE_OK) return status;
+    const double numbers[10] = {
+        (double)r.features, (double)r.groups,      (double)r.linearised, (double)r.flattened, (double)r.triangulated,
+        (double)r.skipped,  (double)r.no_geometry, (double)r.wrapped,    (double)r.textures,  (double)r.unread,
+    };
+    memcpy(report->format, r.format, sizeof report->format);
+    memcpy(report->precision, r.precision, sizeof report->precision);
+    memcpy(report->unread, *r.unread_library ? r.unread_library : r.unread_name, sizeof report->unread);
+    memcpy(report->numbers, numbers, sizeof numbers);
+    return FROE_OK;
 }

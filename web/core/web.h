@@ -1,10 +1,10 @@
 /* web.h: what the module exports beside public functions: those whose arguments JavaScript cannot give as numbers
  * and addresses.
  *
- * Public functions that take and give pointers and numbers alone are exported as they are (see
- * web/CMakeLists.txt), and package/core.js reads the structs that they fill; layout.c asserts where their members are.
- * Options are structs that JavaScript does not know: it sets their members by name. Arrays come as addresses in the
- * memory of the module. Text is UTF-8 and ends with a zero byte. */
+ * Public functions that take and give pointers and numbers alone are exported as they are (web/CMakeLists.txt), and
+ * package/core.js reads and writes their structs; layout.c asserts where the members are. Options are structs that
+ * JavaScript does not know: it sets their members by name. Arrays come as addresses in the memory of the module.
+ * Text is UTF-8 and ends with a zero byte. */
 #ifndef FROE_WEB_H
 #define FROE_WEB_H
 
@@ -16,12 +16,14 @@
 /** What a member of a struct of options is. */
 typedef enum web_type {
     WEB_BOOL,
-    WEB_INT,    /**< int, unsigned and enumerations: all of 4 bytes */
-    WEB_UINT64, /**< a whole number, at most 2^53 */
-    WEB_DOUBLE,
+    WEB_INT,     /**< int, unsigned, size_t: all of 4 bytes */
+    WEB_UINT64,  /**< a whole number, at most 2^53 */
+    WEB_DOUBLE,  /**< any */
     WEB_VECTOR,  /**< three doubles: the axis is a part of the name, as in "eye.0" */
-    WEB_ADDRESS, /**< of a text or an array, which must live as long as the options */
-    WEB_NAMED    /**< an enumeration whose values have names */
+    WEB_ADDRESS, /**< of an array, which must live as long as the options */
+    WEB_TEXT,    /**< so must a text */
+    WEB_NAMED,   /**< an enumeration whose values 0, 1, ... have names */
+    WEB_BITS     /**< a set of bits 1, 2, 4, ..., which have names */
 } web_type;
 
 /** A member of a struct, as JavaScript calls it. */
@@ -29,33 +31,38 @@ typedef struct web_member {
     const char *name;
     web_type type;
     size_t offset;
-    const char *(*value_name)(int value); /**< WEB_NAMED */
+    const char *(*value_name)(int value); /**< of WEB_NAMED and WEB_BITS; NULL past the last */
 } web_member;
 
-/** Sets a member to a number, for WEB_ADDRESS to an address. The table ends with a NULL name. FROE_E_OPTIONS: no such
- * member, or no whole number where one is asked for. */
-froe_status web_set_number(void *options, const web_member *table, const char *name, double value,
-                           froe_diagnostic *diag);
-/** Sets a member by the name of its value. FROE_E_OPTIONS: no such member, or no such value. */
-froe_status web_set_name(void *options, const web_member *table, const char *name, const char *value,
-                         froe_diagnostic *diag);
+/** A kind of options. */
+typedef struct web_kind {
+    const char *name;
+    size_t size;
+    void (*defaults)(void *options); /**< one thread, and web_progress() */
+    const web_member *members;       /**< ended by a NULL name */
+} web_kind;
+extern const web_kind web_objects, web_read_options, web_build_options, web_batch, web_range, web_audit;
+extern const web_kind web_render_options, web_line_style, web_export_options;
+extern const web_kind web_motion, web_moving, web_body, web_contacts, web_kinetic, web_snapshot;
 
 /** FROE_E_MEMORY, with its sentence. */
 froe_status web_no_memory(froe_diagnostic *diag);
 
-/** Bytes that grow: what froe writes to a function. */
+/** Bytes that grow: what froe writes to a function, and records that its visitors collect. Freed by
+ * web_bytes_free(). */
 typedef struct web_bytes {
     unsigned char *at;
     size_t count, room;
     bool no_memory;
 } web_bytes;
-/** A froe_write_fn whose user is a web_bytes. */
+/** Adds bytes. A froe_write_fn whose user is a web_bytes. */
 bool web_bytes_take(void *user, const void *bytes, size_t count);
-/** Gives the bytes away, if `status` is FROE_OK; otherwise frees them. Returns what has failed. */
-froe_status web_bytes_end(web_bytes *all, froe_status status, void **bytes, size_t *count, froe_diagnostic *diag);
+/** What a call that filled them returns: `status`, unless memory was short. Frees them if it has failed. */
+froe_status web_bytes_end(web_bytes *all, froe_status status, froe_diagnostic *diag);
+/** Leaves none. */
+void web_bytes_free(web_bytes *all);
 
-/** Tells the page how far a call is; for callbacks, whose `user` does not count. Always true: a page
- * that wants to cancel ends the worker. */
+/** A progress function, whose `user` does not count: asks JavaScript whether to go on. */
 bool web_progress(void *user, double done);
 
 #endif

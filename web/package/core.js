@@ -1,8 +1,8 @@
-/* core.js: the module of WebAssembly: memory, calls that can fail, arrays that come and go.
+/* core.js: the module of WebAssembly: memory, calls that can fail, structs and arrays that come and go.
  *
- * Numbers and addresses are what WebAssembly takes. `Core.call(name, ...)` gives a function of <froe/*.h> or of web/core
- * its arguments and, last, a diagnostic; a status other than FROE_OK becomes a FroeError. Structs are read where
- * web/core/layout.c asserts that their members are. */
+ * Numbers and addresses are what WebAssembly takes. `Core.call(name, ...)` gives a function of <froe/*.h> or of
+ * web/core its arguments and, last, a diagnostic; a status other than FROE_OK becomes a FroeError. Structs are read
+ * where web/core/layout.c asserts that their members are. */
 
 /** What a call could not do. `status` is a name of the C interface ("FROE_E_INPUT"); `object`, `corner` and `axis` tell
  * what it was about, or are null. */
@@ -17,36 +17,64 @@ export class FroeError extends Error {
     }
 }
 
+/** "No object", "no group" in arrays of numbers. */
 export const NONE = 0xffffffff;
-const STATUS = ["FROE_OK", "FROE_E_ARG", "FROE_E_OPTIONS", "FROE_E_MEMORY", "FROE_E_INPUT", "FROE_E_LIMIT", "FROE_E_BUDGET",
-    "FROE_E_CANCELLED", "FROE_E_UNSUPPORTED", "FROE_E_IO", "FROE_E_FORMAT", "FROE_E_FROZEN", "FROE_E_AUDIT"];
-const DIAGNOSTIC = 260;
+const DIAGNOSTIC = 260, BYTES = 16;
 const some = (n) => (n === NONE ? null : n);
 
 export class Core {
     #wasm;
     #diagnostic;
-    #forgotten = new FinalizationRegistry((held) => this.#let(held));
+    #batch;
+    #kinds = new Map();
+    #thrown = null;
+    /** Told the share done while a call runs; false cancels the call. */
+    progress = null;
 
     constructor(wasm) {
         this.#wasm = wasm;
+        wasm.progress = (done) => this.#goOn(done);
         this.#diagnostic = this.malloc(DIAGNOSTIC);
+        const batch = this.#kind("batch");
+        this.#batch = this.malloc(batch.size);
+        this.get("web_kind_defaults", batch.at, this.#batch);
+    }
+    /* An exception must not pass through the frames of WebAssembly: they would leave what they hold. */
+    #goOn(done) {
+        try {
+            return this.progress === null || this.progress(done) !== false;
+        } catch (error) {
+            this.#thrown = { error };
+            return false;
+        }
     }
 
     get size() { return this.#wasm.HEAPU8.length; }
-    get fs() { return this.#wasm.FS; }
+    /** Options of a batch of questions. */
+    get batch() { return this.#batch; }
     /** The memory as an array of a type; it may move with each call that allocates. */
     view(Type, address, length) { return new Type(this.#wasm.HEAPU8.buffer, address, length); }
     /** A copy of an array in the memory. */
     copy(Type, address, length) { return this.view(Type, address, length).slice(); }
     uint(address) { return this.view(Uint32Array, address, 1)[0]; }
+    double(address) { return this.view(Float64Array, address, 1)[0]; }
+    /** The text at an address; null where that is 0. */
+    string(address) { return address ? this.#wasm.UTF8ToString(address) : null; }
+    /** One member of each of `count` structs of `stride` bytes, as an array: `per` values of a Type at `offset`. */
+    column(Type, address, count, stride, offset, per = 1) {
+        const column = new Type(count * per), size = Type.BYTES_PER_ELEMENT;
+        if (!count) return column;
+        const values = this.view(Type, address, (count * stride) / size);
+        for (let i = 0, from = offset / size; i < count; i++, from += stride / size)
+            for (let k = 0; k < per; k++) column[i * per + k] = values[from + k];
+        return column;
+    }
 
     malloc(bytes) {
-        const address = this.#wasm._malloc(Math.max(bytes, 8));
+        const address = this.#wasm._malloc(Math.max(bytes, 8)) >>> 0;
         if (!address) throw new FroeError("FROE_E_MEMORY", `The page has no memory for ${bytes} more bytes.`);
         return address;
     }
-    free(address) { this.#wasm._web_free(address); }
 
     /** Calls `body` with an arena: what it puts into the memory is freed afterwards. */
     within(body) {
@@ -63,35 +91,38 @@ export class Core {
                 this.#wasm.stringToUTF8(text, at, size);
                 return at;
             },
-            own: (address) => { taken.push(address); return address; },
         };
         try {
             return body(arena);
         } finally {
-            for (const address of taken) this.free(address);
+            for (const address of taken) this.get("web_free", address);
         }
     }
 
     /** A function that cannot fail. */
     get(name, ...args) { return this.#wasm["_" + name](...args); }
-    text(name, ...args) {
-        const address = this.get(name, ...args);
-        return address ? this.#wasm.UTF8ToString(address) : null;
+    /** The text that a function returns; null where there is none. */
+    text(name, ...args) { return this.string(this.get(name, ...args) >>> 0); }
+    /** A function that returns a status. Its last argument is a diagnostic; one that takes none does not see it. */
+    call(name, ...args) {
+        const told = this.view(Uint32Array, this.#diagnostic, 1);
+        told[0] = 0;
+        const status = this.get(name, ...args, this.#diagnostic);
+        if (this.#thrown) {
+            const { error } = this.#thrown;
+            this.#thrown = null;
+            throw error;
+        }
+        if (status) throw this.#failure(status);
     }
-    /** A function whose last argument is a diagnostic. */
-    call(name, ...args) { this.#check(this.get(name, ...args, this.#diagnostic), true); }
-    /** A function that has a status, but no diagnostic. */
-    status(name, ...args) { this.#check(this.get(name, ...args), false); }
-
-    #check(status, told) {
-        if (!status) return;
-        const [, object, corner, axis] = this.view(Uint32Array, this.#diagnostic, 4);
-        const message = told ? this.#wasm.UTF8ToString(this.#diagnostic + 16) : "The call failed.";
-        if (told) throw new FroeError(STATUS[status], message, some(object), some(corner), some(axis));
-        throw new FroeError(STATUS[status], message);
+    #failure(status) {
+        const name = this.text("froe_status_name", status);
+        const [told, object, corner, axis] = this.view(Uint32Array, this.#diagnostic, 4);
+        if (told) return new FroeError(name, this.string(this.#diagnostic + 16), some(object), some(corner), some(axis));
+        const text = this.text("froe_status_text", status);
+        return new FroeError(name, `${text[0].toUpperCase()}${text.slice(1)}.`);
     }
-
-    /** The address that a function writes into its last argument but one. */
+    /** The number or address that a function writes into its last argument, or last before a diagnostic. */
     made(name, ...args) {
         return this.within((arena) => {
             const out = arena.room(4);
@@ -99,38 +130,74 @@ export class Core {
             return this.uint(out);
         });
     }
+    /** Lets a function fill a struct of `size` bytes with arrays: what `take` makes of its words, after which `free`
+     * frees the arrays. */
+    filled(name, args, size, free, take) {
+        return this.within((arena) => {
+            const out = arena.room(size);
+            this.call(name, ...args, out);
+            try {
+                return take(this.copy(Uint32Array, out, size / 4), out);
+            } finally {
+                this.get(free, out);
+            }
+        });
+    }
+    /** The bytes that a function of web/core gives in a web_bytes. */
+    bytes(name, ...args) {
+        return this.filled(name, args, BYTES, "web_bytes_free", ([at, count]) => this.copy(Uint8Array, at, count));
+    }
+    /** The records of `stride` bytes that it gives: what `take` makes of their address and their number. */
+    records(name, args, stride, take) {
+        return this.filled(name, args, BYTES, "web_bytes_free", ([at, count]) => take(at, count / stride));
+    }
 
-    /** Frees what `held` lists, [name of the function, address] each, from the last to the first, when `object` is
-     * forgotten, unless release() was called before. More may be added to `held` later. */
-    watch(object, held) {
-        this.#forgotten.register(object, held, held);
-        return held;
+    #kind(name) {
+        if (!this.#kinds.has(name)) {
+            const at = this.within((arena) => this.get("web_kind_of", arena.text(name)) >>> 0);
+            this.#kinds.set(name, { at, size: this.get("web_kind_size", at) });
+        }
+        return this.#kinds.get(name);
     }
-    release(held) {
-        this.#forgotten.unregister(held);
-        this.#let(held);
+    /** A struct of options, its members by name: numbers, truths, texts and names of values, arrays as typed arrays,
+     * vectors as arrays of three numbers, sets as arrays of names, structs of the kind `name` as arrays of objects. */
+    options(arena, kind, options = {}) { return this.list(arena, kind, [options]); }
+    /** Such structs, one after the other. */
+    list(arena, kind, items) {
+        const { at, size } = this.#kind(kind), room = arena.room(items.length * size);
+        items.forEach((options, i) => {
+            this.get("web_kind_defaults", at, room + i * size);
+            for (const [name, value] of Object.entries(options))
+                if (value !== undefined && value !== null) this.#set(arena, at, room + i * size, name, value);
+        });
+        return room;
     }
-    #let(held) {
-        while (held.length) {
-            const [free, address] = held.pop();
-            this.get(free, address);
+    #set(arena, kind, at, name, value) {
+        const set = (type, name, value) => this.call(`web_set_${type}`, kind, at, arena.text(name), value);
+        if (ArrayBuffer.isView(value)) set("address", name, arena.array(value));
+        else if (typeof value === "string") set("text", name, arena.text(value));
+        else if (["number", "bigint", "boolean"].includes(typeof value)) set("number", name, Number(value));
+        else if (!Array.isArray(value)) throw new TypeError(`The option ${name} cannot be of the type ${typeof value}.`);
+        else if (typeof value[0] === "object") set("address", name, this.list(arena, name, value));
+        else if (typeof value[0] === "number") value.forEach((part, i) => set("number", `${name}.${i}`, Number(part)));
+        else {
+            set("number", name, 0);
+            for (const part of value) set("text", name, arena.text(String(part)));
         }
     }
 
-    /** Options by name: numbers, truths, names of values, texts, vectors of three. */
-    options(arena, kind, options) {
-        const at = arena.own(this.get(`web_${kind}_new`));
-        if (!at) throw new FroeError("FROE_E_MEMORY", "The page has no more memory.");
-        const number = (name, value) => this.call(`web_${kind}_number`, at, arena.text(name), Number(value));
-        for (const [name, value] of Object.entries(options)) {
-            if (value === undefined) continue;
-            if (ArrayBuffer.isView(value)) number(name, arena.array(value));
-            else if (Array.isArray(value)) value.forEach((part, i) => number(`${name}.${i}`, part));
-            else if (typeof value !== "string") number(name, value);
-            else if (TEXTS.has(name)) number(name, arena.text(value));
-            else this.call(`web_${kind}_name`, at, arena.text(name), arena.text(value));
+    /** Calls `body` in an empty folder of the module's own file system, with `put(name, bytes)`, which makes a file, and
+     * `take(name)`, which gives the bytes of one. Both drop folders of names, as path(name) does. No file stays. */
+    files(body) {
+        const { FS } = this.#wasm, folder = "/froe", path = (name) => name.replace(/.*[/\\]/, "") || "unnamed";
+        FS.mkdir(folder);
+        FS.chdir(folder);
+        try {
+            return body({ path, put: (name, bytes) => FS.writeFile(path(name), bytes), take: (name) => FS.readFile(path(name)) });
+        } finally {
+            for (const name of FS.readdir(folder)) if (name !== "." && name !== "..") FS.unlink(`${folder}/${name}`);
+            FS.chdir("/");
+            FS.rmdir(folder);
         }
-        return at;
     }
 }
-const TEXTS = new Set(["method", "purpose", "settings", "title", "description"]);

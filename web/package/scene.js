@@ -1,146 +1,154 @@
 /* scene.js: scenes, and how they become trees */
-import { FroeError } from "./core.js";
+import { arraysOf, checkLengths, checkStarts } from "./arrays.js";
+import { NONE } from "./core.js";
+import { addGroup, groupOf } from "./groups.js";
+import { AT, CORE, HANDLE, Handle, Resource } from "./resource.js";
 import { Tree } from "./tree.js";
 
 const ARRAYS = { coords: Float64Array, indices: Uint32Array, starts: Uint32Array, radii: Float64Array, tags: BigUint64Array,
     faces: Uint32Array, groups: Uint32Array };
 const CORNERS = { point: 1, segment: 2, polygon: 3, box: 2, ball: 1, hull: 1 };
-
-/** Numbers as the array that froe takes: as they are where they are one, copied where not. */
-function typed(Type, values, name) {
-    if (values instanceof Type) return values;
-    if (ArrayBuffer.isView(values) || Array.isArray(values)) return Type.from(values);
-    throw new TypeError(`${name} is not an array of numbers.`);
-}
+/** Names of the numbers in `kinds` and `forms` of arrays(). */
+export const KINDS = Object.keys(CORNERS);
+const SCENE_ARRAYS = 60, METHOD = 64, OPTION = 40, DEFECTS = 80; // bytes of froe_scene_arrays, ...
 
 /** A set of objects in space of some dimension. Coordinates are kept exactly; objects have the ids 0, 1, ... in the order
  * in which they are added. */
-export class Scene {
-    #core;
-    #held;
+export class Scene extends Resource {
+    /** How it was read, if it is from a file; otherwise null. */
+    source = null;
 
-    constructor(core, address) {
-        this.#core = core;
-        this.#held = core.watch(this, [["froe_scene_free", address]]);
-    }
-    static empty(core, dim) {
-        return core.within((arena) => {
-            const out = arena.room(4);
-            core.status("froe_scene_new", dim, 0, out);
-            return new Scene(core, core.uint(out));
-        });
-    }
+    constructor(core, handle) { super(core, "scene", handle); }
+    static made(core, address) { return new Scene(core, new Handle(core, "froe_scene_free", address)); }
 
-    get dim() { return this.#core.get("froe_scene_dim", this.#at); }
-    get objectCount() { return this.#core.get("froe_scene_object_count", this.#at); }
-    get groupCount() { return this.#core.get("froe_scene_group_count", this.#at); }
-    get #at() {
-        if (!this.#held.length) throw new FroeError("FROE_E_ARG", "The scene has been freed.");
-        return this.#held[0][1];
-    }
+    get dim() { return this[CORE].get("froe_scene_dim", this[AT]); }
+    get objectCount() { return this[CORE].get("froe_scene_object_count", this[AT]); }
+    get vertexCount() { return this[CORE].get("froe_scene_vertex_count", this[AT]); }
+    get groupCount() { return this[CORE].get("froe_scene_group_count", this[AT]); }
 
     /** Adds objects of one kind: "point", "segment", "polygon", "box", "ball" or "hull". `coords` are points, one after
      * the other; object i has the corners starts[i] .. starts[i + 1], or as many as its kind has (polygons: 3); with
      * `indices` corner c is the point indices[c]. All objects are added, or none. */
-    add({ kind, coords, count, group, ...arrays }) {
-        if (!(kind in CORNERS)) throw new TypeError(`There is no kind of objects called ${kind}.`);
-        const given = { coords, ...arrays }, options = { kind };
-        for (const [name, values] of Object.entries(given)) {
-            if (values === undefined || values === null) continue;
-            if (!(name in ARRAYS)) throw new TypeError(`A batch of objects has no ${name}.`);
-            options[name] = typed(ARRAYS[name], values, name);
-        }
+    add({ kind, count, ...given }) {
+        if (!Object.hasOwn(CORNERS, kind)) throw new TypeError(`There is no kind of objects called ${kind}.`);
+        const options = { kind, ...arraysOf(ARRAYS, given) };
+        if (!options.coords) throw new TypeError("A batch of objects has coords.");
         const points = options.coords.length / this.dim;
         const corners = options.indices ? options.indices.length : points;
-        options.count = count ?? (options.starts ? options.starts.length - 1 : corners / CORNERS[kind]);
-        if (!Number.isInteger(points) || !Number.isInteger(options.count))
+        options.count = count ?? (options.starts ? Math.max(options.starts.length - 1, 0) : corners / CORNERS[kind]);
+        if (!Number.isInteger(points) || !Number.isInteger(options.count) || options.count < 0)
             throw new TypeError(`coords has ${options.coords.length} numbers, which are no whole ${kind}s.`);
-        this.#lengths(options, corners, kind);
+        if (options.starts) checkStarts(options.starts, options.count, corners);
+        else if (options.count * CORNERS[kind] > corners)
+            throw new TypeError(`${options.count} ${kind}s need more than the ${corners} corners that are given.`);
+        checkLengths(options, ["radii", "tags", "faces", "groups"], options.count, `${kind}s`);
+        if (kind === "ball" && !options.radii) throw new TypeError("Balls need radii.");
         if (options.indices) options.pointCount = points;
-        if (group !== undefined) options.group = group;
-        this.#core.within((arena) =>
-            this.#core.call("froe_scene_add", this.#at, this.#core.options(arena, "objects", options)));
+        this[CORE].within((arena) =>
+            this[CORE].call("froe_scene_add", this[AT], this[CORE].options(arena, "objects", options)));
         return this;
     }
-    /* What froe reads beyond the end of an array that is too short, it cannot know. */
-    #lengths(options, corners, kind) {
-        const n = options.count;
-        const ends = options.starts ? options.starts[n] : n * CORNERS[kind];
-        if (options.starts && (options.starts.length < n + 1 || options.starts[0] !== 0 ||
-            options.starts.some((start, i) => i && start < options.starts[i - 1])))
-            throw new TypeError("starts does not begin with 0, or is not ascending.");
-        if (ends > corners) throw new TypeError(`${n} ${kind}s have ${ends} corners, and only ${corners} are given.`);
-        for (const name of ["radii", "tags", "faces", "groups"])
-            if (options[name] && options[name].length < n)
-                throw new TypeError(`${name} has ${options[name].length} numbers for ${n} objects.`);
-        if (kind === "ball" && !options.radii) throw new TypeError("Balls have radii.");
-    }
 
-    /** Adds what objects may share: a name, a material, a colour (0xRRGGBBAA). Returns its number, for `groups`. */
-    addGroup({ name = "", material = "", colour = 0 }) {
-        return this.#core.within((arena) => {
-            const out = arena.room(4);
-            this.#core.status("web_scene_add_group", this.#at, arena.text(name), arena.text(material), colour >>> 0, out);
-            return this.#core.uint(out);
-        });
-    }
-    group(i) {
-        return { name: this.#core.text("web_scene_group_name", this.#at, i),
-            colour: this.#core.get("web_scene_group_colour", this.#at, i) >>> 0 };
-    }
+    /** Adds what objects may share: { name, material, left, right, colour }, colour being 0xRRGGBBAA. Returns its number,
+     * for `groups`. */
+    addGroup(group) { return addGroup(this[CORE], "froe_scene_add_group", this[AT], group); }
+    group(i) { return groupOf(this[CORE], "froe_scene_group", this[AT], i); }
 
     /** The axis that points up in pictures of a scene in space: 0, 1 or 2. */
-    get up() { return this.#core.get("froe_scene_up", this.#at); }
-    set up(axis) { this.#core.status("froe_scene_set_up", this.#at, axis); }
+    get up() { return this[CORE].get("froe_scene_up", this[AT]); }
+    set up(axis) {
+        if (this.dim !== 3 || ![0, 1, 2].includes(axis))
+            throw new RangeError(`The axis ${axis} of a scene of dimension ${this.dim} cannot point up in pictures.`);
+        this[CORE].call("froe_scene_set_up", this[AT], axis);
+    }
 
     /** { lo, hi }, or null where there are no objects. */
     bounds() {
-        return this.#core.within((arena) => {
-            const dim = this.dim, lo = arena.room(8 * dim), hi = arena.room(8 * dim);
-            if (!this.#core.get("froe_scene_bounds", this.#at, lo, hi)) return null;
-            return { lo: this.#core.copy(Float64Array, lo, dim), hi: this.#core.copy(Float64Array, hi, dim) };
+        return this[CORE].within((arena) => {
+            const core = this[CORE], dim = this.dim, lo = arena.room(8 * dim), hi = arena.room(8 * dim);
+            if (!core.get("froe_scene_bounds", this[AT], lo, hi)) return null;
+            return { lo: core.copy(Float64Array, lo, dim), hi: core.copy(Float64Array, hi, dim) };
         });
     }
 
-    /** Everything as arrays: coords of the vertices; kinds, starts, faces and groups of the objects; corners. */
+    /** Everything as arrays: coords of the vertices; kinds, forms, starts, radii, tags, faces and groups of the objects;
+     * corners, which are numbers of vertices. */
     arrays() {
-        return this.#core.within((arena) => {
-            const core = this.#core, out = arena.room(60);
-            core.call("froe_arrays_of_scene", this.#at, 0, out);
-            const [dim, objects, vertices, corners, ...at] = core.view(Uint32Array, out, 13);
-            const arrays = {
-                dim,
-                coords: core.copy(Float64Array, at[0], dim * vertices),
-                kinds: core.copy(Uint8Array, at[1], objects),
-                forms: core.copy(Uint8Array, at[2], objects),
-                starts: core.copy(Uint32Array, at[3], objects + 1),
-                corners: core.copy(Uint32Array, at[4], corners),
-                radii: core.copy(Float64Array, at[5], objects),
-                tags: core.copy(BigUint64Array, at[6], objects),
-                faces: core.copy(Uint32Array, at[7], objects),
-                groups: core.copy(Uint32Array, at[8], objects),
-            };
-            core.get("froe_scene_arrays_free", out);
-            return arrays;
+        const core = this[CORE], take = ([dim, objects, vertices, corners, ...at]) => ({
+            dim,
+            coords: core.copy(Float64Array, at[0], dim * vertices),
+            kinds: core.copy(Uint8Array, at[1], objects),
+            forms: core.copy(Uint8Array, at[2], objects),
+            starts: core.copy(Uint32Array, at[3], objects + 1),
+            corners: core.copy(Uint32Array, at[4], corners),
+            radii: core.copy(Float64Array, at[5], objects),
+            tags: core.copy(BigUint64Array, at[6], objects),
+            faces: core.copy(Uint32Array, at[7], objects),
+            groups: core.copy(Uint32Array, at[8], objects),
+        });
+        return core.filled("froe_arrays_of_scene", [this[AT], 0], SCENE_ARRAYS, "froe_scene_arrays_free", take);
+    }
+
+    /** What is odd about the scene, and stops nothing: counts, and one example of each sort of pairs, or null. */
+    defects() {
+        return this[CORE].within((arena) => {
+            const core = this[CORE], out = arena.array(Uint32Array.of(DEFECTS, ...new Array(DEFECTS / 4 - 1).fill(0)));
+            core.call("froe_scene_defects", this[AT], 1, 0, 0, out);
+            const counts = [...core.copy(BigUint64Array, out + 8, 6)].map(Number), ids = core.copy(Uint32Array, out + 56, 6);
+            const pair = (i) => (ids[i] === NONE ? null : [ids[i], ids[i + 1]]);
+            const [zeroLength, zeroArea, duplicates, crossings, tJunctions, overlaps] = counts;
+            return { zeroLength, zeroArea, duplicates, crossings, tJunctions, overlaps,
+                firstCrossing: pair(0), firstTJunction: pair(2), firstOverlap: pair(4) };
         });
     }
 
-    /** Methods that can build a tree of this scene: { name, summary }. */
+    /** Methods that can build a tree of this scene: { name, summary, source, guarantee, options }. */
     methods() {
-        const list = [];
-        for (let i = 0, name; (name = this.#core.text("web_method_name", i)) !== null; i++)
-            if (this.#core.get("web_method_serves", i, this.#at))
-                list.push({ name, summary: this.#core.text("web_method_summary", i) });
+        const core = this[CORE], list = [];
+        for (let i = 0, at; (at = core.get("froe_method_at", i) >>> 0); i++) {
+            if (!core.get("froe_method_serves", at, this[AT], NONE)) continue;
+            const words = core.copy(Uint32Array, at, METHOD / 4);
+            const [name, summary, source, guarantee] = [...words.subarray(0, 4)].map((text) => core.string(text));
+            list.push({ name, summary, source, guarantee, options: optionsAt(core, words[15]) });
+        }
         return list;
     }
-
-    /** A tree: options are method ("auto"), purpose ("pieces", "query", "draw"), settings, leaf, seed and maxFragments.
-     * The scene cannot grow any more while it has a tree. */
-    build(options = {}) {
-        return this.#core.within((arena) => new Tree(this.#core,
-            this.#core.made("froe_build", this.#at, this.#core.options(arena, "build_options", options))));
+    /** The method that "auto" stands for, for a purpose: "pieces", "query" or "draw". */
+    autoMethod(purpose = "pieces") {
+        return this[CORE].within((arena) => this[CORE].text("froe_method_auto", this[AT], arena.text(purpose)));
     }
 
-    /** Frees the memory now; otherwise it is freed some time after the last use. */
-    free() { this.#core.release(this.#held); }
+    /** A tree: options are method ("auto"), purpose ("pieces", "query", "draw"), settings ("name=value ..."), leaf, seed,
+     * order and maxFragments. The scene cannot grow any more while it has a tree. */
+    build(options = {}) {
+        const given = arraysOf({ order: Uint32Array }, options), core = this[CORE];
+        if (given.order) given.orderCount = given.order.length;
+        return core.within((arena) => Tree.made(core, core.made("froe_build", this[AT], core.options(arena, "build", given))));
+    }
+
+    /** The bytes of a file that read() takes: a name ends in .geojson, .json, .csv, .off or .obj. */
+    write(name) {
+        return this[CORE].files(({ path, take }) => this[CORE].within((arena) => {
+            this[CORE].call("froe_write_scene", this[AT], arena.text(path(name)));
+            return take(name);
+        }));
+    }
+
+    /** The scene of a tree, which stays in use with it. */
+    static of(tree) {
+        const core = tree[CORE], address = core.get("froe_tree_scene", tree[AT]) >>> 0;
+        return new Scene(core, new Handle(core, null, address, tree[HANDLE]));
+    }
+}
+
+function optionsAt(core, at) {
+    const list = [];
+    for (; core.uint(at); at += OPTION) {
+        const words = core.copy(Uint32Array, at, OPTION / 4), [standard, least, most] = core.copy(Float64Array, at + 8, 3);
+        const choices = [];
+        for (let i = 0; words[8] && core.uint(words[8] + 4 * i); i++) choices.push(core.string(core.uint(words[8] + 4 * i)));
+        list.push({ name: core.string(words[0]), summary: core.string(words[1]), standard, least, most,
+            choices: choices.length ? choices : null, whole: (words[9] & 0xff) !== 0 });
+    }
+    return list;
 }

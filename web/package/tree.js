@@ -1,244 +1,172 @@
-/* tree.js: trees, and what is asked of them */
-import { answersOf } from "./answers.js";
-import { FroeError } from "./core.js";
+/* tree.js: trees: what they consist of, their pictures, and their files */
+import { arraysOf, checkLengths, typed } from "./arrays.js";
+import { AT, CORE, Handle } from "./resource.js";
+import { Questions } from "./questions.js";
+import { Scene } from "./scene.js";
 
 const REPORT = ["dim", "leaf", "seed", "objects", "nodes", "leaves", "fragments", "inCut", "covers", "size", "height",
-    "meanDepth", "maxLeaf", "inseparable", "bytes", "exact"]; // as in web/core/tree.c
-const FORMATS = ["svg", "pdf", "eps", "csv", "geojson"];
-const MEETINGS = ["cross", "touch", "overlap"];
-const CUT = 40; // bytes of a web_cut
+    "meanDepth", "maxLeaf", "inseparable", "crowded", "bytes", "exact"]; // as in web/core/tree.c
+const PICTURE = ["shapes", "lines", "dots", "paths", "patches"]; // as in web/core/picture.c
+/** Names of the numbers in `cuts` of nodes(): where the cut of a node comes from. */
+export const CUTS = ["none", "axis", "object", "vertices", "edge", "plane", "vertex", "crossing", "fine"];
+const FORMATS = ["svg", "pdf", "eps", "csv", "geojson"], PAINTS = ["whole", "regions", "fragments"];
+const EXPORTS = ["fragments", "cells", "cuts"];
+const RENDER = { sectionPlane: Float64Array, opacity: Float64Array, priorities: Int32Array };
+const PIECES = 44, CELLS = 44, CUTS_ROOM = 64, NODE = 48; // bytes of froe_piece_arrays, ..., web_cuts, web_node
 
-/** A binary space partition with its scene. Immutable. Objects and ranges are closed, and every answer is the exact one
- * for the numbers given. */
-export class Tree {
-    #core;
-    #held; // the tree and, once something was asked, the context of questions
+/** A binary space partition with its scene. Immutable. */
+export class Tree extends Questions {
+    static made(core, address) { return new Tree(core, new Handle(core, "froe_tree_free", address)); }
 
-    constructor(core, address) {
-        this.#core = core;
-        this.#held = core.watch(this, [["froe_tree_free", address]]);
-    }
-    get #at() {
-        if (!this.#held.length) throw new FroeError("FROE_E_ARG", "The tree has been freed.");
-        return this.#held[0][1];
-    }
-    get #context() {
-        const tree = this.#at;
-        if (this.#held.length === 1) this.#held.push(["froe_query_free", this.#core.made("froe_query_new", tree)]);
-        return this.#held[1][1];
-    }
+    /** The scene that it was built of, which cannot grow any more. */
+    get scene() { return Scene.of(this); }
+    /** { lo, hi } of the scene, or null where there are no objects. */
+    bounds() { return this.scene.bounds(); }
 
-    /** What was built: method, settings, and counts as froe_report has them. */
+    /** What was built: method, settings, counts as froe_report has them, and promises: { name, promised, measured }. */
     get report() {
-        return this.#core.within((arena) => {
-            const out = arena.room(8 * REPORT.length);
-            this.#core.get("web_report", this.#at, out);
-            const numbers = this.#core.copy(Float64Array, out, REPORT.length);
-            const report = { method: this.#core.text("web_report_method", this.#at),
-                settings: this.#core.text("web_report_settings", this.#at) };
-            REPORT.forEach((name, i) => { report[name] = numbers[i]; });
-            return report;
-        });
-    }
-    get dim() { return this.report.dim; }
-    bounds() {
-        return this.#core.within((arena) => {
-            const dim = this.dim, lo = arena.room(8 * dim), hi = arena.room(8 * dim);
-            if (!this.#core.get("froe_scene_bounds", this.#core.get("froe_tree_scene", this.#at), lo, hi)) return null;
-            return { lo: this.#core.copy(Float64Array, lo, dim), hi: this.#core.copy(Float64Array, hi, dim) };
+        return this[CORE].within((arena) => {
+            const core = this[CORE], out = arena.room(8 * REPORT.length), texts = arena.room(8), promises = [];
+            core.get("web_report", this[AT], out, texts);
+            const numbers = core.copy(Float64Array, out, REPORT.length), [method, settings] = core.copy(Uint32Array, texts, 2);
+            for (let i = 0, at; (at = core.get("web_promise", this[AT], i) >>> 0); i++)
+                promises.push({ name: core.string(core.uint(at)), promised: core.double(at + 8), measured: core.double(at + 16) });
+            return { method: core.string(method), settings: core.string(settings), promises,
+                ...Object.fromEntries(REPORT.map((name, i) => [name, numbers[i]])) };
         });
     }
 
-    /* Calls `ask` with the address of points, `each` numbers a question, and their count. */
-    #batch(points, each, ask) {
-        const values = points instanceof Float64Array ? points : Float64Array.from(points);
-        const count = values.length / each;
-        if (!Number.isInteger(count)) throw new TypeError(`${values.length} numbers are no questions of ${each} numbers each.`);
-        return this.#core.within((arena) => ask(arena.array(values), count, arena));
-    }
-
-    /** Objects that meet boxes: for each its lower corner, then its upper. */
-    query(boxes) {
-        return this.#batch(boxes, 2 * this.dim, (at, count) => answersOf(this.#core, "froe_batch_boxes", this.#context, at, count));
-    }
-    /** Objects that meet a range: { shape, points, radius, offsets, eps }; shapes are "box", "ball", "simplex", "capsule",
-     * "halfspaces", "hull", "segment" and "ray". */
-    range({ shape = "box", points, ...rest }) {
-        const values = Float64Array.from(points), dim = this.dim;
-        const needed = { box: 2, ball: 1, simplex: dim + 1, capsule: 2, segment: 2, ray: 2 }[shape];
-        if (needed !== undefined && values.length !== needed * dim)
-            throw new TypeError(`A ${shape} has ${needed * dim} numbers, and ${values.length} are given.`);
-        const options = { shape, points: values, ...rest, count: values.length / dim };
-        if (rest.offsets) options.offsets = Float64Array.from(rest.offsets);
-        if (shape === "halfspaces" && options.offsets?.length !== options.count)
-            throw new TypeError("Halfspaces have as many offsets as normals.");
-        return this.#core.within((arena) =>
-            answersOf(this.#core, "froe_batch_range", this.#context, this.#core.options(arena, "range", options), 1).at(0));
-    }
-    /** The objects that contain each point. */
-    locate(points) {
-        return this.#batch(points, this.dim, (at, count) => answersOf(this.#core, "froe_batch_locate", this.#context, at, count));
-    }
-    /** The groups (areas) that each point of the plane lies in. */
-    groups(points) {
-        return this.#batch(points, 2, (at, count) => answersOf(this.#core, "froe_batch_groups", this.#context, at, count));
-    }
-    /** The k objects nearest to each point, with distances as values. */
-    nearest(points, { k = 1, bound = Infinity } = {}) {
-        return this.#batch(points, this.dim, (at, count) =>
-            answersOf(this.#core, "froe_batch_near", this.#context, at, count, k, bound));
-    }
-    /** The first segment of the plane above each point (below: direction -1); 0xffffffff where there is none. */
-    above(points, direction = 1) {
-        return this.#batch(points, 2, (at, count, arena) => {
-            const out = arena.room(4 * count);
-            this.#core.call("froe_batch_vertical", this.#context, at, count, direction, 0, out);
-            return this.#core.copy(Uint32Array, out, count);
-        });
-    }
-    /** The first object that each ray meets: { objects, t }; 0xffffffff where there is none. With `all` every object, by t,
-     * with t as values. */
-    ray(origins, directions, { tMax = Infinity, all = false } = {}) {
-        return this.#batch(directions, this.dim, (way, rays) => this.#batch(origins, this.dim, (at, count, arena) => {
-            if (rays !== count) throw new TypeError(`There are ${count} origins and ${rays} directions.`);
-            if (all) return answersOf(this.#core, "froe_batch_ray_all", this.#context, at, way, count, tMax);
-            const out = arena.room(16 * count);
-            this.#core.call("froe_batch_ray", this.#context, at, way, count, tMax, 0, out);
-            const ids = this.#core.view(Uint32Array, out, 4 * count), ts = this.#core.view(Float64Array, out, 2 * count);
-            const hits = { objects: new Uint32Array(count), t: new Float64Array(count) };
-            for (let i = 0; i < count; i++) {
-                hits.objects[i] = ids[4 * i];
-                hits.t[i] = ts[2 * i + 1];
+    /** All nodes, as arrays: node n, of pieces() and cells(), is at n - 1, and the root at 0. `children` are two numbers
+     * of nodes each, 0 in leaves; the list of a node are its pieces from firstPieces to firstPieces + pieceCounts - 1, of
+     * which the first coverCounts contain its region. Cuts are of the kinds CUTS[cuts[i]], with axes, values, and three
+     * ids each; `parents` are numbers of nodes, 0 of the root. */
+    nodes() {
+        return this[CORE].within((arena) => {
+            const core = this[CORE], count = this.report.nodes, at = arena.room(NODE * count);
+            core.get("web_nodes", this[AT], at, count);
+            const uints = (offset, per = 1) => core.column(Uint32Array, at, count, NODE, offset, per);
+            const children = uints(0, 2), parents = new Uint32Array(count), depths = new Uint32Array(count);
+            for (const open = count ? [0] : []; open.length;) {
+                const node = open.pop();
+                for (const child of children.subarray(2 * node, 2 * node + 2)) {
+                    if (!child) continue;
+                    parents[child - 1] = node + 1;
+                    depths[child - 1] = depths[node] + 1;
+                    open.push(child - 1);
+                }
             }
-            return hits;
-        }));
-    }
-    /** All pairs of objects that meet: { a, b, kinds }, kinds being "cross", "touch" or "overlap". */
-    pairs({ shared = true } = {}) {
-        return this.#core.within((arena) => {
-            const out = arena.room(16);
-            this.#core.call("froe_batch_pair_array", this.#context, shared ? 1 : 0, 0, out);
-            const [at, count] = this.#core.view(Uint32Array, out, 2), items = this.#core.view(Uint32Array, at, 3 * count);
-            const pairs = { a: new Uint32Array(count), b: new Uint32Array(count), kinds: [] };
-            for (let i = 0; i < count; i++) {
-                pairs.a[i] = items[3 * i];
-                pairs.b[i] = items[3 * i + 1];
-                pairs.kinds.push(MEETINGS[items[3 * i + 2]]);
-            }
-            this.#core.get("froe_pairs_free", out);
-            return pairs;
+            return { children, parents, depths, firstPieces: uints(8), pieceCounts: uints(12), coverCounts: uints(16),
+                cuts: Uint8Array.from(uints(20)), axes: uints(24), ids: uints(28, 3),
+                values: core.column(Float64Array, at, count, NODE, 40) };
         });
     }
-    /** What the questions since the last call have cost: { nodes, leaves, tests }. */
-    statistics() {
-        return this.#core.within((arena) => {
-            const out = arena.room(24);
-            this.#core.get("web_statistics", this.#context, out);
-            const [nodes, leaves, tests] = this.#core.copy(Float64Array, out, 3);
-            return { nodes, leaves, tests };
-        });
-    }
-
     /** The parts into which objects are cut: { objects, nodes, whole, starts, coords, made }. */
     pieces() {
-        return this.#core.within((arena) => {
-            const core = this.#core, out = arena.room(44);
-            core.call("froe_arrays_of_pieces", this.#at, 0, out);
-            const [dim, count, corners, ...at] = core.view(Uint32Array, out, 9);
-            const pieces = {
-                objects: core.copy(Uint32Array, at[0], count),
-                nodes: core.copy(Uint32Array, at[1], count),
-                whole: core.copy(Uint8Array, at[2], count),
-                starts: core.copy(Uint32Array, at[3], count + 1),
-                coords: core.copy(Float64Array, at[4], dim * corners),
-                made: core.copy(Uint32Array, at[5], corners),
-            };
-            core.get("froe_piece_arrays_free", out);
-            return pieces;
+        const core = this[CORE], take = ([dim, count, corners, ...at]) => ({
+            objects: core.copy(Uint32Array, at[0], count),
+            nodes: core.copy(Uint32Array, at[1], count),
+            whole: core.copy(Uint8Array, at[2], count),
+            starts: core.copy(Uint32Array, at[3], count + 1),
+            coords: core.copy(Float64Array, at[4], dim * corners),
+            made: core.copy(Uint32Array, at[5], corners),
         });
+        return core.filled("froe_arrays_of_pieces", [this[AT], 0], PIECES, "froe_piece_arrays_free", take);
     }
     /* A box as two addresses: that which is given, or the bounds of the scene and a twentieth of it around them. */
     #box(arena, box) {
+        let { lo, hi } = arraysOf({ lo: Float64Array, hi: Float64Array }, box ?? this.bounds() ?? { lo: new Float64Array(this.dim),
+            hi: new Float64Array(this.dim).fill(1) });
         if (!box) {
-            box = this.bounds() ?? { lo: new Float64Array(this.dim), hi: new Float64Array(this.dim).fill(1) };
-            for (let i = 0; i < this.dim; i++) {
-                const margin = (box.hi[i] - box.lo[i]) / 20 || 1;
-                box.lo[i] -= margin;
-                box.hi[i] += margin;
-            }
+            const margins = lo.map((low, i) => (hi[i] - low) / 20 || 1);
+            [lo, hi] = [lo.map((low, i) => low - margins[i]), hi.map((high, i) => high + margins[i])];
         }
-        return [arena.array(Float64Array.from(box.lo)), arena.array(Float64Array.from(box.hi))];
+        if (lo?.length !== this.dim || hi?.length !== this.dim) throw new TypeError(`A box has ${this.dim} numbers in lo and in hi.`);
+        return [arena.array(lo), arena.array(hi)];
     }
     /** Regions of the leaves (with `inner` of all nodes, parents first), within a box: { nodes, depths, faces, starts,
      * coords }; cell i has the faces faces[i] .. faces[i + 1], and face f the corners starts[f] .. starts[f + 1]. */
     cells({ box = null, inner = false } = {}) {
-        return this.#core.within((arena) => {
-            const core = this.#core, out = arena.room(44), [lo, hi] = this.#box(arena, box);
-            core.call("froe_arrays_of_cells", this.#at, lo, hi, inner ? 1 : 0, 0, out);
-            const [dim, count, faces, corners, ...at] = core.view(Uint32Array, out, 9);
-            const cells = {
-                nodes: core.copy(Uint32Array, at[0], count),
-                depths: core.copy(Uint32Array, at[1], count),
-                faces: core.copy(Uint32Array, at[2], count + 1),
-                starts: core.copy(Uint32Array, at[3], faces + 1),
-                coords: core.copy(Float64Array, at[4], dim * corners),
-            };
-            core.get("froe_cell_arrays_free", out);
-            return cells;
+        const core = this[CORE], take = ([dim, count, faces, corners, ...at]) => ({
+            nodes: core.copy(Uint32Array, at[0], count),
+            depths: core.copy(Uint32Array, at[1], count),
+            faces: core.copy(Uint32Array, at[2], count + 1),
+            starts: core.copy(Uint32Array, at[3], faces + 1),
+            coords: core.copy(Float64Array, at[4], dim * corners),
         });
+        return core.within((arena) => core.filled("froe_arrays_of_cells",
+            [this[AT], ...this.#box(arena, box), inner ? 1 : 0, 0], CELLS, "froe_cell_arrays_free", take));
     }
-    /** The cuts of a tree of the plane, parents first: { nodes, depths, ends }, four numbers for the ends of each. */
+    /** Cuts within a box, parents first: { nodes, depths, starts, coords }; cut i has the corners starts[i] ..
+     * starts[i + 1], two in the plane. */
     cuts({ box = null } = {}) {
-        return this.#core.within((arena) => {
-            const core = this.#core, [lo, hi] = this.#box(arena, box), out = arena.room(8);
-            core.call("web_cuts_of", this.#at, lo, hi, out, out + 4);
-            const [at, count] = core.view(Uint32Array, out, 2);
-            const cuts = { nodes: new Uint32Array(count), depths: new Uint32Array(count), ends: new Float64Array(4 * count) };
-            const ids = core.view(Uint32Array, at, count * CUT / 4), ends = core.view(Float64Array, at, count * CUT / 8);
-            for (let i = 0; i < count; i++) {
-                cuts.nodes[i] = ids[i * CUT / 4];
-                cuts.depths[i] = ids[i * CUT / 4 + 1];
-                cuts.ends.set(ends.subarray(i * CUT / 8 + 1, i * CUT / 8 + 5), 4 * i);
-            }
-            core.free(at);
-            return cuts;
-        });
+        const core = this[CORE], take = (words) => {
+            const column = (Type, i) => core.copy(Type, words[4 * i], words[4 * i + 1] / Type.BYTES_PER_ELEMENT);
+            return { nodes: column(Uint32Array, 0), depths: column(Uint32Array, 1), starts: column(Uint32Array, 2),
+                coords: column(Float64Array, 3) };
+        };
+        return core.within((arena) =>
+            core.filled("web_cuts_of", [this[AT], ...this.#box(arena, box)], CUTS_ROOM, "web_cuts_free", take));
     }
 
-    /** A picture with hidden surfaces removed, exactly: { bytes, shapes, lines }, and `text` of SVG. `format`: "svg",
-     * "pdf", "eps", "csv" or "geojson"; the other options are those of froe_render_options in camelCase. */
-    render({ format = "svg", ...options } = {}) {
-        if (!FORMATS.includes(format)) throw new TypeError(`There are no pictures in the format ${format}.`);
-        return this.#core.within((arena) => {
-            const core = this.#core, out = arena.room(8), counts = arena.room(16);
-            core.call("web_render", this.#at, FORMATS.indexOf(format), core.options(arena, "render_options", options), out,
-                out + 4, counts);
-            const [at, count] = core.view(Uint32Array, out, 2), [shapes, lines] = core.copy(Float64Array, counts, 2);
-            const bytes = core.copy(Uint8Array, at, count);
-            core.free(at);
-            return { bytes, shapes, lines, get text() { return new TextDecoder().decode(bytes); } };
+    /* A picture: what `body` makes of the addresses of its options and of the numbers that it tells. */
+    #picture(options, body) {
+        const core = this[CORE], given = arraysOf(RENDER, options);
+        if (given.sectionPlane && given.sectionPlane.length !== 4) throw new TypeError("sectionPlane does not have 4 numbers.");
+        for (const name of ["eye", "target", "up"]) {
+            if (!given[name]) continue;
+            given[name] = Array.from(typed(Float64Array, given[name], name));
+            if (given[name].length !== 3) throw new TypeError(`${name} does not have 3 numbers.`);
+        }
+        if (given.lineStyles) given.lineStyleCount = given.lineStyles.length;
+        if (!given.lineStyleCount) delete given.lineStyles;
+        checkLengths(given, ["opacity", "priorities"], this.scene.groupCount, "groups");
+        return core.within((arena) => {
+            const numbers = arena.room(8 * (PICTURE.length + 1));
+            const bytes = body(arena, core.options(arena, "render", given), numbers);
+            const told = core.copy(Float64Array, numbers, PICTURE.length + 1);
+            return { bytes, get text() { return new TextDecoder().decode(bytes); }, paint: PAINTS[told[PICTURE.length]],
+                ...Object.fromEntries(PICTURE.map((name, i) => [name, told[i]])) };
         });
     }
+    /** A picture with hidden surfaces removed, exactly: { bytes, text, shapes, lines, dots, paths, patches, paint }.
+     * `format`: "svg", "pdf", "eps", "csv" or "geojson"; the other options are those of froe_render_options in camelCase:
+     * names for enumerations, an array of names for `lines`, arrays for `eye`, `target` and `up`. */
+    render({ format = "svg", ...options } = {}) {
+        const number = FORMATS.indexOf(format);
+        if (number < 0) throw new TypeError(`There are no pictures in the format ${format}.`);
+        return this.#picture(options, (arena, at, numbers) => this[CORE].bytes("web_render", this[AT], number, at, numbers));
+    }
+    /** One SVG that turns: `count` pictures of a turntable in `seconds` a round. Options as of render(). */
+    renderTurning({ count = 36, seconds = 12, ...options } = {}) {
+        return this.#picture(options, (arena, at, numbers) => this[CORE].files(({ path, take }) => {
+            this[CORE].call("web_render_turning", this[AT], arena.text(path("turning.svg")), at, count, seconds, numbers);
+            return take("turning.svg");
+        }));
+    }
     /** A tree of the same scene whose first cut is plane[0] x + plane[1] y + plane[2] z = plane[3]; of its pictures the
-     * option `section` takes one side away. */
+     * options `section`, -1 or 1, and `sectionPlane` show one side. */
     section(plane) {
-        return this.#core.within((arena) =>
-            new Tree(this.#core, this.#core.made("web_section", this.#at, arena.array(Float64Array.from(plane)))));
+        const core = this[CORE], numbers = typed(Float64Array, plane, "plane");
+        if (numbers.length !== this.dim + 1) throw new TypeError(`plane does not have ${this.dim + 1} numbers.`);
+        return core.within((arena) => Tree.made(core,
+            core.made("froe_tree_section", this[AT], arena.array(numbers), core.options(arena, "build"))));
     }
 
     /** The bytes of a saved tree, as `froe build` writes it. */
-    save() {
-        return this.#core.within((arena) => {
-            const out = arena.room(8);
-            this.#core.call("web_save", this.#at, out, out + 4);
-            const [at, count] = this.#core.view(Uint32Array, out, 2), bytes = this.#core.copy(Uint8Array, at, count);
-            this.#core.free(at);
-            return bytes;
-        });
+    save() { return this[CORE].bytes("web_save", this[AT]); }
+    /** The bytes of a file for other programs, by the ending of the name: .geojson, .obj or .csv. `what`: "fragments",
+     * "cells" or "cuts". */
+    export(name, what = "fragments") {
+        const core = this[CORE], number = EXPORTS.indexOf(what);
+        if (number < 0) throw new TypeError(`Trees have no ${what} to be written.`);
+        return core.files(({ path, take }) => core.within((arena) => {
+            core.call("froe_export", this[AT], arena.text(path(name)), number, core.options(arena, "export"));
+            return take(name);
+        }));
     }
     /** Proves that the tree is right, or throws an error that says what is not. */
-    audit() { this.#core.call("froe_tree_audit", this.#at, 0); }
-
-    /** Frees the memory now; otherwise it is freed some time after the last use. */
-    free() { this.#core.release(this.#held); }
+    audit({ exactOnly = false } = {}) {
+        const core = this[CORE];
+        core.within((arena) => core.call("froe_tree_audit", this[AT], core.options(arena, "audit", { exactOnly })));
+    }
 }

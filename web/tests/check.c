@@ -1,12 +1,11 @@
 /* check.c: do predicates give the same answers by filters as by exact numbers alone, as they are compiled here?
  *
- * Arguments: how many cases, and a seed. Coordinates are small multiples of a tenth, rounded, so that many points lie
- * on common lines and planes but for that rounding, which is where filters are unsure. */
+ * Coordinates are small multiples of a tenth, rounded, so that many points lie on common lines and planes but for that
+ * rounding, which is where filters are unsure. */
 #include "geom/predicates.h"
 #include "geom/selftest.h"
+#include <emscripten.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { POINTS = 9, PREDICATES = 3 };
 
@@ -30,16 +29,17 @@ static void answer(num_context *context, int dim, double p[][3], double radius, 
     out[2] = geom_side_ball(context, &h, p[6], radius);
 }
 
-int main(int count, char **arguments) {
-    const long cases = count > 1 ? strtol(arguments[1], NULL, 10) : 100000;
-    uint64_t state = count > 2 ? strtoull(arguments[2], NULL, 10) | 1 : 1;
+/** Tries so many cases and writes a line that tells what came out. 0: all is right. */
+EMSCRIPTEN_KEEPALIVE int check(int cases, uint32_t seed);
+int check(int cases, uint32_t seed) {
+    uint64_t state = seed | 1;
     num_context quick, exact;
     long wrong = 0, decided = 0;
     if (geom_context_new(NULL, &quick) || num_context_new(NULL, &exact)) return 2;
     const bool trusted = quick.first != NUM_EXACT;
     const char *fault = geom_formula_at_fault(&quick);
     exact.first = NUM_EXACT;
-    for (long i = 0; i < cases; i++) {
+    for (int i = 0; i < cases; i++) {
         const int dim = 2 + (int)(i & 1), reach = 3 + (int)(next(&state) % 28);
         double p[POINTS][3];
         int fast[PREDICATES], right[PREDICATES];

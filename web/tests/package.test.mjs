@@ -83,7 +83,7 @@ for (const [kind, froe] of kinds) {
         told(() => froe.open(Uint8Array.of(1, 2, 3)), "FROE_E_FORMAT", /./);
         told(() => froe.read("a.obj", new TextEncoder().encode("v 0 0\nf 1 2 3\n")), "FROE_E_FORMAT", /a\.obj/);
         assert.throws(() => froe.segments([0, 0, 1]), /no whole segments/);
-        assert.throws(() => cross().query([0, 0, 1]), /no questions/);
+        assert.throws(() => cross().query([0, 0, 1]), /boxes has 3 numbers/);
         assert.throws(() => froe.scene(2).add({ kind: "hull", coords: [0, 0], starts: [0, 5] }), /only 1 are given/);
         assert.throws(() => froe.scene(2).add({ kind: "ball", coords: [0, 0] }), /radii/);
         const tree = cross();

@@ -1,0 +1,149 @@
+/* questions.js: what is asked of a tree */
+import { answersOf } from "./answers.js";
+import { arraysOf } from "./arrays.js";
+import { ALSO, AT, CORE, HANDLE, Handle, Resource } from "./resource.js";
+
+const RANGE = { points: Float64Array, offsets: Float64Array };
+const STATISTICS = ["queries", "nodes", "leaves", "tests", "exact", "slices", "steps"]; // of froe_query_stats
+const MEETINGS = ["cross", "touch", "overlap"], RELATIONS = ["meets", "within", "covers"];
+const PAIRS = 16, PAIR = 12, HIT = 16, PLACE = 136; // bytes of froe_pairs, ...
+
+/** Questions to a tree. Objects and ranges are closed, and every answer is the exact one for the numbers given. */
+export class Questions extends Resource {
+    #dim;
+    #asked = null;
+
+    constructor(core, handle) {
+        super(core, "tree", handle);
+        this.#dim = core.get("froe_scene_dim", core.get("froe_tree_scene", handle.address));
+    }
+    get dim() { return this.#dim; }
+
+    /* The context of questions, made with the first. */
+    get #context() {
+        const tree = this[HANDLE];
+        this.#asked ??= this[ALSO](new Handle(this[CORE], "froe_query_free", this[CORE].made("froe_query_new", tree.address), tree));
+        return this.#asked.address;
+    }
+    /* `body` with the addresses of arrays of numbers, `width` for each question, and the number of questions. */
+    #batch(width, arrays, body) {
+        return this[CORE].within((arena) => {
+            let count = null;
+            const at = Object.entries(arrays).map(([name, values]) => {
+                const { [name]: numbers } = arraysOf({ [name]: Float64Array }, { [name]: values });
+                if (!numbers) throw new TypeError(`${name} is not an array of numbers.`);
+                if (numbers.length % width)
+                    throw new TypeError(`${name} has ${numbers.length} numbers, and ${width} for each question are needed.`);
+                count ??= numbers.length / width;
+                if (count * width !== numbers.length)
+                    throw new TypeError(`There are ${count} questions, and ${name} has numbers for ${numbers.length / width}.`);
+                return arena.array(numbers);
+            });
+            return body(at, count, arena);
+        });
+    }
+    #answers(name, width, arrays, ...more) {
+        return this.#batch(width, arrays, (at, count) => answersOf(this[CORE], name, this.#context, ...at, count, ...more));
+    }
+    /* One number of 4 bytes for each question. */
+    #numbers(name, width, arrays, ...more) {
+        return this.#batch(width, arrays, (at, count, arena) => {
+            const out = arena.room(4 * count);
+            this[CORE].call(name, this.#context, ...at, count, ...more, this[CORE].batch, out);
+            return this[CORE].copy(Uint32Array, out, count);
+        });
+    }
+
+    /** Objects that meet boxes: for each its lower corner, then its upper. */
+    query(boxes) { return this.#answers("froe_batch_boxes", 2 * this.dim, { boxes }); }
+
+    /* A range as an address. */
+    #range(arena, { shape = "box", points, ...rest }) {
+        const dim = this.dim, options = { shape, ...arraysOf(RANGE, { points, ...rest }) };
+        if (!options.points) throw new TypeError("A range has points.");
+        const given = options.points.length, needed = { box: 2, ball: 1, simplex: dim + 1, capsule: 2, segment: 2, ray: 2 }[shape];
+        if (needed !== undefined && given !== needed * dim)
+            throw new TypeError(`A ${shape} has ${needed * dim} numbers, and ${given} are given.`);
+        if (given % dim) throw new TypeError(`A ${shape} has ${dim} numbers for each point, and ${given} are given.`);
+        options.count = given / dim;
+        if (shape === "halfspaces" && options.offsets?.length !== options.count)
+            throw new TypeError("Halfspaces have as many offsets as normals.");
+        return this[CORE].options(arena, "range", options);
+    }
+    /** Objects that meet a range: { shape, points, radius, offsets, eps, walk }; shapes are "box", "ball", "simplex",
+     * "capsule", "halfspaces", "hull", "segment" and "ray". */
+    range(range) {
+        return this[CORE].within((arena) =>
+            answersOf(this[CORE], "froe_batch_range", this.#context, this.#range(arena, range), 1).at(0));
+    }
+    /** Groups of the plane that meet a range, lie "within" it, or that "covers" it. */
+    groupsOf(range, relation = "meets") {
+        const number = RELATIONS.indexOf(relation);
+        if (number < 0) throw new TypeError(`There is no relation called ${relation}.`);
+        return this[CORE].within((arena) =>
+            answersOf(this[CORE], "froe_batch_groups_range", this.#context, this.#range(arena, range), 1, number).at(0));
+    }
+    /** The objects that contain each point. */
+    locate(points) { return this.#answers("froe_batch_locate", this.dim, { points }); }
+    /** The groups (areas) that each point of the plane lies in. */
+    groups(points) { return this.#answers("froe_batch_groups", 2, { points }); }
+    /** The k objects nearest to each point, with distances as values. */
+    nearest(points, { k = 1, bound = Infinity } = {}) {
+        return this.#answers("froe_batch_near", this.dim, { points }, k, bound);
+    }
+    /** The point of an object that is nearest to a point. */
+    nearestPoint(object, point) {
+        return this.#batch(this.dim, { point }, ([at], count, arena) => {
+            const out = arena.room(8 * this.dim);
+            this[CORE].call("froe_query_nearest_point", this.#context, object, at, out);
+            return this[CORE].copy(Float64Array, out, this.dim);
+        });
+    }
+    /** The first segment of the plane above each point (below: direction -1); 0xffffffff where there is none. */
+    above(points, direction = 1) { return this.#numbers("froe_batch_vertical", 2, { points }, direction); }
+    /** The first object that each ray meets: { objects, t }; 0xffffffff where there is none. */
+    ray(origins, directions, { tMax = Infinity } = {}) {
+        return this.#batch(this.dim, { origins, directions }, (at, count, arena) => {
+            const core = this[CORE], out = arena.room(HIT * count);
+            core.call("froe_batch_ray", this.#context, ...at, count, tMax, core.batch, out);
+            return { objects: core.column(Uint32Array, out, count, HIT, 0), t: core.column(Float64Array, out, count, HIT, 8) };
+        });
+    }
+    /** Every object that each ray meets, by t, with t as values. */
+    rayAll(origins, directions, { tMax = Infinity } = {}) {
+        return this.#answers("froe_batch_ray_all", this.dim, { origins, directions }, tMax);
+    }
+    /** Any object that each ray meets; 0xffffffff where there is none. */
+    rayAny(origins, directions, { tMax = Infinity } = {}) {
+        return this.#numbers("froe_batch_ray_any", this.dim, { origins, directions }, tMax);
+    }
+    /** What lies where a ray meets an object first: { point, normal, distance }; normal null where there is none. */
+    hitPlace(object, origin, direction) {
+        return this.#batch(this.dim, { origin, direction }, (at, count, arena) => {
+            const core = this[CORE], out = arena.room(PLACE);
+            core.call("froe_query_hit_place", this.#context, object, ...at, out);
+            const normal = core.copy(Float64Array, out + 64, this.dim);
+            return { point: core.copy(Float64Array, out, this.dim), normal: normal.some((x) => x) ? normal : null,
+                distance: core.double(out + 128) };
+        });
+    }
+    /** All pairs of objects that meet: { a, b, kinds }, kinds being "cross", "touch" or "overlap". `shared` false leaves
+     * out pairs that touch in nothing but one corner of both. */
+    pairs({ shared = true } = {}) {
+        const core = this[CORE], args = [this.#context, shared ? 1 : 0, core.batch];
+        return core.filled("froe_batch_pair_array", args, PAIRS, "froe_pairs_free", ([at, count]) => ({
+            a: core.column(Uint32Array, at, count, PAIR, 0),
+            b: core.column(Uint32Array, at, count, PAIR, 4),
+            kinds: Array.from(core.column(Uint32Array, at, count, PAIR, 8), (kind) => MEETINGS[kind]),
+        }));
+    }
+    /** What the questions since the last call have cost: { queries, nodes, leaves, tests, exact, slices, steps }. */
+    statistics() {
+        return this[CORE].within((arena) => {
+            const out = arena.room(8 * STATISTICS.length);
+            this[CORE].get("froe_query_statistics", out, this.#context);
+            const numbers = this[CORE].copy(BigUint64Array, out, STATISTICS.length);
+            return Object.fromEntries(STATISTICS.map((name, i) => [name, Number(numbers[i])]));
+        });
+    }
+}
