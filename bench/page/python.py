@@ -22,7 +22,8 @@ WORKS = {
     "all pairs": "all pairs that meet, seconds",
 }
 
-TEXT = """<!-- Written by bench/page/python.py from the results of `bench/run python`. Change that program, not this page. -->
+TEXT = """\
+<!-- Written by bench/page/python.py from the results of `bench/run python`. Change that program, not this page. -->
 
 # froe from numpy beside GEOS
 
@@ -36,9 +37,10 @@ shows. Two others answer the same questions in the same process, and all take tu
 
 The segments are short and lie anywhere (seed 1). The questions are other ones in each of the seven rounds; making the
 index and all pairs have three to five. Times are processor times on one thread, from arrays of doubles to arrays of
-answers. The answers to 20 questions of each kind are compared, and the number of all pairs. Of all pairs froe lists each
-once; the calls of GEOS find each from both sides, and every segment with itself, and have no other way. *Boxes only* is what STRtree answers without a predicate; froe then has a tree of
-the bounding boxes. Its answers to the other questions are exact.
+answers. The answers to 20 questions of each kind are compared, and the number of all pairs. Of all pairs froe lists
+each once; the calls of GEOS find each from both sides, and every segment with itself, and have no other way. *Boxes
+only* is what STRtree answers without a predicate; froe then has a tree of the bounding boxes. Its answers to the other
+questions are exact.
 """
 
 

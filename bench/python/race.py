@@ -77,7 +77,8 @@ class Geos:
 
     def windows(self, windows):
         ends = np.empty(len(windows), np.int64)
-        self.library.geos_windows(self.index, pointer(windows), ctypes.c_size_t(len(windows)), self.exact, pointer(ends))
+        count = ctypes.c_size_t(len(windows))
+        self.library.geos_windows(self.index, pointer(windows), count, self.exact, pointer(ends))
         return ends, self.found(ends)
 
     def nearest(self, points):

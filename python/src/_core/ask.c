@@ -25,7 +25,7 @@ void core_ask_run(core_ask *ask) {
 }
 
 bool core_ask_ran(core_ask *ask, froe_status status) {
-    return core_call_end(&ask->call, status, &ask->diag);
+    return core_call_end(&ask->call, status);
 }
 
 bool core_ask_points(core_ask *ask, PyObject *points, const char *name) {
@@ -36,7 +36,8 @@ static void free_answers(void *block) {
     froe_answers_free(block);
 }
 
-PyObject *core_answers(const froe_answers *answers) {
+PyObject *core_ask_answers(core_ask *ask, froe_status status, const froe_answers *answers) {
+    if (!core_ask_ran(ask, status)) return NULL;
     const size_t queries = answers->queries, count = answers->starts[queries];
     PyObject *owner = core_owner(answers, sizeof *answers, free_answers);
     if (!owner) return NULL;
@@ -45,4 +46,11 @@ PyObject *core_answers(const froe_answers *answers) {
                          answers->values ? core_array(owner, answers->values, "d", count, 0, 0) : Py_NewRef(Py_None)};
     Py_DECREF(owner);
     return core_tuple(3, parts);
+}
+
+PyObject *core_ask_array(core_ask *ask, froe_status status, void *results, const char *format, size_t count,
+                         size_t width) {
+    if (core_ask_ran(ask, status)) return core_array_of(results, format, count, width);
+    core_release(results, core_array_bytes(format, count, width), 1);
+    return NULL;
 }

@@ -17,7 +17,6 @@ typedef struct core_ask {
     froe_batch_options options;
     PyObject *progress;
     core_call call;
-    froe_diagnostic diag;
     core_input in[ASK_INPUTS];
 } core_ask;
 
@@ -30,8 +29,11 @@ void core_ask_end(core_ask *ask);
 void core_ask_run(core_ask *ask);
 /** false: it has failed, and an exception is set. */
 bool core_ask_ran(core_ask *ask, froe_status status);
-/** Answers, which it takes, as the tuple (starts, ids, values or None). */
-PyObject *core_answers(const froe_answers *answers);
+/** The same, and then the answers, which it takes, as the tuple (starts, ids, values or None). */
+PyObject *core_ask_answers(core_ask *ask, froe_status status, const froe_answers *answers);
+/** The same, and then the results as an array. Takes their memory, from core_allocate(), also on failure. */
+PyObject *core_ask_array(core_ask *ask, froe_status status, void *results, const char *format, size_t count,
+                         size_t width);
 /** The first input's rows of dim doubles are points. */
 bool core_ask_points(core_ask *ask, PyObject *points, const char *name);
 #endif

@@ -14,8 +14,9 @@ static PyObject *ask_points(PyObject *self, const char *name, batch_points *batc
     if (core_ask_points(&ask, args[0], "points")) {
         froe_answers answers;
         core_ask_run(&ask);
-        const froe_status status = batch(ask.query, points->data, points->count, &ask.options, &answers, &ask.diag);
-        if (core_ask_ran(&ask, status)) answer = core_answers(&answers);
+        const froe_status status =
+            batch(ask.query, points->data, points->count, &ask.options, &answers, &ask.call.diag);
+        answer = core_ask_answers(&ask, status, &answers);
     }
     core_ask_end(&ask);
     return answer;
@@ -41,8 +42,8 @@ PyObject *core_ask_near(PyObject *self, PyObject *const *args, Py_ssize_t count)
         froe_answers answers;
         core_ask_run(&ask);
         const froe_status status =
-            froe_batch_near(ask.query, points->data, points->count, k, bound, &ask.options, &answers, &ask.diag);
-        if (core_ask_ran(&ask, status)) answer = core_answers(&answers);
+            froe_batch_near(ask.query, points->data, points->count, k, bound, &ask.options, &answers, &ask.call.diag);
+        answer = core_ask_answers(&ask, status, &answers);
     }
     core_ask_end(&ask);
     return answer;
@@ -53,11 +54,9 @@ static PyObject *ask_vertical(core_ask *ask, int direction) {
     uint32_t *objects = core_allocate(points->count, sizeof *objects);
     if (!objects) return NULL;
     core_ask_run(ask);
-    const froe_status status =
-        froe_batch_vertical(ask->query, points->data, points->count, direction, &ask->options, objects, &ask->diag);
-    if (core_ask_ran(ask, status)) return core_array_of(objects, "i", points->count, 0);
-    core_release(objects, points->count, sizeof *objects);
-    return NULL;
+    const froe_status status = froe_batch_vertical(ask->query, points->data, points->count, direction, &ask->options,
+                                                   objects, &ask->call.diag);
+    return core_ask_array(ask, status, objects, "i", points->count, 0);
 }
 
 /* vertical(points, below, threads, progress) */
@@ -79,9 +78,9 @@ static froe_status find_nearest(core_ask *ask, const core_input *objects, double
     for (size_t i = 0; i < objects->count; i++) {
         if (i % 1024 == 0 && !core_call_progress(&ask->call, (double)i / (double)objects->count))
             return FROE_E_CANCELLED;
-        const froe_status status =
-            froe_query_nearest_point(ask->query, ids[i], points + i * ask->dim, nearest + i * ask->dim, &ask->diag);
-        if (status) ask->diag.object = (uint32_t)i;
+        const froe_status status = froe_query_nearest_point(ask->query, ids[i], points + i * ask->dim,
+                                                            nearest + i * ask->dim, &ask->call.diag);
+        if (status) ask->call.diag.object = (uint32_t)i;
         if (status) return status;
     }
     return FROE_OK;
@@ -97,15 +96,10 @@ PyObject *core_ask_nearest_points(PyObject *self, PyObject *const *args, Py_ssiz
         core_input_take_count(objects, args[0], "objects", 'I', 1, ask.in[0].count, false)) {
         const size_t rows = objects->count;
         double *nearest = core_allocate(rows, ask.dim * sizeof *nearest);
-        bool done = nearest;
-        if (done) {
+        if (nearest) {
             core_ask_run(&ask);
-            done = core_ask_ran(&ask, find_nearest(&ask, objects, nearest));
+            answer = core_ask_array(&ask, find_nearest(&ask, objects, nearest), nearest, "d", rows, ask.dim);
         }
-        if (done)
-            answer = core_array_of(nearest, "d", rows, ask.dim);
-        else if (nearest)
-            core_release(nearest, rows, ask.dim * sizeof *nearest);
     }
     core_ask_end(&ask);
     return answer;
@@ -123,7 +117,7 @@ PyObject *core_ask_pairs(PyObject *self, PyObject *const *args, Py_ssize_t count
     bool shared, done = core_flag(args[0], &shared);
     if (done) {
         core_ask_run(&ask);
-        done = core_ask_ran(&ask, froe_batch_pair_array(ask.query, shared, &ask.options, &pairs, &ask.diag));
+        done = core_ask_ran(&ask, froe_batch_pair_array(ask.query, shared, &ask.options, &pairs, &ask.call.diag));
     }
     core_ask_end(&ask);
     PyObject *owner = done ? core_owner(&pairs, sizeof pairs, free_pairs) : NULL;

@@ -83,8 +83,9 @@ static PyObject *ask_ids(core_ask *ask, range_batch *b) {
     froe_answers answers;
     core_ask_run(ask);
     fill_ranges(b);
-    const froe_status status = froe_batch_range(ask->query, b->ranges, b->count, &ask->options, &answers, &ask->diag);
-    return core_ask_ran(ask, status) ? core_answers(&answers) : NULL;
+    const froe_status status =
+        froe_batch_range(ask->query, b->ranges, b->count, &ask->options, &answers, &ask->call.diag);
+    return core_ask_answers(ask, status, &answers);
 }
 
 static PyObject *ask_counts(core_ask *ask, range_batch *b) {
@@ -92,10 +93,9 @@ static PyObject *ask_counts(core_ask *ask, range_batch *b) {
     if (!counts) return NULL;
     core_ask_run(ask);
     fill_ranges(b);
-    const froe_status status = froe_batch_count(ask->query, b->ranges, b->count, &ask->options, counts, &ask->diag);
-    if (core_ask_ran(ask, status)) return core_array_of(counts, "q", b->count, 0);
-    core_release(counts, b->count, sizeof *counts);
-    return NULL;
+    const froe_status status =
+        froe_batch_count(ask->query, b->ranges, b->count, &ask->options, counts, &ask->call.diag);
+    return core_ask_array(ask, status, counts, "q", b->count, 0);
 }
 
 static PyObject *ask_any(core_ask *ask, range_batch *b) {
@@ -103,10 +103,8 @@ static PyObject *ask_any(core_ask *ask, range_batch *b) {
     if (!objects) return NULL;
     core_ask_run(ask);
     fill_ranges(b);
-    const froe_status status = froe_batch_any(ask->query, b->ranges, b->count, &ask->options, objects, &ask->diag);
-    if (core_ask_ran(ask, status)) return core_array_of(objects, "i", b->count, 0);
-    core_release(objects, b->count, sizeof *objects);
-    return NULL;
+    const froe_status status = froe_batch_any(ask->query, b->ranges, b->count, &ask->options, objects, &ask->call.diag);
+    return core_ask_array(ask, status, objects, "i", b->count, 0);
 }
 
 /* ------------------------------------------------------------------ methods -- */
@@ -135,8 +133,8 @@ PyObject *core_ask_boxes(PyObject *self, PyObject *const *args, Py_ssize_t count
         froe_answers answers;
         core_ask_run(&ask);
         const froe_status status =
-            froe_batch_boxes(ask.query, boxes->data, boxes->count, &ask.options, &answers, &ask.diag);
-        if (core_ask_ran(&ask, status)) answer = core_answers(&answers);
+            froe_batch_boxes(ask.query, boxes->data, boxes->count, &ask.options, &answers, &ask.call.diag);
+        answer = core_ask_answers(&ask, status, &answers);
     }
     core_ask_end(&ask);
     return answer;

@@ -18,7 +18,7 @@ static PyObject *ask_first(core_ask *ask, double t_max) {
     if (!hits) return NULL;
     core_ask_run(ask);
     const froe_status status = froe_batch_ray(ask->query, ask->in[ORIGINS].data, ask->in[DIRECTIONS].data, count, t_max,
-                                              &ask->options, hits, &ask->diag);
+                                              &ask->options, hits, &ask->call.diag);
     for (size_t i = 0; !status && i < count; i++)
         if (hits[i].object == FROE_NONE) hits[i].t = Py_HUGE_VAL;
     if (!core_ask_ran(ask, status)) {
@@ -36,9 +36,10 @@ static PyObject *ask_first(core_ask *ask, double t_max) {
 static PyObject *ask_all(core_ask *ask, double t_max) {
     froe_answers answers;
     core_ask_run(ask);
-    const froe_status status = froe_batch_ray_all(ask->query, ask->in[ORIGINS].data, ask->in[DIRECTIONS].data,
-                                                  ask->in[ORIGINS].count, t_max, &ask->options, &answers, &ask->diag);
-    return core_ask_ran(ask, status) ? core_answers(&answers) : NULL;
+    const froe_status status =
+        froe_batch_ray_all(ask->query, ask->in[ORIGINS].data, ask->in[DIRECTIONS].data, ask->in[ORIGINS].count, t_max,
+                           &ask->options, &answers, &ask->call.diag);
+    return core_ask_answers(ask, status, &answers);
 }
 
 static PyObject *ask_any(core_ask *ask, double t_max) {
@@ -47,10 +48,8 @@ static PyObject *ask_any(core_ask *ask, double t_max) {
     if (!objects) return NULL;
     core_ask_run(ask);
     const froe_status status = froe_batch_ray_any(ask->query, ask->in[ORIGINS].data, ask->in[DIRECTIONS].data, count,
-                                                  t_max, &ask->options, objects, &ask->diag);
-    if (core_ask_ran(ask, status)) return core_array_of(objects, "i", count, 0);
-    core_release(objects, count, sizeof *objects);
-    return NULL;
+                                                  t_max, &ask->options, objects, &ask->call.diag);
+    return core_ask_array(ask, status, objects, "i", count, 0);
 }
 
 /* rays(mode, origins, directions, t_max, threads, progress): mode 0: first hits, 1: all, 2: any */
@@ -82,9 +81,9 @@ static froe_status find_places(core_ask *ask, place_rows *to) {
     for (size_t i = 0; i < count; i++) {
         froe_hit_place place;
         if (i % 1024 == 0 && !core_call_progress(&ask->call, (double)i / (double)count)) return FROE_E_CANCELLED;
-        const froe_status status =
-            froe_query_hit_place(ask->query, objects[i], origins + i * dim, directions + i * dim, &place, &ask->diag);
-        if (status) ask->diag.object = (uint32_t)i;
+        const froe_status status = froe_query_hit_place(ask->query, objects[i], origins + i * dim, directions + i * dim,
+                                                        &place, &ask->call.diag);
+        if (status) ask->call.diag.object = (uint32_t)i;
         if (status) return status;
         memcpy(to->points + i * dim, place.point, dim * sizeof *to->points);
         memcpy(to->normals + i * dim, place.normal, dim * sizeof *to->normals);

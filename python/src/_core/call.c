@@ -39,11 +39,14 @@ bool core_call_progress(void *user, double done) {
     return goes_on;
 }
 
-bool core_call_end(core_call *call, froe_status status, const froe_diagnostic *diag) {
+bool core_call_end(core_call *call, froe_status status) {
+    const bool full = call->pile && call->pile->full;
     PyEval_RestoreThread(call->saved);
     if (call->type)
         PyErr_Restore(call->type, call->value, call->traceback);
+    else if (full)
+        core_fail(FROE_E_MEMORY, "There is no memory for what the call has found.");
     else if (status)
-        core_raise(status, diag);
-    return !call->type && !status;
+        core_raise(status, &call->diag);
+    return !call->type && !full && !status;
 }

@@ -13,7 +13,6 @@ typedef struct measuring {
     unsigned threads;
     PyObject *progress;
     core_call call;
-    froe_diagnostic diag;
 } measuring;
 
 static bool begin(measuring *m, PyObject *self, const char *name, PyObject *const *args, Py_ssize_t given,
@@ -37,7 +36,7 @@ static void run(measuring *m) {
 }
 
 static bool end(measuring *m, froe_status status) {
-    const bool done = core_call_end(&m->call, status, &m->diag);
+    const bool done = core_call_end(&m->call, status);
     core_scene_give(m->self);
     return done;
 }
@@ -59,7 +58,7 @@ PyObject *core_measure_defects(PyObject *self, PyObject *const *args, Py_ssize_t
     froe_defects d = {.size = sizeof d};
     if (!begin(&m, self, "defects", args, count, 4)) return NULL;
     run(&m);
-    if (!end(&m, froe_scene_defects(m.scene, m.threads, core_call_progress, &m.call, &d, &m.diag))) return NULL;
+    if (!end(&m, froe_scene_defects(m.scene, m.threads, core_call_progress, &m.call, &d, &m.call.diag))) return NULL;
     return Py_BuildValue("{s:K,s:K,s:K,s:K,s:K,s:K}", "zero_length", (unsigned long long)d.zero_length, "zero_area",
                          (unsigned long long)d.zero_area, "duplicates", (unsigned long long)d.duplicates, "crossings",
                          (unsigned long long)d.crossings, "t_junctions", (unsigned long long)d.t_junctions, "overlaps",
@@ -72,7 +71,7 @@ PyObject *core_measure_fatness(PyObject *self, PyObject *const *args, Py_ssize_t
     froe_fatness f;
     if (!begin(&m, self, "fatness", args, count, 4)) return NULL;
     run(&m);
-    if (!end(&m, froe_measure_fatness(m.scene, &m.options, &f, &m.diag))) return NULL;
+    if (!end(&m, froe_measure_fatness(m.scene, &m.options, &f, &m.call.diag))) return NULL;
     return Py_BuildValue("{s:N,s:N,s:N,s:K}", "full", spread(&f.full), "flat", spread(&f.flat), "sliver",
                          spread(&f.sliver), "thin", (unsigned long long)f.thin);
 }
@@ -85,7 +84,7 @@ PyObject *core_measure_density(PyObject *self, PyObject *const *args, Py_ssize_t
     if ((count && !core_flag(args[0], &diameter)) || !begin(&m, self, "density", args, count, 5)) return NULL;
     const froe_size size = diameter ? FROE_SIZE_DIAMETER : FROE_SIZE_RADIUS;
     run(&m);
-    if (!end(&m, froe_measure_density(m.scene, size, &m.options, &d, &m.diag))) return NULL;
+    if (!end(&m, froe_measure_density(m.scene, size, &m.options, &d, &m.call.diag))) return NULL;
     return Py_BuildValue("{s:I,s:I,s:K,s:N,s:d,s:N}", "lower", (unsigned)d.lower, "upper", (unsigned)d.upper, "count",
                          (unsigned long long)d.count, "centre", point(d.centre, froe_scene_dim(m.scene)), "radius",
                          d.radius, "load", spread(&d.load));
@@ -97,7 +96,7 @@ PyObject *core_measure_clutter(PyObject *self, PyObject *const *args, Py_ssize_t
     froe_clutter c;
     if (!begin(&m, self, "clutter", args, count, 4)) return NULL;
     run(&m);
-    if (!end(&m, froe_measure_clutter(m.scene, &m.options, &c, &m.diag))) return NULL;
+    if (!end(&m, froe_measure_clutter(m.scene, &m.options, &c, &m.call.diag))) return NULL;
     const int dim = froe_scene_dim(m.scene);
     return Py_BuildValue("{s:I,s:N,s:N,s:K,s:N}", "lower", (unsigned)c.lower, "lo", point(c.lo, dim), "hi",
                          point(c.hi, dim), "count", (unsigned long long)c.count, "load", spread(&c.load));
@@ -110,7 +109,7 @@ PyObject *core_measure_directional(PyObject *self, PyObject *const *args, Py_ssi
     const double delta = count ? PyFloat_AsDouble(args[0]) : 0;
     if (PyErr_Occurred() || !begin(&m, self, "directional", args, count, 5)) return NULL;
     run(&m);
-    if (!end(&m, froe_measure_directional(m.scene, delta, &m.options, &d, &m.diag))) return NULL;
+    if (!end(&m, froe_measure_directional(m.scene, delta, &m.options, &d, &m.call.diag))) return NULL;
     return Py_BuildValue("{s:d,s:K,s:N,s:N,s:N,s:N}", "delta", d.delta, "count", (unsigned long long)d.count, "simple",
                          spread(&d.simple), "extended", spread(&d.extended), "two_directional",
                          spread(&d.two_directional), "paired", spread(&d.paired));

@@ -183,8 +183,12 @@ PyObject *core_block(void *memory, size_t bytes) {
     return core_owner(&block, sizeof block, free_plain);
 }
 
+size_t core_array_bytes(const char *format, size_t count, size_t width) {
+    return count * (width ? width : 1) * item_size(format);
+}
+
 PyObject *core_array_of(void *memory, const char *format, size_t count, size_t width) {
-    PyObject *owner = core_block(memory, count * (width ? width : 1) * item_size(format));
+    PyObject *owner = core_block(memory, core_array_bytes(format, count, width));
     if (!owner) return NULL;
     PyObject *array = core_array(owner, memory, format, count, width, 0);
     Py_DECREF(owner);

@@ -20,6 +20,8 @@ PyObject *core_owner(const void *block, size_t bytes, core_free_fn *free_block);
 PyObject *core_array(PyObject *owner, const void *data, const char *format, size_t count, size_t width, size_t stride);
 /** Takes memory from core_allocate(), also on failure, for several arrays. */
 PyObject *core_block(void *memory, size_t bytes);
+/** How large such an array is, where its items lie one after the other. */
+size_t core_array_bytes(const char *format, size_t count, size_t width);
 /** An array of memory from core_allocate(), which it takes, also on failure. */
 PyObject *core_array_of(void *memory, const char *format, size_t count, size_t width);
 /** A tuple of objects, whose references it takes. NULL, without a leak, where one of them is NULL. */

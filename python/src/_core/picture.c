@@ -90,17 +90,12 @@ static PyObject *report_of(const froe_render_report *r) {
 static bool run(const froe_tree *tree, froe_render_options *options, const char *path, froe_render_format format,
                 PyObject *progress, core_pile *to, froe_render_report *report) {
     core_call call;
-    froe_diagnostic diag;
     core_call_begin(&call, progress);
+    call.pile = to;
     options->progress = core_call_progress, options->user = &call;
-    froe_status status = path ? froe_render(tree, path, options, report, &diag)
-                              : froe_render_write(tree, format, core_pile_put, to, options, report, &diag);
-    if (to->full) {
-        status = FROE_E_MEMORY;
-        diag.message[0] = 0;
-        diag.object = diag.corner = diag.axis = FROE_NONE;
-    }
-    return core_call_end(&call, status, &diag);
+    const froe_status status = path ? froe_render(tree, path, options, report, &call.diag)
+                                    : froe_render_write(tree, format, core_pile_put, to, options, report, &call.diag);
+    return core_call_end(&call, status);
 }
 
 /* render(path or None, format, options, progress): (bytes, report) */

@@ -28,11 +28,10 @@ static PyObject *read_scene(PyObject *module, PyObject *const *args, Py_ssize_t 
     froe_scene *scene;
     froe_read_report report;
     core_call call;
-    froe_diagnostic diag;
     core_call_begin(&call, args[4]);
     options.progress = core_call_progress, options.user = &call;
-    const froe_status status = froe_read_own(PyBytes_AsString(path), &options, &scene, &report, &diag);
-    const bool done = core_call_end(&call, status, &diag);
+    const froe_status status = froe_read_own(PyBytes_AsString(path), &options, &scene, &report, &call.diag);
+    const bool done = core_call_end(&call, status);
     Py_DECREF(path);
     PyObject *parts[] = {done ? core_scene_object(scene) : NULL, done ? report_of(&report) : NULL};
     return core_tuple(2, parts);
@@ -49,9 +48,8 @@ static PyObject *generate(PyObject *module, PyObject *const *args, Py_ssize_t co
         return NULL;
     froe_scene *scene;
     core_call call;
-    froe_diagnostic diag;
     core_call_begin(&call, Py_None);
-    if (!core_call_end(&call, froe_generate(kind, n, seed, &core_allocator, &scene, &diag), &diag)) return NULL;
+    if (!core_call_end(&call, froe_generate(kind, n, seed, &core_allocator, &scene, &call.diag))) return NULL;
     return core_scene_object(scene);
 }
 
@@ -68,11 +66,11 @@ PyObject *core_tree_export(PyObject *object, PyObject *const *args, Py_ssize_t c
     if (done) {
         froe_export_options options = froe_export_defaults();
         core_call call;
-        froe_diagnostic diag;
         core_call_begin(&call, args[2]);
         options.progress = core_call_progress, options.user = &call;
-        const froe_status status = froe_export(tree, PyBytes_AsString(path), (froe_export_what)what, &options, &diag);
-        done = core_call_end(&call, status, &diag);
+        const froe_status status =
+            froe_export(tree, PyBytes_AsString(path), (froe_export_what)what, &options, &call.diag);
+        done = core_call_end(&call, status);
         core_tree_leave(self);
     }
     Py_DECREF(path);

@@ -146,11 +146,10 @@ static bool take_batch(batch *b, const core_scene *self, PyObject *const *args) 
 
 static bool run_batch(core_scene *self, batch *b) {
     core_call call;
-    froe_diagnostic diag;
     core_call_begin(&call, b->progress);
     b->objects.progress = core_call_progress, b->objects.user = &call;
-    const froe_status status = froe_scene_add(self->scene, &b->objects, &diag);
-    return core_call_end(&call, status, &diag);
+    const froe_status status = froe_scene_add(self->scene, &b->objects, &call.diag);
+    return core_call_end(&call, status);
 }
 
 static PyObject *add(PyObject *object, PyObject *const *args, Py_ssize_t count) {
@@ -182,11 +181,10 @@ static bool take_options(froe_build_options *o, core_input *order, PyObject *con
 static froe_tree *run_build(core_scene *self, froe_build_options *options, PyObject *progress) {
     froe_tree *tree = NULL;
     core_call call;
-    froe_diagnostic diag;
     core_call_begin(&call, progress);
     options->progress = core_call_progress, options->user = &call;
-    const froe_status status = froe_build(self->scene, options, &tree, &diag);
-    return core_call_end(&call, status, &diag) ? tree : NULL;
+    const froe_status status = froe_build(self->scene, options, &tree, &call.diag);
+    return core_call_end(&call, status) ? tree : NULL;
 }
 
 static PyObject *build(PyObject *object, PyObject *const *args, Py_ssize_t count) {

@@ -91,10 +91,9 @@ PyObject *core_scene_arrays(PyObject *self, PyObject *const *args, Py_ssize_t co
     if (!scene) return NULL;
     froe_scene_arrays arrays;
     core_call call;
-    froe_diagnostic diag;
     core_call_begin(&call, Py_None);
-    const froe_status status = froe_arrays_of_scene(scene, &core_allocator, &arrays, &diag);
-    const bool done = core_call_end(&call, status, &diag);
+    const froe_status status = froe_arrays_of_scene(scene, &core_allocator, &arrays, &call.diag);
+    const bool done = core_call_end(&call, status);
     core_scene_give((core_scene *)self);
     return done ? arrays_object(&arrays) : NULL;
 }
@@ -107,9 +106,8 @@ PyObject *core_scene_write(PyObject *self, PyObject *const *args, Py_ssize_t cou
     bool done = scene;
     if (done) {
         core_call call;
-        froe_diagnostic diag;
         core_call_begin(&call, Py_None);
-        done = core_call_end(&call, froe_write_scene(scene, PyBytes_AsString(path), &diag), &diag);
+        done = core_call_end(&call, froe_write_scene(scene, PyBytes_AsString(path), &call.diag));
         core_scene_give((core_scene *)self);
     }
     Py_DECREF(path);

@@ -4,27 +4,20 @@
 #include "memory.h"
 #include "tree.h"
 
-/* The path of a str, bytes or os.PathLike, as bytes; NULL: an exception is set. */
-static PyObject *path_of(PyObject *object) {
-    PyObject *path;
-    return PyUnicode_FSConverter(object, &path) ? path : NULL;
-}
-
 /* save(path) */
 PyObject *core_tree_save(PyObject *object, PyObject *const *args, Py_ssize_t count) {
     core_tree *self = (core_tree *)object;
-    if (!core_arguments("save", count, 1)) return NULL;
+    PyObject *path;
+    if (!core_arguments("save", count, 1) || !PyUnicode_FSConverter(args[0], &path)) return NULL;
     const froe_tree *tree = core_tree_use(self);
-    PyObject *path = tree ? path_of(args[0]) : NULL;
-    bool done = path;
+    bool done = tree;
     if (done) {
         core_call call;
-        froe_diagnostic diag;
         core_call_begin(&call, Py_None);
-        const froe_status status = froe_tree_save(tree, PyBytes_AsString(path), &diag);
-        done = core_call_end(&call, status, &diag);
+        const froe_status status = froe_tree_save(tree, PyBytes_AsString(path), &call.diag);
+        done = core_call_end(&call, status);
     }
-    Py_XDECREF(path);
+    Py_DECREF(path);
     if (tree) core_tree_leave(self);
     return done ? Py_NewRef(Py_None) : NULL;
 }
@@ -57,10 +50,9 @@ PyObject *core_tree_to_bytes(PyObject *object, PyObject *const *args, Py_ssize_t
     if (bytes) {
         sink s = {PyBytes_AsString(bytes), size};
         core_call call;
-        froe_diagnostic diag;
         core_call_begin(&call, Py_None);
-        const froe_status status = froe_tree_write(tree, put, &s, &diag);
-        if (!core_call_end(&call, status, &diag)) Py_CLEAR(bytes);
+        const froe_status status = froe_tree_write(tree, put, &s, &call.diag);
+        if (!core_call_end(&call, status)) Py_CLEAR(bytes);
     }
     core_tree_leave(self);
     return bytes;
@@ -69,14 +61,13 @@ PyObject *core_tree_to_bytes(PyObject *object, PyObject *const *args, Py_ssize_t
 /* open(path) */
 static PyObject *open_path(PyObject *module, PyObject *const *args, Py_ssize_t count) {
     (void)module;
-    PyObject *path = core_arguments("open", count, 1) ? path_of(args[0]) : NULL;
-    if (!path) return NULL;
+    PyObject *path;
+    if (!core_arguments("open", count, 1) || !PyUnicode_FSConverter(args[0], &path)) return NULL;
     froe_tree *tree;
     core_call call;
-    froe_diagnostic diag;
     core_call_begin(&call, Py_None);
-    const froe_status status = froe_tree_open(PyBytes_AsString(path), &core_allocator, &tree, &diag);
-    const bool done = core_call_end(&call, status, &diag);
+    const froe_status status = froe_tree_open(PyBytes_AsString(path), &core_allocator, &tree, &call.diag);
+    const bool done = core_call_end(&call, status);
     Py_DECREF(path);
     return done ? core_tree_object(tree) : NULL;
 }
@@ -88,10 +79,9 @@ static PyObject *open_bytes(PyObject *module, PyObject *const *args, Py_ssize_t 
     if (!core_arguments("from_bytes", count, 1) || PyObject_GetBuffer(args[0], &view, PyBUF_SIMPLE)) return NULL;
     froe_tree *tree;
     core_call call;
-    froe_diagnostic diag;
     core_call_begin(&call, Py_None);
-    const froe_status status = froe_tree_open_memory(view.buf, (size_t)view.len, &core_allocator, &tree, &diag);
-    const bool done = core_call_end(&call, status, &diag);
+    const froe_status status = froe_tree_open_memory(view.buf, (size_t)view.len, &core_allocator, &tree, &call.diag);
+    const bool done = core_call_end(&call, status);
     PyBuffer_Release(&view);
     return done ? core_tree_object(tree) : NULL;
 }

@@ -88,10 +88,9 @@ PyObject *core_tree_audit(PyObject *object, PyObject *const *args, Py_ssize_t co
     const froe_tree *tree = core_tree_use(self);
     if (!tree) return NULL;
     core_call call;
-    froe_diagnostic diag;
     core_call_begin(&call, args[2]);
     options.progress = core_call_progress, options.user = &call;
-    const bool done = core_call_end(&call, froe_tree_audit(tree, &options, &diag), &diag);
+    const bool done = core_call_end(&call, froe_tree_audit(tree, &options, &call.diag));
     core_tree_leave(self);
     return done ? Py_NewRef(Py_None) : NULL;
 }
@@ -125,10 +124,9 @@ PyObject *core_tree_pieces(PyObject *object, PyObject *const *args, Py_ssize_t c
     if (!tree) return NULL;
     froe_piece_arrays arrays;
     core_call call;
-    froe_diagnostic diag;
     core_call_begin(&call, Py_None);
-    const froe_status status = froe_arrays_of_pieces(tree, &core_allocator, &arrays, &diag);
-    const bool done = core_call_end(&call, status, &diag);
+    const froe_status status = froe_arrays_of_pieces(tree, &core_allocator, &arrays, &call.diag);
+    const bool done = core_call_end(&call, status);
     core_tree_leave(self);
     return done ? pieces_object(&arrays) : NULL;
 }
@@ -164,10 +162,10 @@ PyObject *core_tree_cells(PyObject *object, PyObject *const *args, Py_ssize_t co
     if (done) {
         const double *lo = box.data;
         core_call call;
-        froe_diagnostic diag;
         core_call_begin(&call, Py_None);
-        const froe_status status = froe_arrays_of_cells(tree, lo, lo + dim, inner, &core_allocator, &arrays, &diag);
-        done = core_call_end(&call, status, &diag);
+        const froe_status status =
+            froe_arrays_of_cells(tree, lo, lo + dim, inner, &core_allocator, &arrays, &call.diag);
+        done = core_call_end(&call, status);
     }
     core_input_give(&box);
     core_tree_leave(self);
@@ -201,10 +199,9 @@ PyObject *core_tree_order(PyObject *object, PyObject *const *args, Py_ssize_t co
     if (done) {
         for (size_t i = 0; i < dim && i < 3; i++) from.at[i] = ((const double *)eye.data)[i];
         core_call call;
-        froe_diagnostic diag;
         core_call_begin(&call, Py_None);
-        const froe_status status = froe_tree_order(tree, &from, NULL, take_piece, &list, &diag);
-        done = core_call_end(&call, status, &diag);
+        const froe_status status = froe_tree_order(tree, &from, NULL, take_piece, &list, &call.diag);
+        done = core_call_end(&call, status);
     }
     core_input_give(&eye);
     core_tree_leave(self);

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from .errors import ArrayError
 
 Doubles = npt.NDArray[np.float64]
 Ids = npt.NDArray[np.int32]
+Progress = Callable[[float], object]  # of the share done; False ends the call
 
 EXACT = 2**53  # whole numbers up to this are doubles
 

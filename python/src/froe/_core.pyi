@@ -1,9 +1,10 @@
-from collections.abc import Callable
 from typing import Any
 
 from ._arrays import Doubles
+from ._arrays import Progress as Call
 
-Progress = Callable[[float], object] | None
+Progress = Call | None
+
 
 version: str
 

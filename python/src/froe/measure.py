@@ -12,13 +12,13 @@ True
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, fields
+from typing import Any, TypeVar
 
+from ._arrays import Progress
 from .scene import Scene
 
-Progress = Callable[[float], object] | None
+Measure = TypeVar("Measure")
 
 
 @dataclass(frozen=True)
@@ -95,33 +95,34 @@ class Directional:
     paired: Spread
 
 
-def _filled(kind: type[Any], found: dict[str, Any], spreads: tuple[str, ...]) -> Any:
+def _filled(kind: type[Measure], found: dict[str, Any]) -> Measure:
+    """A measure of the numbers that the extension has found; those of a spread come as a tuple."""
+    spreads = {field.name for field in fields(kind) if str(field.type) == Spread.__name__}
     return kind(**{name: Spread(*value) if name in spreads else value for name, value in found.items()})
 
 
-def defects(scene: Scene, *, threads: int = 0, progress: Progress = None) -> Defects:
+def defects(scene: Scene, *, threads: int = 0, progress: Progress | None = None) -> Defects:
     """Counts what is odd, exactly.
 
     >>> import froe
     >>> defects(froe.segments([[0, 0, 2, 2], [0, 2, 2, 0], [1, 1, 1, 1]])).crossings
     1
     """
-    return Defects(**scene._core.defects(0, 1, threads, progress))
+    return _filled(Defects, scene._core.defects(0, 1, threads, progress))
 
 
-def fatness(scene: Scene, *, samples: int = 20000, seed: int = 1, progress: Progress = None) -> Fatness:
+def fatness(scene: Scene, *, samples: int = 20000, seed: int = 1, progress: Progress | None = None) -> Fatness:
     """How fat objects are.
 
     >>> import froe
     >>> fatness(froe.boxes([[0, 0, 1, 1]])).full.median > 0.6
     True
     """
-    found: Fatness = _filled(Fatness, scene._core.fatness(samples, seed, 0, progress), ("full", "flat", "sliver"))
-    return found
+    return _filled(Fatness, scene._core.fatness(samples, seed, 0, progress))
 
 
 def density(
-    scene: Scene, *, diameter: bool = False, samples: int = 20000, seed: int = 1, progress: Progress = None
+    scene: Scene, *, diameter: bool = False, samples: int = 20000, seed: int = 1, progress: Progress | None = None
 ) -> Density:
     """The most objects, of at least the size of a ball, that meet a ball: by the radius of the smallest enclosing ball,
     or by the diameter.
@@ -130,23 +131,21 @@ def density(
     >>> density(froe.segments([[0, 0, 1, 0], [0, 1, 1, 1]])).count
     2
     """
-    found: Density = _filled(Density, scene._core.density(diameter, samples, seed, 0, progress), ("load",))
-    return found
+    return _filled(Density, scene._core.density(diameter, samples, seed, 0, progress))
 
 
-def clutter(scene: Scene, *, samples: int = 20000, seed: int = 1, progress: Progress = None) -> Clutter:
+def clutter(scene: Scene, *, samples: int = 20000, seed: int = 1, progress: Progress | None = None) -> Clutter:
     """The most objects that meet a cube without a corner of a bounding box inside: a lower bound.
 
     >>> import froe
     >>> clutter(froe.segments([[0, 0, 1, 0], [0, 1, 1, 1]])).lower >= 1
     True
     """
-    found: Clutter = _filled(Clutter, scene._core.clutter(samples, seed, 0, progress), ("load",))
-    return found
+    return _filled(Clutter, scene._core.clutter(samples, seed, 0, progress))
 
 
 def directional(
-    scene: Scene, delta: float = 1.0, *, samples: int = 20000, seed: int = 1, progress: Progress = None
+    scene: Scene, delta: float = 1.0, *, samples: int = 20000, seed: int = 1, progress: Progress | None = None
 ) -> Directional:
     """Directional density of bounding boxes, with neighbourhoods of ``delta`` times a side.
 
@@ -154,6 +153,4 @@ def directional(
     >>> directional(froe.boxes([[0, 0, 1, 1], [2, 0, 3, 1]]), 2.0).count
     2
     """
-    spreads = ("simple", "extended", "two_directional", "paired")
-    found: Directional = _filled(Directional, scene._core.directional(delta, samples, seed, 0, progress), spreads)
-    return found
+    return _filled(Directional, scene._core.directional(delta, samples, seed, 0, progress))

@@ -5,18 +5,16 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import Doubles, Ids, doubles, rows, whole
+from ._arrays import Doubles, Ids, Progress, doubles, rows, whole
 from .errors import ArrayError
 from .tree import Tree
 
-Progress = Callable[[float], object]
 Bools = npt.NDArray[np.bool_]
 
 EVENTS = (

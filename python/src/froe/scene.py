@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,12 +11,11 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import Doubles, Ids, doubles, rows, whole
+from ._arrays import Doubles, Ids, Progress, doubles, rows, whole
 from .errors import ArrayError, UnsupportedError
 from .report import Report
 from .tree import Tree
 
-Progress = Callable[[float], object]
 
 _POINT, _SEGMENT, _POLYGON, _BOX, _BALL, _HULL = range(6)  # froe_kind
 

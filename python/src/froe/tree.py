@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, overload
 
@@ -12,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core, _ranges, pictures, report
-from ._arrays import Doubles, Ids, doubles, point, rows, whole
+from ._arrays import Doubles, Ids, Progress, doubles, point, rows, whole
 from ._ranges import Points, Round
 from .answers import Answers
 from .errors import ClosedError, OptionError
@@ -22,7 +21,6 @@ from .report import Report
 if TYPE_CHECKING:
     from .scene import Scene
 
-Progress = Callable[[float], object]
 
 _IDS, _COUNTS, _ANY = range(3)
 _FIRST, _ALL = range(2)

@@ -22,9 +22,8 @@ static bool begin(core_kinetic *self, core_call *call, PyObject *progress) {
     return true;
 }
 
-static bool end(core_kinetic *self, core_call *call, froe_status status, froe_diagnostic *diag, const core_pile *pile) {
-    static const core_pile none;
-    const bool done = core_motion_ran(call, status, diag, pile ? pile : &none);
+static bool end(core_kinetic *self, core_call *call, froe_status status) {
+    const bool done = core_call_end(call, status);
     froe_kinetic_watch(self->kinetic, NULL, NULL);
     core_motion_give(self->motion);
     return done;
@@ -40,11 +39,10 @@ static PyObject *new_kinetic(PyObject *module, PyObject *const *args, Py_ssize_t
         return NULL;
     froe_kinetic *kinetic = NULL;
     core_call call;
-    froe_diagnostic diag;
     core_call_begin(&call, args[3]);
     options.progress = core_call_progress, options.user = &call;
-    const froe_status status = froe_kinetic_new(motion->motion, &options, &core_allocator, &kinetic, &diag);
-    const bool done = core_call_end(&call, status, &diag);
+    const froe_status status = froe_kinetic_new(motion->motion, &options, &core_allocator, &kinetic, &call.diag);
+    const bool done = core_call_end(&call, status);
     core_motion_give(motion);
     if (!done) return NULL;
     froe_kinetic_watch(kinetic, NULL, NULL);
@@ -97,11 +95,11 @@ static PyObject *advance(PyObject *object, PyObject *const *args, Py_ssize_t cou
     const double time = PyFloat_AsDouble(args[0]);
     core_pile pile = {0};
     core_call call;
-    froe_diagnostic diag;
     if (PyErr_Occurred() || !begin(self, &call, args[2])) return NULL;
+    call.pile = &pile;
     const froe_status status =
-        froe_kinetic_advance(self->kinetic, time, events ? take_event : NULL, events ? &pile : NULL, &diag);
-    const bool done = end(self, &call, status, &diag, &pile);
+        froe_kinetic_advance(self->kinetic, time, events ? take_event : NULL, events ? &pile : NULL, &call.diag);
+    const bool done = end(self, &call, status);
     if (done && events) return events_object(&pile);
     core_pile_free(&pile);
     return done ? Py_NewRef(Py_None) : NULL;
@@ -122,14 +120,13 @@ static PyObject *change(PyObject *object, PyObject *const *args, Py_ssize_t coun
     core_kinetic *self = (core_kinetic *)object;
     uint32_t what, which;
     core_call call;
-    froe_diagnostic diag;
     if (!core_arguments("change", count, 2) || !core_unsigned(args[0], "what", 2, &what) ||
         !core_unsigned(args[1], "object", FROE_NONE, &which) || !begin(self, &call, Py_None))
         return NULL;
-    const froe_status status = what == 0   ? froe_kinetic_update(self->kinetic, &diag)
-                               : what == 1 ? froe_kinetic_remove(self->kinetic, which, &diag)
-                                           : froe_kinetic_audit(self->kinetic, &diag);
-    return end(self, &call, status, &diag, NULL) ? Py_NewRef(Py_None) : NULL;
+    const froe_status status = what == 0   ? froe_kinetic_update(self->kinetic, &call.diag)
+                               : what == 1 ? froe_kinetic_remove(self->kinetic, which, &call.diag)
+                                           : froe_kinetic_audit(self->kinetic, &call.diag);
+    return end(self, &call, status) ? Py_NewRef(Py_None) : NULL;
 }
 
 /* ---------------------------------------------------------------- questions -- */
@@ -167,9 +164,8 @@ static PyObject *ask(core_kinetic *self, PyObject *rows, const char *name, size_
     uint32_t *ids = core_allocate(in.count, width * sizeof *ids);
     const size_t count = in.count;
     core_call call;
-    froe_diagnostic diag;
     bool done = ids && begin(self, &call, Py_None);
-    if (done) done = end(self, &call, fn(self, &in, ids, &diag), &diag, NULL);
+    if (done) done = end(self, &call, fn(self, &in, ids, &call.diag));
     core_input_give(&in);
     if (done) return core_array_of(ids, "i", count, found);
     if (ids) core_release(ids, count, width * sizeof *ids);
@@ -195,11 +191,10 @@ static PyObject *snapshot(PyObject *object, PyObject *const *args, Py_ssize_t co
     options.places = false;
     froe_snapshot found;
     core_call call;
-    froe_diagnostic diag;
     if (!core_arguments("snapshot", count, 2) || !core_flag(args[0], &options.refuse) || !begin(self, &call, args[1]))
         return NULL;
-    const froe_status status = froe_kinetic_snapshot(self->kinetic, &options, &found, &diag);
-    if (!end(self, &call, status, &diag, NULL)) return NULL;
+    const froe_status status = froe_kinetic_snapshot(self->kinetic, &options, &found, &call.diag);
+    if (!end(self, &call, status)) return NULL;
     PyObject *parts[] = {core_tree_object(found.tree), PyLong_FromSize_t(found.rounded), PyBool_FromLong(found.alike)};
     return core_tuple(3, parts);
 }

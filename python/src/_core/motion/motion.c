@@ -19,14 +19,6 @@ core_motion *core_motion_of(PyObject *object) {
     return (core_motion *)core_fail_as("ArrayError", "This is no motion.");
 }
 
-bool core_motion_ran(core_call *call, froe_status status, froe_diagnostic *diag, const core_pile *pile) {
-    if (pile->full) {
-        status = FROE_E_MEMORY;
-        *diag = (froe_diagnostic){status, FROE_NONE, FROE_NONE, FROE_NONE, ""};
-    }
-    return core_call_end(call, status, diag);
-}
-
 /* -------------------------------------------------------------------- life -- */
 
 static PyObject *motion_object(froe_motion *motion) {
@@ -72,10 +64,9 @@ static PyObject *read_motion(PyObject *module, PyObject *const *args, Py_ssize_t
     options.alloc = &core_allocator;
     froe_motion *motion;
     core_call call;
-    froe_diagnostic diag;
     core_call_begin(&call, Py_None);
-    const froe_status status = froe_read_motion(PyBytes_AsString(path), &options, &motion, NULL, &diag);
-    const bool done = core_call_end(&call, status, &diag);
+    const froe_status status = froe_read_motion(PyBytes_AsString(path), &options, &motion, NULL, &call.diag);
+    const bool done = core_call_end(&call, status);
     Py_DECREF(path);
     return done ? motion_object(motion) : NULL;
 }
@@ -127,9 +118,8 @@ static PyObject *add(PyObject *object, PyObject *const *args, Py_ssize_t count) 
     bool done = take_batch(self, in, args, &batch);
     if (done) {
         core_call call;
-        froe_diagnostic diag;
         core_call_begin(&call, Py_None);
-        done = core_call_end(&call, froe_motion_add(self->motion, &batch, &diag), &diag);
+        done = core_call_end(&call, froe_motion_add(self->motion, &batch, &call.diag));
     }
     for (size_t i = 0; i < INPUTS; i++) core_input_give(&in[i]);
     core_motion_give(self);
@@ -183,11 +173,11 @@ static PyObject *contacts(PyObject *object, PyObject *const *args, Py_ssize_t co
     if (PyErr_Occurred() || !core_motion_take(self)) return NULL;
     core_pile pile = {0};
     core_call call;
-    froe_diagnostic diag;
     core_call_begin(&call, args[5]);
+    call.pile = &pile;
     options.progress = core_call_progress, options.user = &call;
-    const froe_status status = froe_motion_contacts(self->motion, &options, take_contact, &pile, &diag);
-    const bool done = core_motion_ran(&call, status, &diag, &pile);
+    const froe_status status = froe_motion_contacts(self->motion, &options, take_contact, &pile, &call.diag);
+    const bool done = core_call_end(&call, status);
     core_motion_give(self);
     if (done) return contacts_object(&pile);
     core_pile_free(&pile);
@@ -217,9 +207,8 @@ static PyObject *write_file(PyObject *object, PyObject *const *args, Py_ssize_t 
     bool done = core_motion_take(self);
     if (done) {
         core_call call;
-        froe_diagnostic diag;
         core_call_begin(&call, Py_None);
-        done = core_call_end(&call, froe_write_motion(self->motion, PyBytes_AsString(path), &diag), &diag);
+        done = core_call_end(&call, froe_write_motion(self->motion, PyBytes_AsString(path), &call.diag));
         core_motion_give(self);
     }
     Py_DECREF(path);

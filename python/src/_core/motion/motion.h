@@ -19,7 +19,4 @@ bool core_motion_take(core_motion *self);
 void core_motion_give(core_motion *self);
 /** The object as a motion; NULL: it is none, and an exception is set. */
 core_motion *core_motion_of(PyObject *object);
-
-/** An end of a long call that fills a pile: as core_call_end(), where a full pile is out of memory. */
-bool core_motion_ran(core_call *call, froe_status status, froe_diagnostic *diag, const core_pile *pile);
 #endif
