@@ -1,6 +1,7 @@
 """Random geometries of small whole numbers, on which shapely's predicates are right and touches are frequent."""
 
 from shapely.geometry import LineString, MultiLineString, MultiPoint, MultiPolygon, Point, Polygon, box
+from shapely.ops import unary_union
 
 
 def a_point(random):
@@ -58,3 +59,47 @@ ALL = [a_point, a_line, a_ring, a_box, a_polygon, with_hole, several]
 
 def some(random, count, kinds=ALL):
     return [random.choice(kinds)(random) for _ in range(count)]
+
+
+# On a lattice of five by five points nearly everything touches: borders run along each other, lines pass through
+# corners, ends meet, and geometries are equal.
+
+
+def cells(random):
+    """Squares put together, with holes and several parts at times."""
+    return unary_union([box(x, y, x + 1, y + 1) for x, y in lattice(random, random.randint(2, 7), 3)])
+
+
+def halves(random):
+    """Halves of squares put together."""
+    triangles = []
+    for x, y in lattice(random, random.randint(1, 4), 3):
+        corners = [(x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1)]
+        del corners[random.randrange(4)]
+        triangles.append(Polygon(corners))
+    return unary_union(triangles)
+
+
+def paths(random):
+    """Lines that may cross and touch each other, so that ends lie on other lines."""
+    while True:
+        parts = [lattice(random, random.randint(2, 3)) for _ in range(random.randint(1, 4))]
+        lines = [LineString(part) for part in parts]
+        if all(line.is_simple and line.length > 0 for line in lines):
+            return MultiLineString(lines) if len(lines) > 1 else lines[0]
+
+
+def outline(random):
+    """The border of an area."""
+    return random.choice([cells, halves])(random).boundary
+
+
+def dots(random):
+    return MultiPoint(lattice(random, random.randint(1, 4)))
+
+
+def lattice(random, count, most=4):
+    return [(random.randint(0, most), random.randint(0, most)) for _ in range(count)]
+
+
+DENSE = [cells, halves, paths, paths, outline, dots, a_point]

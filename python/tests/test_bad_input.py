@@ -120,6 +120,11 @@ def test_empty_arrays(tree):
         (lambda t: t.nearest_points([9], [[0, 0]]), ArgumentError, "object 9"),
         (lambda t: t.nearest_points([-1], [[0, 0]]), ArrayError, "-1"),
         (lambda t: t.hit_places([0], [[9, 9]], [[1, 0]]), InputError, "not meet"),
+        (lambda t: t.query_groups([[0, 0, 1, 1]], relation="near"), OptionError, "near"),
+        (lambda t: t.query_groups([[0, 0, np.nan, 1]]), InputError, "nan"),
+        (lambda t: t.query_groups(), TypeError, "one kind"),
+        (lambda t: t.join_groups(t, relation=0), OptionError, "0"),
+        (lambda t: t.join_groups(froe.triangles([np.eye(3)]).build()), UnsupportedError, "plane"),
         (lambda t: t.cells([0, 0], [np.nan, 1]), ArgumentError, "nan"),
         (lambda t: t.cells([0, 0, 0], [1, 1]), ArrayError, r"\(3,\)"),
         (lambda t: t.order([0]), ArrayError, r"\(1,\)"),
@@ -210,6 +215,30 @@ def test_a_closed_tree(tree):
         with pytest.raises(ClosedError, match="closed"):
             ask()
     assert repr(tree) == "<froe.Tree: closed>" and len(scene) == 3  # the scene keeps what it needs
+
+
+def test_groups_of_a_closed_tree(tree):
+    other = froe.segments(SEGMENTS).build()
+    other.close()
+    with pytest.raises(ClosedError):
+        tree.join_groups(other)
+    with pytest.raises(AttributeError):
+        tree.join_groups(None)
+    with pytest.raises(ArrayError, match="no tree"):
+        tree._core.group_join(0, froe.segments(SEGMENTS)._core, 0, None)
+    assert tree.join_groups(tree).counts().tolist() == []
+
+
+def test_what_lies_in_a_group_is_refused_by_name():
+    scene = froe.Scene(2)
+    group = scene.add_group("a square")
+    scene.add_segments([[0, 0, 4, 0], [4, 0, 4, 4], [4, 4, 0, 4], [0, 4, 0, 0]], group=group)
+    tree = scene.build()
+    assert tree.query_groups(balls=([[2, 2]], 1)).counts().tolist() == [1]
+    assert tree.query_groups(balls=([[2, 2]], 9), relation="within").counts().tolist() == [1]
+    with pytest.raises(UnsupportedError, match="ball"):
+        tree.query_groups(balls=([[2, 2]], 1), relation="covers")
+    assert tree.query_groups(hulls=[[[1, 1], [3, 1], [2, 3]]], relation="covers").counts().tolist() == [1]
 
 
 def test_files_that_are_no_trees(tree, tmp_path):

@@ -118,20 +118,8 @@ def test_shapes_of_results():
     assert STRtree([]).query(Point(0, 0), predicate="intersects").tolist() == []
 
 
-def test_a_refusal_names_only_predicates_that_are_answered():
-    tree = STRtree([Point(0, 0)])
-    with pytest.raises(froe.errors.UnsupportedError) as refused:
-        tree.query(Point(0, 0), predicate="crosses")
-    named = str(refused.value).rstrip(".").split("those that can are ")[1].split(", ")
-    assert "intersects" in named
-    for name in named:
-        assert tree.query(Point(0, 0), predicate=name, distance=1).tolist() == [0]
-
-
 def test_what_is_refused():
     tree = STRtree([Point(0, 0)])
-    with pytest.raises(froe.errors.UnsupportedError, match="crosses"):
-        tree.query(LineString([(0, 0), (1, 1)]), predicate="crosses")
     with pytest.raises(ValueError, match="distance"):
         tree.query(Point(0, 0), predicate="dwithin")
     with pytest.raises(ValueError, match="max_distance"):

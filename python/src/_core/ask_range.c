@@ -1,4 +1,5 @@
-/* ask_range.c: which objects meet boxes, balls, segments and polygons; how many do; whether any does. */
+/* ask_range.c: which objects meet boxes, balls, segments and polygons; how many do; whether any does; and how groups
+ * lie to them. */
 #include "ask.h"
 
 /* ------------------------------------------------------------------- ranges -- */
@@ -10,6 +11,7 @@ typedef struct range_batch {
     const double *points, *radii;
     const size_t *starts; /* of the points of hulls */
     froe_range *ranges;
+    froe_relation relation; /* of groups to the ranges */
 } range_batch;
 
 enum { POINTS, STARTS, RADII };
@@ -107,17 +109,33 @@ static PyObject *ask_any(core_ask *ask, range_batch *b) {
     return core_ask_array(ask, status, objects, "i", b->count, 0);
 }
 
+static PyObject *ask_groups(core_ask *ask, range_batch *b) {
+    froe_answers answers;
+    core_ask_run(ask);
+    fill_ranges(b);
+    const froe_status status =
+        froe_batch_groups_range(ask->query, b->ranges, b->count, b->relation, &ask->options, &answers, &ask->call.diag);
+    return core_ask_answers(ask, status, &answers);
+}
+
 /* ------------------------------------------------------------------ methods -- */
 
-/* ranges(mode, shape, points, starts, radii, eps, walk, threads, progress): mode 0: ids, 1: counts, 2: any object */
+enum { MODE_GROUPS = 3 };
+
+/* ranges(mode, shape, points, starts, radii, eps, walk, threads, progress): mode 0: ids, 1: counts, 2: any object,
+ * 3 + relation: groups */
 PyObject *core_ask_ranges(PyObject *self, PyObject *const *args, Py_ssize_t count) {
-    static PyObject *(*const modes[])(core_ask *, range_batch *) = {ask_ids, ask_counts, ask_any};
+    static PyObject *(*const modes[])(core_ask *, range_batch *) = {ask_ids, ask_counts, ask_any, ask_groups};
     core_ask ask;
     range_batch b = {0};
     uint32_t mode;
     PyObject *answer = NULL;
     if (!core_ask_begin(&ask, self, "ranges", args, count, 9)) return NULL;
-    if (core_unsigned(args[0], "mode", 2, &mode) && take_ranges(&ask, &b, args + 1)) answer = modes[mode](&ask, &b);
+    if (core_unsigned(args[0], "mode", MODE_GROUPS + FROE_RELATION_COUNT - 1, &mode) &&
+        take_ranges(&ask, &b, args + 1)) {
+        b.relation = mode > MODE_GROUPS ? mode - MODE_GROUPS : FROE_MEETS;
+        answer = modes[mode < MODE_GROUPS ? mode : MODE_GROUPS](&ask, &b);
+    }
     if (b.ranges) core_release(b.ranges, b.count, sizeof *b.ranges);
     core_ask_end(&ask);
     return answer;

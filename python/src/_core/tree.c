@@ -99,6 +99,11 @@ PyObject *core_tree_object(froe_tree *tree) {
     return (PyObject *)self;
 }
 
+core_tree *core_tree_from(PyObject *object) {
+    if (Py_IS_TYPE(object, tree_type)) return (core_tree *)object;
+    return (core_tree *)core_fail_as("ArrayError", "This is no tree.");
+}
+
 static void free_tree(PyObject *object) {
     core_tree *self = (core_tree *)object;
     free_all(self);
@@ -147,6 +152,8 @@ static PyMethodDef methods[] = {
     CORE_METHOD("box", core_ask_box),
     CORE_METHOD("locate", core_ask_locate),
     CORE_METHOD("groups", core_ask_groups),
+    CORE_METHOD("group_boxes", core_ask_group_boxes),
+    CORE_METHOD("group_join", core_ask_group_join),
     CORE_METHOD("near", core_ask_near),
     CORE_METHOD("vertical", core_ask_vertical),
     CORE_METHOD("nearest_points", core_ask_nearest_points),

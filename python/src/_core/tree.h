@@ -9,6 +9,9 @@ typedef struct core_tree core_tree;
 /** A tree that has just been made, which the object takes. NULL: an exception is set, and the tree is freed. */
 PyObject *core_tree_object(froe_tree *tree);
 
+/** The object as a tree; NULL: it is none, and an exception is set. */
+core_tree *core_tree_from(PyObject *object);
+
 /** The tree, which lasts until core_tree_leave(), even if it is closed meanwhile. NULL: it is closed, and an exception
  * is set. */
 const froe_tree *core_tree_use(core_tree *self);
@@ -26,6 +29,8 @@ PyObject *core_ask_boxes(PyObject *self, PyObject *const *args, Py_ssize_t count
 PyObject *core_ask_box(PyObject *self, PyObject *const *args, Py_ssize_t count);
 PyObject *core_ask_locate(PyObject *self, PyObject *const *args, Py_ssize_t count);
 PyObject *core_ask_groups(PyObject *self, PyObject *const *args, Py_ssize_t count);
+PyObject *core_ask_group_boxes(PyObject *self, PyObject *const *args, Py_ssize_t count);
+PyObject *core_ask_group_join(PyObject *self, PyObject *const *args, Py_ssize_t count);
 PyObject *core_ask_near(PyObject *self, PyObject *const *args, Py_ssize_t count);
 PyObject *core_ask_vertical(PyObject *self, PyObject *const *args, Py_ssize_t count);
 PyObject *core_ask_nearest_points(PyObject *self, PyObject *const *args, Py_ssize_t count);

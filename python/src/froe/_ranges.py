@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, NamedTuple
+from typing import Any, Literal, NamedTuple, get_args
 
 import numpy as np
 import numpy.typing as npt
 
 from ._arrays import Doubles, doubles, rows
-from .errors import ArrayError
+from .errors import ArrayError, OptionError
 
 BOX, BALL, CAPSULE, HULL, SEGMENT = 0, 1, 3, 5, 6  # froe_range_shape
 
 Round = tuple[npt.ArrayLike, npt.ArrayLike]  # points or segments, and radii
 Points = Sequence[npt.ArrayLike]
+Relation = Literal["meets", "within", "covers"]  # froe_relation, in this order
 
 
 class Ranges(NamedTuple):
@@ -64,3 +65,11 @@ def _hulls(hulls: Points, dim: int) -> Ranges:
     parts = [rows(points, f"hull {i}", dim, dim) for i, points in enumerate(hulls)]
     starts = np.cumsum([0] + [len(part) for part in parts], dtype=np.uint64)
     return Ranges(HULL, np.concatenate(parts) if parts else np.empty((0, dim)), starts)
+
+
+def relation(name: str) -> int:
+    """The number of a relation of groups to ranges."""
+    names = get_args(Relation)
+    if name not in names:
+        raise OptionError(f"relation is {name!r}, and must be one of {', '.join(names)}.")
+    return names.index(name)

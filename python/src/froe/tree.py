@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from . import _core, _ranges, pictures, report
 from ._arrays import Doubles, Ids, Progress, doubles, point, rows, whole
-from ._ranges import Points, Round
+from ._ranges import Points, Relation, Round
 from .answers import Answers
 from .errors import ClosedError, OptionError
 from .pictures import Picture
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from .scene import Scene
 
 
-_IDS, _COUNTS, _ANY = range(3)
+_IDS, _COUNTS, _ANY, _GROUPS = range(4)
 _FIRST, _ALL = range(2)
 
 
@@ -197,6 +197,59 @@ class Tree:
         [1, 0]
         """
         return Answers(*self._core.groups(self._rows(points, "points", 1), threads, progress))
+
+    def query_groups(
+        self,
+        boxes: npt.ArrayLike | None = None,
+        *,
+        balls: Round | None = None,
+        segments: npt.ArrayLike | None = None,
+        capsules: Round | None = None,
+        hulls: Points | None = None,
+        relation: Relation = "meets",
+        threads: int = 0,
+        progress: Progress | None = None,
+    ) -> Answers:
+        """The groups of the plane that meet each range (``"meets"``), lie within it (``"within"``), or cover it
+        (``"covers"``), ascending. Ranges are those of ``query``. A group whose segments are closed rings is an area
+        with its border, and other groups are the points of their objects; all are closed sets, and every answer is
+        exact. What balls and capsules are covered by is refused.
+
+        >>> import froe
+        >>> scene = froe.Scene(2)
+        >>> group = scene.add_group("a triangle")
+        >>> scene.add_segments([[0, 0, 4, 0], [4, 0, 0, 4], [0, 4, 0, 0]], group=group)
+        >>> tree, boxes = scene.build(), [[1, 1, 2, 2], [1, 1, 3, 3], [0, 0, 4, 4]]
+        >>> [tree.query_groups(boxes, relation=name).counts().tolist() for name in ("meets", "within", "covers")]
+        [[1, 1, 1], [0, 0, 1], [1, 0, 0]]
+        """
+        found = _ranges.of(self.dim, boxes, balls, segments, capsules, hulls)
+        number = _ranges.relation(relation)
+        if found.shape == _ranges.BOX:
+            return Answers(*self._core.group_boxes(number, found.points, threads, progress))
+        return Answers(*self._core.ranges(_GROUPS + number, *found, 0.0, 0, threads, progress))
+
+    def join_groups(
+        self,
+        questions: Tree,
+        *,
+        relation: Relation = "meets",
+        threads: int = 0,
+        progress: Progress | None = None,
+    ) -> Answers:
+        """The groups of this tree that meet each group of another one of the plane, lie within it, or cover it:
+        polygons with holes, paths and sets of points as questions. The two may be the same tree.
+
+        >>> import froe
+        >>> from shapely.geometry import Point, box
+        >>> parks = froe.from_shapely([box(0, 0, 4, 4), box(2, 2, 8, 8)]).build()
+        >>> things = froe.from_shapely([Point(3, 3), box(0, 0, 1, 1), box(0, 0, 9, 9)]).build()
+        >>> parks.join_groups(things, relation="covers").pairs().tolist()
+        [[0, 0, 1], [0, 1, 0]]
+        >>> parks.join_groups(things, relation="within").pairs().tolist()
+        [[2, 2], [0, 1]]
+        """
+        return Answers(*self._core.group_join(_ranges.relation(relation), questions._core, threads, progress))
 
     @overload
     def nearest(  # type: ignore[misc] # an int that is 1 is of both kinds

@@ -126,11 +126,53 @@ class Features:
             bounds[found, 2:] = np.maximum.reduceat(corners[order], first)
         return bounds
 
+    def kinds(self) -> npt.NDArray[np.bool_]:
+        """``(3, count)``: has the geometry points, lines, polygons?"""
+        found = np.zeros((3, self.count), bool)
+        found[0, self.point_of] = True
+        found[1, self.segment_of[self.polygon_of < 0]] = True
+        found[2, self.segment_of[self.polygon_of >= 0]] = True
+        return found
+
     def areas(self) -> npt.NDArray[np.bool_]:
         """Has the geometry a polygon?"""
-        found = np.zeros(self.count, bool)
-        found[self.segment_of[self.polygon_of >= 0]] = True
+        found: npt.NDArray[np.bool_] = self.kinds()[2]
         return found
+
+    def boundary(self) -> Features:
+        """Of each geometry the rings of its polygons as lines, and the ends of an odd number of its lines."""
+        rings = self.polygon_of >= 0
+        ends, end_of = self._ends()
+        return Features(
+            self.count,
+            ends,
+            end_of,
+            self.segments[rings],
+            self.segment_of[rings],
+            self.chain_of[rings],
+            np.full(np.count_nonzero(rings), -1, np.int64),
+        )
+
+    def _ends(self) -> tuple[Floats, Integers]:
+        lines = np.flatnonzero(self.polygon_of < 0)
+        chain = self.chain_of[lines]
+        first, last = lines[np.diff(chain, prepend=-1) != 0], lines[np.diff(chain, append=-1) != 0]
+        ends = np.concatenate([self.segments[first, :2], self.segments[last, 2:]])
+        geometry = np.concatenate([self.segment_of[first], self.segment_of[last]])
+        rows = np.column_stack([geometry, ends])
+        found, times = np.unique(rows, axis=0, return_counts=True)
+        odd = found[times % 2 == 1]
+        return odd[:, 1:], odd[:, 0].astype(np.int64)
+
+    def polygons(self) -> tuple[Features, Integers]:
+        """Each polygon as a geometry of its own, and the geometry that it is a part of."""
+        rings = np.flatnonzero(self.polygon_of >= 0)
+        owner, first, polygon = np.unique(self.polygon_of[rings], return_index=True, return_inverse=True)
+        nothing = np.empty((0, 2)), np.empty(0, np.int64)
+        features = Features(
+            len(owner), *nothing, self.segments[rings], polygon, self.chain_of[rings], polygon.astype(np.int64)
+        )
+        return features, self.segment_of[rings[first]]
 
 
 def _joined(corners: Floats, chain: Integers) -> tuple[Floats, Integers]:

@@ -10,7 +10,8 @@ import numpy as np
 import numpy.typing as npt
 
 from froe.adapters.features import Features
-from froe.compat.relations import Relations, pairs
+from froe.compat.layers import pairs
+from froe.compat.relations import Relations
 
 Floats = npt.NDArray[np.float64]
 Integers = npt.NDArray[np.int64]

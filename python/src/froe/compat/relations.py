@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 import numpy.typing as npt
 
 from froe.adapters.features import Features
-from froe.errors import UnsupportedError
+from froe.compat.interiors import Meetings, interiors
+from froe.compat.layers import Layer, among, joined, pairs, turned, without
+from froe.errors import OptionError, UnsupportedError
 
 if TYPE_CHECKING:
     from froe.tree import Tree
@@ -17,21 +20,10 @@ if TYPE_CHECKING:
 Floats = npt.NDArray[np.float64]
 Integers = npt.NDArray[np.int64]
 
-EXACT = ("intersects", "dwithin")
 
-
-class Relations:
-    """Geometries, and what is asked about them. Pairs are arrays of two rows: those asked about, those of the index."""
-
-    def __init__(self, features: Features) -> None:
-        self.features = features
-        #: the geometry of each object of the tree
-        self.owner = features.owners()
-
-    @cached_property
-    def tree(self) -> Tree:
-        """Of all segments, then all points."""
-        return self.features.scene().build(purpose="query")
+class Relations(Layer):
+    """The geometries of an index, and what is asked about them. Pairs are arrays of two rows: those asked about, those
+    of the index."""
 
     @cached_property
     def _boxes(self) -> tuple[Tree, Integers]:
@@ -49,11 +41,65 @@ class Relations:
         """The pairs for which the predicate of shapely holds; None: of bounding boxes that meet."""
         if predicate is None:
             return self._boxes_met(asked)
-        if predicate == "intersects":
-            return self.intersecting(asked)
-        raise UnsupportedError(
-            f"The predicate {predicate!r} cannot be decided exactly; those that can are {', '.join(EXACT)}."
-        )
+        if predicate not in PREDICATES:
+            names = ", ".join([*PREDICATES, "dwithin"])
+            raise OptionError(f"The predicate is {predicate!r}, and must be one of {names}.")
+        return PREDICATES[predicate](self, Layer(asked))
+
+    def _intersects(self, asked: Layer) -> Integers:
+        return self.intersecting(asked.features)
+
+    def _covers(self, asked: Layer) -> Integers:
+        return self.tree.join_groups(asked.tree, relation="within").pairs()
+
+    def _covered_by(self, asked: Layer) -> Integers:
+        return self.tree.join_groups(asked.tree, relation="covers").pairs()
+
+    def _contains(self, asked: Layer) -> Integers:
+        covered = self._alike(asked, self._covers(asked))
+        return without(covered, self.tree.join_groups(asked.boundary.tree, relation="within").pairs())
+
+    def _contains_properly(self, asked: Layer) -> Integers:
+        covered = self._alike(asked, self._covers(asked))
+        return without(covered, self.intersecting(asked.boundary.features))
+
+    def _within(self, asked: Layer) -> Integers:
+        covering = self._alike(asked, self._covered_by(asked))
+        return without(covering, self.boundary.tree.join_groups(asked.tree, relation="covers").pairs())
+
+    def _touches(self, asked: Layer) -> Integers:
+        met = self._alike(asked, self.intersecting(asked.features))
+        return without(met, interiors(asked, self, Meetings(asked, self)))
+
+    def _crosses(self, asked: Layer) -> Integers:
+        """The interiors of lines have points in common but no piece; of other pairs the geometry of lower dimension
+        comes out of the one whose interior it meets."""
+        self._alike(asked, self.intersecting(asked.features))
+        meetings = Meetings(asked, self)
+        found = interiors(asked, self, meetings)
+        one, other = asked.dims[found[0]], self.dims[found[1]]
+        out = ~among(found, joined(self._covers(asked), self._covered_by(asked)))
+        lines = (one == 1) & (other == 1) & ~among(found, meetings.runs())
+        return found[:, lines | ((one != other) & out)]
+
+    def _overlaps(self, asked: Layer) -> Integers:
+        """What the two have in common has their own dimension, and neither covers the other."""
+        self._alike(asked, self.intersecting(asked.features))
+        meetings = Meetings(asked, self)
+        found = interiors(asked, self, meetings)
+        one, other = asked.dims[found[0]], self.dims[found[1]]
+        alike = (one == other) & ((one != 1) | among(found, meetings.runs()))
+        return without(found[:, alike], joined(self._covers(asked), self._covered_by(asked)))
+
+    def _alike(self, asked: Layer, found: Integers) -> Integers:
+        """The same pairs. A geometry with parts of several dimensions is refused: its interior is not defined."""
+        for layer, numbers, what in ((asked, found[0], "asked about"), (self, found[1], "of the index")):
+            mixed = numbers[layer.mixed[numbers]]
+            if len(mixed):
+                raise UnsupportedError(
+                    f"Geometry {mixed[0]} {what} has parts of several dimensions, so that its interior is not defined."
+                )
+        return found
 
     def _boxes_met(self, asked: Features) -> Integers:
         bounds = asked.bounds()
@@ -116,23 +162,22 @@ class Relations:
         )
 
 
+#: by the names of shapely
+PREDICATES: dict[str, Callable[[Relations, Layer], Integers]] = {
+    "intersects": Relations._intersects,
+    "covers": Relations._covers,
+    "covered_by": Relations._covered_by,
+    "contains": Relations._contains,
+    "contains_properly": Relations._contains_properly,
+    "within": Relations._within,
+    "touches": Relations._touches,
+    "crosses": Relations._crosses,
+    "overlaps": Relations._overlaps,
+}
+
+
 def some_of(owner: Integers, chosen: Integers) -> Integers:
     return np.flatnonzero(np.isin(owner, chosen))
-
-
-def pairs(first: npt.NDArray[Any], second: npt.NDArray[Any]) -> Integers:
-    """Two rows, sorted, each pair once."""
-    both = np.stack([np.asarray(first, np.int64), np.asarray(second, np.int64)])
-    both = both[:, np.lexsort((both[1], both[0]))]
-    new = np.ones(both.shape[1], bool)
-    new[1:] = (both[:, 1:] != both[:, :-1]).any(axis=0)
-    found: Integers = both[:, new]
-    return found
-
-
-def joined(*lists: Integers) -> Integers:
-    both = np.concatenate(lists, axis=1)
-    return pairs(both[0], both[1])
 
 
 def rectangles(features: Features) -> npt.NDArray[np.bool_]:

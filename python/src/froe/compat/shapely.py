@@ -38,7 +38,8 @@ class STRtree:
     of them. They are sorted by the geometries asked for, then by those of the tree. Missing and empty geometries
     match nothing.
 
-    What cannot be decided exactly raises ``froe.errors.UnsupportedError``; nothing falls back to rounding. Polygons
+    Predicates are decided exactly, as OGC Simple Features defines them; nothing falls back to rounding. Collections of
+    several dimensions have no interior there, and raise ``froe.errors.UnsupportedError`` where it matters. Polygons
     count by parity, so that what two polygons of one geometry both cover is outside, as it would be in a hole.
     """
 
