@@ -1,5 +1,5 @@
-/* ask_point.c: what is at points, nearest to them, above them; and which objects meet one another. */
-#include "ask.h"
+/* point.c: what is at points, nearest to them, above them; and which objects meet one another. */
+#include "ask/ask.h"
 
 typedef froe_status batch_points(froe_query *query, const double *points, size_t count,
                                  const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag);

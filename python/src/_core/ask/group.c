@@ -1,5 +1,5 @@
-/* ask_group.c: how the groups of a tree lie to boxes, and to the groups of another tree. (To other ranges: ranges().) */
-#include "ask.h"
+/* group.c: how the groups of a tree lie to boxes, and to the groups of another tree. (To other ranges: range.c.) */
+#include "ask/ask.h"
 
 /* group_boxes(relation, boxes, threads, progress): exact windows as plain doubles */
 PyObject *core_ask_group_boxes(PyObject *self, PyObject *const *args, Py_ssize_t count) {

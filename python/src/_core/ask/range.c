@@ -1,6 +1,6 @@
-/* ask_range.c: which objects meet boxes, balls, segments and polygons; how many do; whether any does; and how groups
+/* range.c: which objects meet boxes, balls, segments and polygons; how many do; whether any does; and how groups
  * lie to them. */
-#include "ask.h"
+#include "ask/ask.h"
 
 /* ------------------------------------------------------------------- ranges -- */
 

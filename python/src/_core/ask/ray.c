@@ -1,5 +1,5 @@
-/* ask_ray.c: what rays meet, and where. */
-#include "ask.h"
+/* ray.c: what rays meet, and where. */
+#include "ask/ask.h"
 
 enum { ORIGINS, DIRECTIONS, OBJECTS };
 

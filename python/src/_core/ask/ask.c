@@ -1,4 +1,4 @@
-#include "ask.h"
+#include "ask/ask.h"
 
 bool core_ask_begin(core_ask *ask, PyObject *self, const char *name, PyObject *const *args, Py_ssize_t given,
                     Py_ssize_t wanted) {
