@@ -1,23 +1,10 @@
 /* poly.c: polynomials in time. */
 #include "kinetic/motion/poly.h"
 
-static num_ball minus_ball(num_ball a) {
-    return (num_ball){-a.x, a.e};
-}
-
 static num_dyadic minus_exact(num_dyadic a) {
     a.sign = -a.sign;
     return a;
 }
-
-#define T num_ball
-#define POLY poly_ball
-#define POINT ball_point
-#define FORMULA(f) f##_ball
-#define ADD(a, b) num_ball_add(a, b)
-#define SUB(a, b) num_ball_sub(a, b)
-#define MUL(a, b) num_ball_mul(a, b)
-#include "kinetic/motion/poly_body.inc"
 
 static num_short minus_short(num_short a) {
     return -a;
@@ -70,12 +57,6 @@ static num_wide minus_wide(num_wide a) {
         (out)->w.c[0] = (curve).w;                                                                                     \
     } while (0)
 
-void ball_vertex(const froe_motion *m, const motion_piece *piece, int64_t tick, ball_point *out) {
-    motion_ball_curve curve;
-    motion_curve_ball(m, piece, tick, &curve);
-    CURVE_TO_POINT(curve, out);
-}
-
 void exact_vertex(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick, exact_point *out) {
     motion_dyadic_curve curve;
     motion_curve_dyadic(arena, m, piece, tick, &curve);
@@ -91,28 +72,12 @@ void exact_vertex_at(num_arena *arena, const froe_motion *m, const motion_piece 
     if (m->dim == 3) out->z.c[0] = at[2];
 }
 
-void ball_crossing(const ball_point p[4], ball_point *out) {
-    cross_lines_ball(NULL, p, out);
-}
-
 void exact_crossing(num_arena *arena, const exact_point p[4], exact_point *out) {
     cross_lines_exact(arena, p, out);
 }
 
-void ball_order(const ball_point *p, const ball_point *q, int axis, poly_ball *out) {
-    order_points_ball(NULL, p, q, axis, out);
-}
-
-void ball_turn(const ball_point *a, const ball_point *b, const ball_point *q, poly_ball *out) {
-    turn_points_ball(NULL, a, b, q, out);
-}
-
 void exact_turn(num_arena *arena, const exact_point v[3], poly_exact *out) {
     turn_points_exact(arena, v, v + 1, v + 2, out);
-}
-
-void ball_determinant(const poly_ball p[2], const poly_ball q[2], poly_ball *out) {
-    det_ball(NULL, p, q + 1, q, p + 1, out);
 }
 
 void exact_determinant(num_arena *arena, const poly_exact p[2], const poly_exact q[2], poly_exact *out) {
@@ -183,10 +148,6 @@ void wide_turn(const wide_point v[3], poly_wide *out) {
     turn_points_wide(NULL, v, v + 1, v + 2, out);
 }
 
-void ball_lines(const ball_point p[4], poly_ball *out) {
-    turn_lines_ball(NULL, p, out);
-}
-
 void wide_lines(const wide_point v[4], poly_wide *out) {
     turn_lines_wide(NULL, v, out);
 }
@@ -205,10 +166,6 @@ int wide_lines_sign(const wide_point v[4]) {
 
 int exact_lines_sign(num_arena *arena, const exact_point v[4]) {
     return turn_of_lines_exact(arena, v);
-}
-
-void ball_negate(poly_ball *p) {
-    for (int i = 0; i <= p->degree; i++) p->c[i].x = -p->c[i].x;
 }
 
 void exact_negate(poly_exact *p) {

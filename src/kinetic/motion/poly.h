@@ -1,6 +1,6 @@
-/* poly.h: polynomials in time, as numbers with error bounds (ball_*) and exactly, in stack integers of 128 and 320 bits
- * where these are wide enough (short_*, wide_*) and in dyadic numbers (exact_*): moving points, where the lines of
- * moving segments cross, and what the order of such points is and on which side of a line they are. */
+/* poly.h: polynomials in time, exactly: in stack integers of 128 and 320 bits where these are wide enough (short_*,
+ * wide_*) and in dyadic numbers (exact_*): moving points, where the lines of moving segments cross, and what the order
+ * of such points is and on which side of a line they are. The same in doubles is in now/near.h. */
 #ifndef FROE_KINETIC_POLY_H
 #define FROE_KINETIC_POLY_H
 #include "kinetic/motion/motion.h"
@@ -10,10 +10,6 @@ enum { POLY_TERMS = 11 };
 /** Limbs that suffice for any of these polynomials, and for shifting and scaling it. */
 enum { POLY_LIMBS = 1 << 19 };
 
-typedef struct poly_ball {
-    int degree;
-    num_ball c[POLY_TERMS];
-} poly_ball;
 typedef struct poly_exact {
     int degree;
     num_dyadic c[POLY_TERMS];
@@ -29,9 +25,6 @@ typedef struct poly_wide {
 } poly_wide;
 
 /** A point (x/w, y/w); w is not 0, and greater than 0 for vertices. Vertices in space have the height z/w, too. */
-typedef struct ball_point {
-    poly_ball x, y, z, w;
-} ball_point;
 typedef struct exact_point {
     poly_exact x, y, z, w;
 } exact_point;
@@ -43,17 +36,13 @@ typedef struct wide_point {
 } wide_point;
 
 /** A vertex, time being counted in ticks from `tick`. */
-void ball_vertex(const froe_motion *m, const motion_piece *piece, int64_t tick, ball_point *out);
 void exact_vertex(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick, exact_point *out);
 /** The same at that tick alone: of degree 0. */
 void exact_vertex_at(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick, exact_point *out);
 
 /** Where the line p[0] p[1] crosses the line p[2] p[3]. */
-void ball_crossing(const ball_point p[4], ball_point *out);
 void exact_crossing(num_arena *arena, const exact_point p[4], exact_point *out);
 
-/** Of the sign of q - p in coordinate `axis` times that of both denominators. */
-void ball_order(const ball_point *p, const ball_point *q, int axis, poly_ball *out);
 /** Of the sign of q - p. The points p and q are each a vertex (count 1) or where the lines v[0] v[1] and v[2] v[3]
  * cross (count 4); those of q come after those of p. */
 void wide_order(const wide_point *v, const int count[2], int axis, poly_wide *out);
@@ -65,9 +54,7 @@ int short_order_sign(const short_point *v, const int count[2], bool both);
 int wide_order_sign(const wide_point *v, const int count[2], bool both);
 int exact_order_sign(num_arena *arena, const exact_point *v, const int count[2], bool both);
 
-/** > 0: the vertex q is on the left of ab, vertices too. */
-void ball_turn(const ball_point *a, const ball_point *b, const ball_point *q, poly_ball *out);
-/** Of v[0] v[1] and v[2]. */
+/** > 0: the vertex v[2] is on the left of v[0] v[1]. */
 void wide_turn(const wide_point v[3], poly_wide *out);
 void exact_turn(num_arena *arena, const exact_point v[3], poly_exact *out);
 /** The sign of the turn just after time 0. */
@@ -77,7 +64,6 @@ int exact_turn_sign(num_arena *arena, const exact_point v[3]);
 
 /** > 0: the line v[2] v[3] goes on to the left of where v[0] v[1] goes; 0: they are parallel. This is the denominator
  * of where they cross. */
-void ball_lines(const ball_point v[4], poly_ball *out);
 void wide_lines(const wide_point v[4], poly_wide *out);
 void exact_lines(num_arena *arena, const exact_point v[4], poly_exact *out);
 /** The sign of that just after time 0. */
@@ -92,7 +78,6 @@ int wide_volume_sign(const wide_point v[4]);
 int exact_volume_sign(num_arena *arena, const exact_point v[4]);
 
 /** p[0] q[1] - q[0] p[1]. REQUIRES: degrees that add up to less than POLY_TERMS. */
-void ball_determinant(const poly_ball p[2], const poly_ball q[2], poly_ball *out);
 void exact_determinant(num_arena *arena, const poly_exact p[2], const poly_exact q[2], poly_exact *out);
 
 /** The sign of the polynomial just after its time 0; 0: it is 0 for ever. */
@@ -104,6 +89,5 @@ int wide_sign(const poly_wide *p);
 int exact_variations(num_arena *arena, const poly_exact *p, int64_t low, int power, int *sign);
 int wide_variations(const poly_wide *p, int64_t low, int power, int *sign);
 
-void ball_negate(poly_ball *p);
 void exact_negate(poly_exact *p);
 #endif

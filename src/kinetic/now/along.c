@@ -38,21 +38,7 @@ int now_along_holds(now_state *now, const now_claim *claim) {
     return now_compare(now, claim->p, claim->q) * way > 0 ? 1 : -1;
 }
 
-/* The turns of the other line through a point of a segment, as numbers with error bounds. */
-static void ball_turns(now_state *now, uint32_t segment, name_point p, poly_ball out[2]) {
-    const uint32_t *end = now->segments.data[segment].end;
-    out[0].degree = out[1].degree = 0;
-    out[0].c[0] = num_ball_from(end[0] != p.a), out[1].c[0] = num_ball_from(end[0] == p.a);
-    if (name_is_vertex(p)) return;
-    const uint32_t *other = now->segments.data[p.a == segment ? (uint32_t)p.b : p.a].end;
-    ball_point a, b, q;
-    now_course_ball(now, other[0], &a), now_course_ball(now, other[1], &b);
-    for (int i = 0; i < 2; i++) {
-        now_course_ball(now, end[i], &q);
-        ball_turn(&a, &b, &q, out + i);
-    }
-}
-
+/* The turns of the other line through a point of a segment. */
 static void exact_turns(now_state *now, uint32_t segment, name_point p, poly_exact out[2]) {
     const uint32_t *end = now->segments.data[segment].end;
     num_arena *arena = &now->context.arena;
@@ -84,17 +70,8 @@ void now_along_exact(now_state *now, const now_claim *claim, poly_exact *out) {
     if (exact_sign(out) <= 0) exact_negate(out);
 }
 
-void now_along_ball(now_state *now, const now_claim *claim, poly_ball *out) {
-    const uint32_t s = now_shared(now, claim->p, claim->q);
-    poly_ball p[2], q[2];
-    ball_turns(now, s, claim->p, p);
-    ball_turns(now, s, claim->q, q);
-    ball_determinant(p, q, out);
-    int sign = num_ball_sign(out->c[0]);
-    if (sign == 0 || sign == NUM_UNSURE) {
-        poly_exact difference;
-        exact_difference(now, claim, &difference);
-        sign = exact_sign(&difference);
-    }
-    if (sign < 0) ball_negate(out);
+int now_along_sign(now_state *now, const now_claim *claim) {
+    poly_exact difference;
+    exact_difference(now, claim, &difference);
+    return exact_sign(&difference);
 }

@@ -1,15 +1,14 @@
 /* course.c: pieces of flight plans in doubles, each looked up when its first tick has come.
  *
- * Positions are x[0] + x[1] s + x[2] s^2 for s from 0 to span, and nowhere further off than `error`. So is each
- * coefficient from the true one, times its power of the span: error / span^i bounds what coefficient i is off by. */
+ * Positions are x[0] + x[1] s + x[2] s^2 for s from 0 to span, and nowhere further off than `error`. */
 #include "kinetic/now/now.h"
 #include <math.h>
 
 /* The coefficients in doubles, and what is lost by that until s = span. */
-static double in_doubles(const poly_ball *p, num_ball w, double span, double out[3]) {
+static double in_doubles(const num_ball p[3], int degree, num_ball w, double span, double out[3]) {
     double error = 0, size = 0, power = 1;
     for (int i = 0; i < 3; i++, power *= span) {
-        num_ball c = i <= p->degree ? now_divide(p->c[i], w) : num_ball_from(0);
+        num_ball c = i <= degree ? now_divide(p[i], w) : num_ball_from(0);
         out[i] = c.x;
         error += c.e * power;
         size += fabs(c.x) * power;
@@ -29,11 +28,12 @@ void now_look_up(now_state *now, uint32_t vertex) {
     c->last = bend->piece.last < m->last_tick ? bend->piece.last : m->last_tick | 1;
     c->base = now->tick;
     c->degree = (uint32_t)bend->piece.degree;
-    ball_point p;
+    motion_ball_curve p;
+    const int degree = bend->piece.degree;
     double x[3], y[3];
-    ball_vertex(m, &bend->piece, c->base, &p);
-    double ex = in_doubles(&p.x, p.w.c[0], span_of(c), x), ey = in_doubles(&p.y, p.w.c[0], span_of(c), y);
-    if (m->dim == 3) bend->error = in_doubles(&p.z, p.w.c[0], span_of(c), bend->z);
+    motion_curve_ball(m, &bend->piece, c->base, &p);
+    const double ex = in_doubles(p.x, degree, p.w, span_of(c), x), ey = in_doubles(p.y, degree, p.w, span_of(c), y);
+    if (m->dim == 3) bend->error = in_doubles(p.z, degree, p.w, span_of(c), bend->z);
     for (int i = 0; i < 2; i++) c->x[i] = x[i], c->y[i] = y[i];
     bend->x = x[2], bend->y = y[2];
     c->error = ex > ey ? ex : ey;
@@ -50,26 +50,6 @@ double now_speed(now_state *now, uint32_t vertex) {
     double x = fabs(c->x[1]), y = fabs(c->y[1]);
     if (c->degree == 2) x += 2 * span_of(c) * fabs(bend->x), y += 2 * span_of(c) * fabs(bend->y);
     return (x > y ? x : y) * (1 + 0x1p-20);
-}
-
-/* The polynomial s ticks later. Of what rounding adds there is less than in `error`. */
-static void shift(const double c[3], double s, const double error[3], int degree, poly_ball *out) {
-    out->degree = degree;
-    out->c[0] = (num_ball){c[0] + s * (c[1] + s * c[2]), error[0]};
-    if (degree > 0) out->c[1] = (num_ball){c[1] + 2 * s * c[2], error[1]};
-    if (degree > 1) out->c[2] = (num_ball){c[2], error[2]};
-}
-
-void now_course_ball(now_state *now, uint32_t vertex, ball_point *out) {
-    const now_course *c = now_course_of(now, vertex);
-    const now_bend *bend = now->bends.data + vertex;
-    const int degree = (int)c->degree;
-    double s = (double)(now->tick - c->base), span = span_of(c), each = c->error / span;
-    const double error[3] = {c->error, 4 * each, each / span};
-    shift((double[]){c->x[0], c->x[1], degree > 1 ? bend->x : 0}, s, error, degree, &out->x);
-    shift((double[]){c->y[0], c->y[1], degree > 1 ? bend->y : 0}, s, error, degree, &out->y);
-    out->w.degree = 0;
-    out->w.c[0] = num_ball_from(1);
 }
 
 void now_exact_at(now_state *now, uint32_t vertex, exact_point *out) {

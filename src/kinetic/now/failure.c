@@ -8,16 +8,14 @@
  *                                        interval is halved (de Casteljau), and where doubles do not suffice,
  * Descartes' rule is applied to the exact polynomial. Ticks are tested by predicates, never by polynomials.
  * Source: Lane and Riesenfeld, "Bounds on a polynomial", BIT 1981; Collins and Akritas, SYMSAC 1976. */
-#include "kinetic/now/now.h"
+#include "kinetic/now/near.h"
 #include <math.h>
 
 enum { FAILURE_LEVELS = 56 };
 
-/* Coefficients over low <= s <= low + 2^power, s counted from now. */
+/* Coefficients in Bernstein's form over low <= u <= low + width; none is further off than `error`. */
 typedef struct failure_stretch {
-    int64_t low;
-    int power;
-    num_ball b[POLY_TERMS];
+    double low, width, error, b[POLY_TERMS];
 } failure_stretch;
 
 typedef struct failure_search {
@@ -25,26 +23,15 @@ typedef struct failure_search {
     const now_claim *claim;
     int axis;
     int64_t start, span; /**< ticks start .. start + span */
-    const poly_ball *p;
+    double unit;         /**< a tick, where the span is 1 */
+    const near_poly *p;
 } failure_search;
 
-/* The sign of the polynomial, where doubles are sure of it: then it is what the predicates would say. */
-static int sign_near(const poly_ball *p, double s) {
-    double y = 0, size = 0, error = 0;
-    for (int i = p->degree; i >= 0; i--) {
-        y = y * s + p->c[i].x;
-        size = size * s + fabs(p->c[i].x);
-        error = error * s + p->c[i].e;
-    }
-    error += error * 0x1p-40 + size * 0x1p-47 + NUM_BALL_TINY;
-    return y > error ? 1 : y < -error ? -1 : 0;
-}
-
-/* REQUIRES: within the span. Before lines become parallel their crossing leaves the segments, and the claim is gone.
- * So `lost` is restored. */
+/* REQUIRES: within the span. Where doubles are sure of the sign, it is what the predicates would say. Before lines
+ * become parallel their crossing leaves the segments, and the claim is gone. So `lost` is restored. */
 static bool fails_at(const failure_search *f, int64_t s) {
     now_state *now = f->now;
-    int sign = sign_near(f->p, (double)s);
+    int sign = near_sign_at(f->p, (double)s * f->unit);
     if (sign) return sign < 0;
     const bool lost = now->lost;
     now->tick = f->start + s;
@@ -79,108 +66,100 @@ static int64_t bracket(const failure_search *f, int64_t good, int64_t bad, int64
     return bad;
 }
 
-static double value(const poly_ball *p, double s) {
+static double value(const near_poly *p, double u) {
     double y = 0;
-    for (int i = p->degree; i >= 0; i--) y = y * s + p->c[i].x;
+    for (int i = p->degree; i >= 0; i--) y = y * u + p->c[i];
     return y;
 }
 
 /* Roughly where a polynomial that falls through 0 between low and high does so: Illinois' method. */
-static double rough_root(const poly_ball *p, double low, double high) {
+static double falling_root(const near_poly *p, double low, double high, double close) {
     double a = value(p, low), b = value(p, high);
     if (!(a > 0)) return low;
     if (!(b < 0)) return high;
-    for (int i = 0; i < 60 && high - low > 0.5; i++) {
-        double s = high - b * ((high - low) / (b - a));
-        if (!(s > low && s < high)) s = 0.5 * (low + high);
-        double y = value(p, s);
-        if (fabs(s - low) < 0.25 || fabs(high - s) < 0.25) {
-            if (y > 0 ? high - s < 0.25 : s - low < 0.25) return s;
-        }
+    for (int i = 0; i < 60 && high - low > close; i++) {
+        double u = high - b * ((high - low) / (b - a));
+        if (!(u > low && u < high)) u = 0.5 * (low + high);
+        double y = value(p, u);
+        if (y > 0 ? high - u < 0.5 * close : u - low < 0.5 * close) return u;
         if (y > 0) {
-            low = s, a = y;
+            low = u, a = y;
             b *= 0.5;
         } else {
-            high = s, b = y;
+            high = u, b = y;
             a *= 0.5;
         }
     }
     return 0.5 * (low + high);
 }
 
+/* The same; lines have one root, and parabolas one at which they fall. */
+static double rough_root(const near_poly *p, double low, double high, double close) {
+    if (p->degree > 2) return falling_root(p, low, high, close);
+    const double c = p->degree == 2 ? p->c[2] : 0, b = p->c[1], a = p->c[0], root = sqrt(b * b - 4 * a * c);
+    const double u = b <= 0 ? 2 * a / (root - b) : (-b - root) / (2 * c);
+    return u > low ? u < high ? u : high : low; /* NaN, too */
+}
+
 /* -------------------------------------------------------------- in doubles -- */
 
-static void to_bernstein(const poly_ball *p, int power, failure_stretch *out) {
-    int d = p->degree;
-    double unit = ldexp(1, power), scale = 1;
-    num_ball c[POLY_TERMS];
-    for (int i = 0; i <= d; i++, scale *= unit) c[i] = (num_ball){p->c[i].x * scale, p->c[i].e * scale};
-    for (int j = 0; j <= d; j++) {
-        double ratio = 1, sum = 0, error = 0, size = 0;
-        for (int i = 0; i <= j; i++) {
-            sum += ratio * c[i].x;
-            size += ratio * fabs(c[i].x);
-            error += ratio * c[i].e;
-            ratio *= (double)(j - i) / (d - i);
-        }
-        out->b[j] = (num_ball){sum, j ? (error + size * 0x1p-48) * NUM_BALL_UP + NUM_BALL_TINY : c[0].e};
+/* With binomials C:  b[j] = sum of C(j, i) / C(d, i) c[i],  as sums of neighbours, d times. All numbers on the way are
+ * at most `size`, so that each of these rounds d times no more than a last place of it. */
+static void to_bernstein(const near_poly *p, failure_stretch *out) {
+    const int d = p->degree;
+    double binomial = 1;
+    for (int i = 0; i <= d; i++) {
+        out->b[i] = i && i < d ? p->c[i] / binomial : p->c[i];
+        binomial = binomial * (d - i) / (i + 1);
     }
-    out->low = 0;
-    out->power = power;
+    for (int k = 1; k <= d; k++)
+        for (int i = d; i >= k; i--) out->b[i] += out->b[i - 1];
+    out->low = 0, out->width = 1;
+    out->error = p->error + p->size * 0x1p-48;
 }
 
 /* Halves at the middle: *s keeps the left half. */
-static void halve(int d, failure_stretch *s, failure_stretch *right) {
-    num_ball *b = s->b;
+static void halve(const near_poly *p, failure_stretch *s, failure_stretch *right) {
+    const int d = p->degree;
+    double *b = s->b;
+    s->width *= 0.5;
+    s->error += p->size * 0x1p-48; /* d roundings */
     *right = *s;
+    right->low += right->width;
     for (int k = 0; k < d; k++) {
         right->b[d - k] = b[d];
-        for (int i = d; i > k; i--) {
-            double x = 0.5 * (b[i - 1].x + b[i].x), e = 0.5 * (b[i - 1].e + b[i].e) + fabs(x) * 0x1p-52;
-            b[i] = (num_ball){x, e * NUM_BALL_UP + NUM_BALL_TINY};
-        }
+        for (int i = d; i > k; i--) b[i] = 0.5 * (b[i - 1] + b[i]);
     }
     right->b[0] = b[d];
-    s->power = --right->power;
-    right->low += (int64_t)1 << s->power;
 }
 
 typedef enum verdict { HOLDS, FAILS, ONE_ROOT, HALVE, HOPELESS } verdict;
 
-static verdict judge(int d, const num_ball *b) {
+static verdict judge(const near_poly *p, const failure_stretch *s) {
     int changes = 0, last = 0, unsure = 0;
-    double size = 0, error = 0;
-    for (int i = 0; i <= d; i++) {
-        int sign = num_ball_sign(b[i]);
-        if (!isfinite(b[i].x) || !isfinite(b[i].e)) return HOPELESS; /* too large for doubles */
-        size = fabs(b[i].x) > size ? fabs(b[i].x) : size;
-        error = b[i].e > error ? b[i].e : error;
-        if (sign == 0 || sign == NUM_UNSURE) {
-            unsure++;
-            continue;
-        }
-        changes += last == -sign;
-        last = sign;
+    double size = 0;
+    for (int i = 0; i <= p->degree; i++) {
+        const int sign = s->b[i] > s->error ? 1 : s->b[i] < -s->error ? -1 : 0;
+        size = fabs(s->b[i]) > size ? fabs(s->b[i]) : size;
+        unsure += !sign;
+        changes += last * sign < 0;
+        last = sign ? sign : last;
     }
-    if (!(size > 16 * error)) return HOPELESS;
+    if (!(size > 16 * s->error && p->size < (double)INFINITY)) return HOPELESS; /* NaN, too */
     if (unsure) return HALVE;
     if (!changes) return last > 0 ? HOLDS : FAILS;
     return changes == 1 && last < 0 ? ONE_ROOT : HALVE;
 }
 
-/* Where a claim fails that changes once from low to high. -1: behind the span, where other pieces hold. */
-static int64_t try_one_root(const failure_search *f, int64_t low, int64_t high) {
-    const int64_t good = low & ~(int64_t)1, last = f->span & ~(int64_t)1;
-    int64_t bad = next_even(high);
-    double root = rough_root(f->p, (double)low, (double)high);
-    if (bad > last) {
-        if (!fails_at(f, last)) return -1;
-        bad = last;
-    }
-    return bracket(f, good, bad, (int64_t)root);
+/* Where a claim fails that changes once from low to high. -1: behind the last even tick there. */
+static int64_t try_one_root(const failure_search *f, const failure_stretch *s) {
+    const double span = (double)f->span, high = s->low + s->width;
+    const int64_t good = (int64_t)(s->low * span) & ~(int64_t)1, bad = (int64_t)(high * span) & ~(int64_t)1;
+    if (bad <= good || !fails_at(f, bad)) return -1;
+    return bracket(f, good, bad, (int64_t)(rough_root(f->p, s->low, high, 0.5 * f->unit) * span));
 }
 
-/* Both ends of even ticks in the interval, one by one. -1: the claim holds at all of them. */
+/* Even ticks in the interval, one by one. -1: the claim holds at all of them. */
 static int64_t try_all(const failure_search *f, int64_t low, int64_t high) {
     for (int64_t s = next_even(low > 2 ? low : 2); s <= high && s <= f->span; s += 2)
         if (fails_at(f, s)) return s;
@@ -232,29 +211,29 @@ static int64_t search_exactly(const failure_search *f, int64_t low, int power) {
 
 static int64_t find_first_failure(const failure_search *f) {
     failure_stretch stack[FAILURE_LEVELS + 2];
-    int top = 1, power = 0;
-    while (((int64_t)1 << power) < f->span) power++;
-    to_bernstein(f->p, power, stack);
+    int top = 1;
+    to_bernstein(f->p, stack);
     while (top) {
         failure_stretch *s = stack + --top;
-        const int64_t high = s->low + ((int64_t)1 << s->power);
-        if (s->low > f->span) continue;
-        const verdict v = judge(f->p->degree, s->b);
+        const int64_t low = (int64_t)(s->low * (double)f->span);
+        const int64_t high = (int64_t)ceil((s->low + s->width) * (double)f->span);
+        const verdict v = judge(f->p, s);
         int64_t at = -1;
         if (v == HOLDS) continue;
-        if (v == HALVE && s->power > 2) {
+        if (v == HALVE && high - low > 4) {
             failure_stretch left = *s;
-            halve(f->p->degree, &left, s); /* the right half stays below */
+            halve(f->p, &left, s); /* the right half stays below */
             stack[top + 1] = left;
             top += 2;
             continue;
         }
         if (v == FAILS)
-            at = try_all(f, s->low, s->low + 4);
-        else if (v == HOPELESS)
-            at = search_exactly(f, s->low, s->power);
+            at = try_all(f, low, low + 4);
+        else if (high - low <= 4)
+            at = try_all(f, low, high);
         else
-            at = s->power <= 2 ? try_all(f, s->low, high) : try_one_root(f, s->low, high);
+            at = v == HOPELESS ? search_exactly(f, low, 64 - __builtin_clzll((uint64_t)(high - low)))
+                               : try_one_root(f, s);
         if (at >= 0) return at <= f->span ? f->start + at : NOW_NEVER;
     }
     return NOW_NEVER;
@@ -274,36 +253,46 @@ static int64_t named_last(now_state *now, name_point p, int64_t last) {
         int64_t piece = now_course_last(now, p.a);
         return piece < last ? piece : last;
     }
+    if (p.b == NAME_NONE) return last;
     last = least_last(now, p.a, last);
     return p.b >= 0 ? least_last(now, (uint32_t)p.b, last) : last;
 }
 
-/* The same of any claim that holds, `last` being the last tick to test. */
-static int64_t first_change(now_state *now, const now_claim *claim, int64_t last) {
-    failure_search f = {now, claim, 0, now->tick, last - now->tick, NULL};
-    if (f.span < 2) return NOW_NEVER;
-    poly_ball p;
-    now_claim_ball(now, claim, 0, &p);
-    bool sure = false; /* of a coefficient that is not 0 */
-    for (int i = 0; i <= p.degree && !sure; i++) sure = fabs(p.c[i].x) > p.c[i].e;
+/* When a claim that holds changes, `last` being the last tick to test; `near` is about all of this time. */
+static int64_t first_change(now_state *now, const now_claim *claim, int64_t last, near_claim *near) {
+    failure_search f = {now, claim, 0, now->tick, last - now->tick, 1 / (double)(last - now->tick), &near->value};
+    const bool sure = near_sign_at(&near->value, 0) || near_sign_at(&near->value, 1); /* it is not always 0 */
     if (!sure && now_claim_axis(now, claim)) {
         f.axis = 1;
-        now_claim_ball(now, claim, 1, &p);
+        near_find(now, claim, 1, (double)f.span, near);
     }
-    while (p.degree && p.c[p.degree].x == 0 && p.c[p.degree].e == 0) p.degree--;
-    f.p = &p;
     return find_first_failure(&f);
 }
 
+static int64_t first_change_until(now_state *now, const now_claim *claim, int64_t last) {
+    near_claim near;
+    if (last - now->tick < 2) return NOW_NEVER;
+    near_find(now, claim, 0, (double)(last - now->tick), &near);
+    return first_change(now, claim, last, &near);
+}
+
+/* Does a polynomial surely keep its sign? */
+static bool keeps_sign(const near_poly *p) {
+    failure_stretch s;
+    to_bernstein(p, &s);
+    const verdict v = judge(p, &s);
+    return v == HOLDS || v == FAILS;
+}
+
 /* When the denominators behind a claim first change their signs, until `last`. */
-static int64_t first_pole(now_state *now, const now_claim *claim, int64_t last) {
+static int64_t first_pole(now_state *now, const now_claim *claim, int64_t last, const near_claim *near) {
     const name_point name[2] = {claim->p, claim->q};
     int64_t first = NOW_NEVER;
     for (int i = 0; i < 2; i++) {
         now_claim turn = {name[i], {0, NAME_NONE}, 1};
-        if (!name_is_crossing(name[i])) continue;
+        if (!name_is_crossing(name[i]) || (near->has_turn[i] && keeps_sign(near->turn + i))) continue;
         if (now_holds(now, &turn) < 0) turn.above = -1;
-        const int64_t tick = first_change(now, &turn, first < last ? first : last);
+        const int64_t tick = first_change_until(now, &turn, first < last ? first : last);
         first = tick < first ? tick : first;
     }
     return first;
@@ -314,11 +303,21 @@ static int64_t first_pole(now_state *now, const now_claim *claim, int64_t last) 
  * they are not, it may leave its segments, pass infinity and be back within one. So then the claim is tested, too.
  */
 int64_t now_first_failure(now_state *now, const now_claim *claim) {
-    int holds = now_holds(now, claim);
-    if (holds <= 0) return holds ? now->tick : NOW_NEVER;
     const int64_t last = named_last(now, claim->q, named_last(now, claim->p, now->motion->last_tick | 1));
-    const int64_t first = first_change(now, claim, last), pole = first_pole(now, claim, first < last ? first : last);
+    const bool along = claim->above == NOW_ALONG, some = last - now->tick >= 2;
+    near_claim near;
+    int holds = 0;
+    if (some && !along) {
+        near_find(now, claim, 0, (double)(last - now->tick), &near);
+        holds = near_sign_at(&near.value, 0);
+    }
+    if (!holds) holds = now_holds(now, claim);
+    if (holds <= 0) return holds ? now->tick : NOW_NEVER;
+    if (!some) return NOW_NEVER;
+    if (along) near_find(now, claim, 0, (double)(last - now->tick), &near);
+    const int64_t first = first_change(now, claim, last, &near);
+    const int64_t pole = first_pole(now, claim, first < last ? first : last, &near);
     if (pole == NOW_NEVER) return first;
-    const int64_t before = first_change(now, claim, pole - 2);
+    const int64_t before = first_change_until(now, claim, pole - 2);
     return before < pole ? before : pole;
 }

@@ -228,55 +228,6 @@ int now_holds(now_state *now, const now_claim *claim) {
     return now_compare(now, claim->p, claim->q) < 0 ? 1 : -1;
 }
 
-static void named_ball(now_state *now, name_point p, ball_point *out) {
-    if (p.b == NAME_VERTEX) {
-        now_course_ball(now, p.a, out);
-        return;
-    }
-    const uint32_t *s = now->segments.data[p.a].end, *t = now->segments.data[p.b].end;
-    ball_point v[4];
-    now_course_ball(now, s[0], v), now_course_ball(now, s[1], v + 1), now_course_ball(now, t[0], v + 2),
-        now_course_ball(now, t[1], v + 3);
-    ball_crossing(v, out);
-}
-
-/* The sign of the denominators now; 0 if that is not certain. */
-static int ball_denominator(const poly_ball *w) {
-    int sign = num_ball_sign(w->c[0]);
-    return sign == NUM_UNSURE ? 0 : sign;
-}
-
-void now_claim_ball(now_state *now, const now_claim *claim, int axis, poly_ball *out) {
-    if (claim->above == NOW_ALONG) {
-        now_along_ball(now, claim, out);
-        return;
-    }
-    if (claim->q.b == NAME_NONE) {
-        const uint32_t *s = now->segments.data[claim->p.a].end, *t = now->segments.data[claim->p.b].end;
-        ball_point v[4];
-        for (int i = 0; i < 4; i++) now_course_ball(now, i < 2 ? s[i] : t[i - 2], v + i);
-        ball_lines(v, out);
-        if (claim->above < 0) ball_negate(out);
-        return;
-    }
-    if (claim->p.b == NAME_SEGMENT) {
-        ball_point a, b, q;
-        now_course_ball(now, now_vertex(now, claim->p.a, 0), &a);
-        now_course_ball(now, now_vertex(now, claim->p.a, 1), &b);
-        now_course_ball(now, claim->q.a, &q);
-        ball_turn(&a, &b, &q, out);
-        if (claim->above < 0) ball_negate(out);
-        return;
-    }
-    ball_point a, b;
-    named_ball(now, claim->p, &a);
-    named_ball(now, claim->q, &b);
-    ball_order(&a, &b, axis, out);
-    int sign = ball_denominator(&a.w) * ball_denominator(&b.w);
-    if (!sign) sign = now_judge_denominators(now, claim);
-    if (sign < 0) ball_negate(out);
-}
-
 int now_claim_axis(now_state *now, const now_claim *claim) {
     if (claim->p.b == NAME_SEGMENT || claim->q.b == NAME_NONE || claim->above == NOW_ALONG) return 0;
     poly_wide wide;

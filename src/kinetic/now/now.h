@@ -158,8 +158,6 @@ static inline now_spot now_vertex_spot(now_state *now, uint32_t vertex) {
     if (c->degree == 2) bend[0] = now->bends.data[vertex].x, bend[1] = now->bends.data[vertex].y;
     return (now_spot){c->x[0] + s * (c->x[1] + s * bend[0]), c->y[0] + s * (c->y[1] + s * bend[1]), c->error};
 }
-/** x and y as polynomials in ticks from now on, in doubles; w is 1. */
-void now_course_ball(now_state *now, uint32_t vertex, ball_point *out);
 /** Up to and including which tick the flight of a vertex is one polynomial. */
 int64_t now_course_last(now_state *now, uint32_t vertex);
 /** No coordinate of the vertex changes by more in a tick, as long as its piece lasts. */
@@ -215,10 +213,9 @@ int now_holds(now_state *now, const now_claim *claim);
  * before that tick, it is the same. */
 int64_t now_first_failure(now_state *now, const now_claim *claim);
 
-/** The polynomials behind a claim about time from now on: > 0 while it holds. In coordinate `axis` for points. */
-void now_claim_ball(now_state *now, const now_claim *claim, int axis, poly_ball *out);
 /** The sign of both denominators just after now. REQUIRES: a claim about points. */
 int now_judge_denominators(now_state *now, const now_claim *claim);
+/** The polynomial behind a claim about time from now on: > 0 while it holds. In coordinate `axis` for points. */
 void now_claim_exact(now_state *now, const now_claim *claim, int axis, poly_exact *out);
 /** The same in integers that are wide enough for wide_variations() in so many ticks from now. False: there are none. */
 bool now_claim_wide(now_state *now, const now_claim *claim, int axis, int64_t span, poly_wide *out);
@@ -237,8 +234,9 @@ double now_height_near(now_state *now, uint32_t segment, name_point p);
 uint32_t now_shared(const now_state *now, name_point p, name_point q);
 /** A vertex, and a crossing of a segment that ends at it with another: which one? FROE_NONE: it is not so. */
 uint32_t now_met_segment(const now_state *now, name_point p, name_point q);
-/** As now_holds(), now_claim_ball() and now_claim_exact(), of claims NOW_ALONG that hold. */
+/** As now_holds() and now_claim_exact(), of claims NOW_ALONG that hold. */
 int now_along_holds(now_state *now, const now_claim *claim);
-void now_along_ball(now_state *now, const now_claim *claim, poly_ball *out);
+/** The sign just after now of what along.c calls the numerator; 0: it is 0 for as long as the pieces last. */
+int now_along_sign(now_state *now, const now_claim *claim);
 void now_along_exact(now_state *now, const now_claim *claim, poly_exact *out);
 #endif
