@@ -9,6 +9,7 @@
 
 #include "kinetic/motions.h"
 #include "kinetic/moving.h"
+#include "kinetic/now/near.h"
 #include "kinetic/truth.h"
 
 enum { TICKS = 6, QUESTIONS = 60 };
@@ -219,8 +220,58 @@ static void failures_are_first(void **state) {
     assert_true(found[0] > 1000 && found[1] > 300);
 }
 
+/* -------------------------------------------------------------- in doubles -- */
+
+/* A sign of which the polynomial in doubles is sure is that of whole numbers, at ticks that follow one another closely
+ * around one at which the claim fails. Counts signs that are sure and that are not. */
+static void look_near_failure(now_state *now, const now_claim *claim, fuzz_source *r, uint64_t seen[2]) {
+    const int64_t start = now->tick, p = last_of(now, claim->p), q = last_of(now, claim->q), last = p < q ? p : q;
+    const int64_t fails = now_first_failure(now, claim), around = fails == NOW_NEVER ? last : fails;
+    near_claim near;
+    near_find(now, claim, 0, (double)(last - start), &near);
+    for (int i = -8; i <= 8; i++) {
+        const int64_t tick = around + (fuzz_int(r, 0, 1) ? i : i * (int64_t)1000003);
+        const int sign = near_sign_at(&near.value, (double)(tick - start) / (double)(last - start));
+        if (tick < start || tick > last) continue;
+        seen[!sign]++;
+        if (!sign) continue;
+        poly_exact exact;
+        num_arena *arena = &now->context.arena;
+        now_claim_exact(now, claim, 0, &exact);
+        num_dyadic y = exact.c[exact.degree], at = num_dyadic_scaled(arena, 1, (uint64_t)(tick - start), 0);
+        for (int j = exact.degree - 1; j >= 0; j--) y = num_dyadic_add(arena, num_dyadic_mul(arena, y, at), exact.c[j]);
+        assert_int_equal(sign, y.sign);
+    }
+}
+
+static void sure_signs_in_doubles_are_right(void **state) {
+    (void)state;
+    uint64_t seen[2] = {0};
+    for (size_t i = 0; i < MOVING_KINDS; i++) {
+        moving_kind kind = moving_kinds[i];
+        kind.tick = 0x1p-45; /* so short that neighbouring ticks differ by the last places of doubles */
+        froe_motion *m = moving_new(&kind, 11, NULL);
+        fuzz_source r = {i + 1};
+        now_state now;
+        assert_int_equal(now_new(m, NULL, &now), FROE_OK);
+        for (int j = 0; j < 300; j++) {
+            now.tick = (int64_t)(fuzz_bits(&r) % (uint64_t)(m->last_tick / 2)) | 1;
+            const name_point p = any_name(&now, &r), q = any_name(&now, &r);
+            const now_claim order = {p, q, 0};
+            const now_claim side = {{(uint32_t)fuzz_int(&r, 0, (int)m->objects.count - 1), NAME_SEGMENT}, q, 1};
+            now.lost = false;
+            if (now_holds(&now, &order) > 0 && !now.lost) look_near_failure(&now, &order, &r, seen);
+            if (name_is_vertex(q) && now_holds(&now, &side) > 0) look_near_failure(&now, &side, &r, seen);
+        }
+        now_free(&now);
+        froe_motion_free(m);
+    }
+    assert_true(seen[0] > 10000 && seen[1] > 3000);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(all_stages_agree_with_whole_numbers),
-                                       cmocka_unit_test(failures_are_first)};
+                                       cmocka_unit_test(failures_are_first),
+                                       cmocka_unit_test(sure_signs_in_doubles_are_right)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
