@@ -228,7 +228,7 @@ FROE_API void froe_kinetic_watch(froe_kinetic *kinetic, froe_progress_fn *progre
 
 /** What happens at an instant. */
 typedef enum froe_event_kind {
-    FROE_EVENT_VERTICES,        /**< a vertex passes over or under another */
+    FROE_EVENT_VERTICES, /**< a vertex passes over or under another: in space, as seen from above, and so below */
     FROE_EVENT_VERTEX_CROSSING, /**< a vertex passes over or under a crossing */
     FROE_EVENT_CROSSINGS,       /**< a crossing passes over or under another */
     FROE_EVENT_CONTACT,         /**< an end of a segment meets another segment */
@@ -238,6 +238,7 @@ typedef enum froe_event_kind {
     FROE_EVENT_PLAN,            /**< the flight of a segment takes another piece */
     FROE_EVENT_APPEAR,
     FROE_EVENT_DISAPPEAR,
+    FROE_EVENT_FLOP, /**< in space: a triangle turns over, as seen from above */
     FROE_EVENT_KINDS
 } froe_event_kind;
 FROE_API const char *froe_event_name(froe_event_kind kind);
@@ -246,6 +247,9 @@ typedef struct froe_event {
     froe_event_kind kind;
     uint32_t objects[4];   /**< the segments it is about; of several that share a vertex, one */
     unsigned object_count; /**< may be more than 4 for batches: the others are not in `objects` */
+    uint32_t edges[4];     /**< in space, where `objects` are triangles: the edges it is about, as seen from above; each
+                                is 3 object + the number of the corner that it goes on from */
+    unsigned edge_count;   /**< alike; 0 in the plane, and where it is about triangles as a whole */
     int64_t tick;          /**< at which the partition has changed */
     double early, late;    /**< the times of the tick before and of this one, to the nearest double: it happened in
                                 between. froe_kinetic_instant() gives it more closely */

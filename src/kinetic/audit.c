@@ -20,6 +20,12 @@ static bool same_cert(const froe_kinetic *k, uint32_t a, const froe_kinetic *fre
     return claim_is(&c, &d);
 }
 
+static bool list_has(const froe_kinetic *k, uint32_t list, const froe_kinetic *fresh, uint32_t wanted) {
+    for (uint32_t i = list; i != FROE_NONE; i = k->certs.all.data[i].next)
+        if (same_cert(k, i, fresh, wanted)) return true;
+    return false;
+}
+
 /* The certificates of two nodes that are the same. */
 static bool same_certs(const froe_kinetic *k, uint32_t a, const froe_kinetic *fresh, uint32_t b) {
     const ktree_node *m = ktree_node_at(&k->tree, a), *n = ktree_node_at(&fresh->tree, b);
@@ -30,7 +36,9 @@ static bool same_certs(const froe_kinetic *k, uint32_t a, const froe_kinetic *fr
         const uint32_t end = KTREE_END_0 - m->wall[side];
         const uint32_t *c = k->certs.segments.data[m->segment].end[end];
         const uint32_t *d = fresh->certs.segments.data[n->segment].end[end];
-        if (!same_cert(k, c[0], fresh, d[0]) || !same_cert(k, c[1], fresh, d[1])) return false;
+        for (int i = 0; i < 2; i++)
+            for (uint32_t wanted = d[i]; wanted != FROE_NONE; wanted = fresh->certs.all.data[wanted].next)
+                if (!list_has(k, c[i], fresh, wanted)) return false;
     }
     return true;
 }
@@ -86,7 +94,7 @@ static froe_status audit_certificates(froe_kinetic *k, froe_diagnostic *diag) {
             return support_fail(diag, FROE_E_INPUT, "The queue is not in order at place %zu.", i);
         if (c->tick <= k->now.tick)
             return support_fail(diag, FROE_E_INPUT, "A certificate of kind %d is overdue.", kind);
-        if (kind <= CERT_TURN && now_holds(&k->now, &c->claim) < 0)
+        if (kind <= CERT_FLOP && now_holds(&k->now, &c->claim) < 0)
             return support_fail(diag, FROE_E_INPUT, "A certificate of kind %d does not hold.", kind);
     }
     for (uint32_t i = 0; i < k->certs.all.count; i++) {

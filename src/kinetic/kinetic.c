@@ -12,7 +12,8 @@ froe_kinetic_options froe_kinetic_defaults(void) {
 
 const char *froe_event_name(froe_event_kind kind) {
     static const char *const names[] = {"vertices", "vertex-crossing", "crossings", "contact", "triple",
-                                        "turn",     "batch",           "plan",      "appear",  "disappear"};
+                                        "turn",     "batch",           "plan",      "appear",  "disappear",
+                                        "flop"};
     return kind < FROE_EVENT_KINDS ? names[kind] : NULL;
 }
 
@@ -27,7 +28,7 @@ void froe_kinetic_watch(froe_kinetic *k, froe_progress_fn *progress, void *user)
 froe_status kinetic_settle(froe_kinetic *k, froe_diagnostic *diag) {
     if (k->call.stopped && !base_cancelled(&k->call.task)) {
         k->call.stopped = false;
-        const bool space = k->now.motion->dim == 3;
+        const bool space = now_is_in_space(&k->now);
         if (space) change_enroll_triangles(k);
         for (uint32_t s = 0; s < k->tree.segments.count && !space; s++) {
             collinear_forget(k, s);
@@ -211,6 +212,7 @@ void froe_kinetic_free(froe_kinetic *k) {
     array_free(&alloc, &k->events.staying);
     array_free(&alloc, &k->events.renewed);
     array_free(&alloc, &k->events.turning);
+    array_free(&alloc, &k->events.flopping);
     now_free(&k->now);
     support_free(&alloc, k, sizeof *k);
 }
@@ -250,14 +252,7 @@ froe_status froe_kinetic_advance(froe_kinetic *k, double time, froe_event_fn *vi
     if (tick < k->now.tick) return support_fail(diag, FROE_E_ARG, "Time %g has passed.", time);
     const event_watcher watcher = {visit, user};
     const int64_t from = k->now.tick;
-    if (visit && k->now.motion->dim == 3)
-        return support_fail(diag, FROE_E_UNSUPPORTED, "Events of a partition in space are not told yet.");
     froe_status status = kinetic_begin(k, diag);
-    if (!status && k->now.motion->dim == 3 && k->now.tick < tick) {
-        k->now.tick = tick;
-        call_stop(&k->call); /* made anew at the tick */
-        status = kinetic_settle(k, diag);
-    }
     while (!status && k->now.tick < tick) {
         if (!base_progress(&k->call.task, (double)(k->now.tick - from) / (double)(tick - from)))
             return call_fail(&k->call, diag);

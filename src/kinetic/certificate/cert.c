@@ -15,6 +15,7 @@ void cert_table_free(cert_table *certs) {
     queue_free(alloc, &certs->queue);
     array_free(alloc, &certs->segments);
     array_free(alloc, &certs->courses);
+    for (int i = 0; i < 2; i++) array_free(alloc, certs->neighbours + i);
     if (certs->recent) support_free(alloc, certs->recent, RECENT * sizeof *certs->recent);
 }
 
@@ -66,8 +67,11 @@ void cert_drop(cert_table *certs, uint32_t cert) {
 }
 
 void cert_forget(cert_table *certs, uint32_t *cert) {
-    if (*cert != FROE_NONE) cert_drop(certs, *cert);
-    *cert = FROE_NONE;
+    while (*cert != FROE_NONE) {
+        const uint32_t next = certs->all.data[*cert].next;
+        cert_drop(certs, *cert);
+        *cert = next;
+    }
 }
 
 int64_t cert_recall(const cert_table *certs, const now_claim *claim) {

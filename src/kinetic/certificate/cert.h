@@ -13,6 +13,7 @@ typedef enum cert_kind {
     CERT_ABOVE, /**< owner: 2 segment + end; the vertex is below the next segment above */
     CERT_BELOW,
     CERT_TURN,      /**< owner: segment; the order of its ends */
+    CERT_FLOP,      /**< owner: surface; on which side of its first edge the third corner is, as seen from above */
     CERT_COLLINEAR, /**< owner: pair; two segments in one line, whose ends keep their order */
     CERT_COURSE,    /**< owner: vertex; the piece of its plan lasts */
     CERT_LIFE,      /**< owner: segment; there or not */
@@ -22,7 +23,7 @@ typedef enum cert_kind {
 typedef struct cert_record {
     int64_t tick; /**< first odd tick after which it does not hold */
     uint32_t owner;
-    uint32_t next;  /**< free certificates */
+    uint32_t next;  /**< of the same list: those of an end, or free ones */
     cert_kind kind; /**< of a region: which one it was when it was made; which it is now, certify_kind() tells */
     now_claim claim;
     uint32_t covered[2]; /**< walls that will be borders when their segments have turned, or FROE_NONE: it is about
@@ -31,9 +32,10 @@ typedef struct cert_record {
 
 /** The certificates of a segment, or FROE_NONE. */
 typedef struct cert_segment {
-    uint32_t turn;      /**< left end before right end */
+    uint32_t turn;      /**< left end before right end; of a surface CERT_FLOP */
     uint32_t life;      /**< appears, disappears */
-    uint32_t end[2][2]; /**< of each end: next segment above, below */
+    uint32_t end[2][2]; /**< of each end: next segment above, below; in space the first of a list, as there is one in
+                             each layer of surfaces */
 } cert_segment;
 
 /** Fail ticks of certificates dropped since the last surgery began: many claims are made again at another node. */
@@ -50,7 +52,8 @@ typedef struct cert_table {
     uint32_t first_free;
     queue_heap queue;
     ARRAY(cert_segment) segments;
-    ARRAY(uint32_t) courses; /**< certificate of each vertex */
+    ARRAY(uint32_t) courses;       /**< certificate of each vertex */
+    ARRAY(uint32_t) neighbours[2]; /**< of the end that gets certificates: next segments above, below */
     cert_recent *recent;
     uint32_t stamp; /**< of the present surgery */
 } cert_table;
@@ -61,7 +64,7 @@ void cert_table_free(cert_table *certs);
 /** FROE_NONE: no memory. */
 uint32_t cert_new(cert_table *certs, cert_kind kind, uint32_t owner, int64_t tick, const now_claim *claim);
 void cert_drop(cert_table *certs, uint32_t cert);
-/** Drops the one of this number, if there is one, and sets the number to FROE_NONE. */
+/** Drops the one of this number, if there is one, and those after it in its list, and sets the number to FROE_NONE. */
 void cert_forget(cert_table *certs, uint32_t *cert);
 void cert_set_tick(cert_table *certs, uint32_t cert, int64_t tick);
 /** When a claim fails that was dropped in this surgery; -1: unknown. */

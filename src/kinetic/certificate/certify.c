@@ -91,24 +91,81 @@ static void certify_regions(froe_kinetic *k, uint32_t node, const ktree_cell *ce
 
 /* -------------------------------------------------------------------- ends -- */
 
-/* The next segment above or below the vertex of a wall of the node: of those that cross it on the outer side of that
- * wall, as what ends on the wall ends at the vertex. */
-static uint32_t next_segment(ktree *tree, uint32_t node, const ktree_cell *cell, int side, bool above) {
-    uint32_t best = above ? cell->top : cell->bottom;
+static void push_layer(froe_kinetic *k, uint32_t node, uint32_t top, uint32_t bottom) {
+    const uint32_t layer[3] = {node, top, bottom};
+    for (int i = 0; i < 3; i++) call_push(&k->call, &k->tree.stack, layer[i]);
+}
+
+static void add_neighbour(froe_kinetic *k, bool below, uint32_t segment) {
+    const uint32_t *known = k->certs.neighbours[below].data;
+    if (segment == FROE_NONE) return;
+    for (size_t i = 0; i < k->certs.neighbours[below].count; i++)
+        if (known[i] == segment) return;
+    call_push(&k->call, k->certs.neighbours + below, segment);
+}
+
+/* The next segments above and below the vertex of a wall of the node: of those that cross it on the outer side of that
+ * wall, as what ends on the wall ends at the vertex. In space the wall goes through layers of surfaces, from the floor
+ * of the cell to its ceiling, and each has its own: an edge that passes over the vertex changes the tree of its layer
+ * (section 3.2 of the paper has the walls, but not these certificates). */
+static void find_neighbours(froe_kinetic *k, uint32_t node, const ktree_cell *cell, int side) {
+    ktree *tree = &k->tree;
     const ktree_node *n = ktree_node_at(tree, node);
-    uint32_t vertex = ktree_wall_name(tree, n->segment, n->wall[side]).a;
-    for (uint32_t x = n->child[side]; x;) {
-        n = ktree_node_at(tree, x);
-        if (n->wall[1 - side] != KTREE_NO_WALL) { /* to the child next to the wall */
-            x = n->child[1 - side];
-            continue;
+    const uint32_t vertex = ktree_wall_name(tree, n->segment, n->wall[side]).a;
+    for (int i = 0; i < 2; i++) k->certs.neighbours[i].count = 0;
+    tree->stack.count = 0;
+    push_layer(k, n->child[side], cell->top, cell->bottom);
+    while (tree->stack.count && !k->call.stopped) {
+        const uint32_t *layer = tree->stack.data + (tree->stack.count -= 3);
+        uint32_t x = layer[0], top = layer[1], bottom = layer[2];
+        while (x) {
+            n = ktree_node_at(tree, x);
+            if (n->wall[1 - side] != KTREE_NO_WALL) { /* to the child next to the wall */
+                x = n->child[1 - side];
+                continue;
+            }
+            const bool surface = now_is_surface(tree->now, n->segment);
+            const int where = surface ? 0 : now_side(tree->now, n->segment, vertex);
+            if (!where) { /* both sides are next to the vertex; of an edge that ends at it, one above and one below */
+                push_layer(k, n->child[KTREE_UP], top, surface ? bottom : FROE_NONE);
+                if (!surface) top = FROE_NONE;
+            } else {
+                *(where < 0 ? &top : &bottom) = n->segment;
+            }
+            x = n->child[where > 0 ? KTREE_UP : KTREE_DOWN];
         }
-        int where = now_side(tree->now, n->segment, vertex);
-        if (!where) where = above ? 1 : -1; /* it ends at the vertex */
-        if ((where < 0) == above) best = n->segment;
-        x = n->child[where > 0 ? KTREE_UP : KTREE_DOWN];
+        add_neighbour(k, false, top);
+        add_neighbour(k, true, bottom);
     }
-    return best;
+}
+
+/* Makes a list that of the certificates about a vertex and all segments of certs.neighbours[below]. */
+static void set_list(froe_kinetic *k, uint32_t *list, uint32_t owner, uint32_t vertex, bool below) {
+    cert_table *certs = &k->certs;
+    uint32_t *wanted = certs->neighbours[below].data;
+    const size_t count = certs->neighbours[below].count;
+    for (uint32_t *at = list; *at != FROE_NONE;) {
+        cert_record *c = certs->all.data + *at;
+        size_t i = 0;
+        while (i < count && wanted[i] != c->claim.p.a) i++;
+        if (i < count && c->tick > k->now.tick) {
+            wanted[i] = FROE_NONE;
+            at = &c->next;
+        } else {
+            const uint32_t cert = *at;
+            *at = c->next;
+            cert_drop(certs, cert);
+        }
+    }
+    for (size_t i = 0; i < count; i++) {
+        const now_claim claim = {{wanted[i], NAME_SEGMENT}, {vertex, NAME_VERTEX}, below ? 1 : -1};
+        if (wanted[i] == FROE_NONE) continue;
+        const cert_kind kind = below ? CERT_BELOW : CERT_ABOVE;
+        const uint32_t cert = cert_new(certs, kind, owner, certify_fail_tick(k, &claim), &claim);
+        if (cert == FROE_NONE) return;
+        certs->all.data[cert].next = *list;
+        *list = cert;
+    }
 }
 
 static void certify_end(froe_kinetic *k, uint32_t node, const ktree_cell *cell, int side) {
@@ -118,13 +175,10 @@ static void certify_end(froe_kinetic *k, uint32_t node, const ktree_cell *cell, 
     ktree_end *end = ktree_segment_at(&k->tree, segment)->end + which;
     if (end->stamp != k->tree.stamp) return;
     end->stamp = 0;
-    for (int i = 0; i < 2; i++) {
-        uint32_t next = next_segment(&k->tree, node, cell, side, i == 0);
-        now_claim claim = {
-            {next, NAME_SEGMENT}, {k->now.segments.data[segment].end[which], NAME_VERTEX}, i == 0 ? -1 : 1};
-        set_cert(k, k->certs.segments.data[segment].end[which] + i, i == 0 ? CERT_ABOVE : CERT_BELOW,
-                 2 * segment + which, next == FROE_NONE ? NULL : &claim);
-    }
+    find_neighbours(k, node, cell, side);
+    for (int below = 0; below < 2; below++)
+        set_list(k, k->certs.segments.data[segment].end[which] + below, 2 * segment + which,
+                 k->now.segments.data[segment].end[which], below);
 }
 
 /* -------------------------------------------------------------------- tree -- */
@@ -192,7 +246,7 @@ void certify_site(froe_kinetic *k, const ktree_site *site) {
     tree->touched.count = 0;
 }
 
-/* ------------------------------------------------------------------- turns -- */
+/* --------------------------------------------------------- turns and flops -- */
 
 void certify_turn(froe_kinetic *k, uint32_t segment) {
     now_segment *s = k->now.segments.data + segment;
@@ -202,4 +256,15 @@ void certify_turn(froe_kinetic *k, uint32_t segment) {
     if (s->turned) claim = (now_claim){claim.q, claim.p, 0};
     cert_forget(&k->certs, cert);
     *cert = cert_new(&k->certs, CERT_TURN, segment, now_first_failure(&k->now, &claim), &claim);
+}
+
+/* A surface is a segment from its first corner to the second that never turns, so a claim about its third corner is
+ * about its area. */
+void certify_flop(froe_kinetic *k, uint32_t surface) {
+    const uint32_t third = k->now.faces.data[now_object_of(&k->now, surface)].vertex[2];
+    const int side = now_side(&k->now, surface, third);
+    const now_claim claim = {{surface, NAME_SEGMENT}, {third, NAME_VERTEX}, side < 0 ? -1 : 1};
+    uint32_t *cert = &k->certs.segments.data[surface].turn;
+    cert_forget(&k->certs, cert);
+    *cert = cert_new(&k->certs, CERT_FLOP, surface, now_first_failure(&k->now, &claim), &claim);
 }

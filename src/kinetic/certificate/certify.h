@@ -4,6 +4,7 @@
  *     ___:__|__:___ above             without a wall inside have certificates: these imply the others
  *        :  o----             ends    an end with a wall is below the next segment above and above the next below
  *     ___:_____:___ below     turns   the left end of a segment is left of the right end
+ *                             flops   in space: a triangle shows the same side upwards
  *
  * As long as they all hold the partition is right, and when one fails it is repaired near that place. Source: the
  * paper's section 3.1, where such regions are the cells of transient nodes. That regions between a wall of the node and
@@ -17,6 +18,8 @@
 void certify_site(froe_kinetic *k, const ktree_site *site);
 /** Looks up which end is on the left, and makes the certificate of that. */
 void certify_turn(froe_kinetic *k, uint32_t segment);
+/** Makes the certificate that a triangle keeps the sign of its area, as seen from above, if it has any. */
+void certify_flop(froe_kinetic *k, uint32_t surface);
 /** The kind of a certificate; of a region, which one it is now. */
 cert_kind certify_kind(const ktree *tree, const cert_table *certs, uint32_t cert);
 /** What a certificate says now. */

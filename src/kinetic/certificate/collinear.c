@@ -23,7 +23,7 @@ int64_t collinear_tick(now_state *now, const uint32_t segment[2]) {
 
 void collinear_watch(froe_kinetic *k, uint32_t s, uint32_t t) {
     collinear_table *c = &k->collinear;
-    if (now_is_question(&k->now, t) || k->now.motion->dim == 3) return;
+    if (now_is_question(&k->now, t)) return;
     for (uint32_t e = c->first.data[s]; e != FROE_NONE; e = *link_of(c, e))
         if (c->pairs.data[e / 2].segment[1 - e % 2] == t) return;
     uint32_t pair = c->first_free;

@@ -62,28 +62,29 @@ void change_enroll(froe_kinetic *k, uint32_t segment) {
     certify_turn(k, segment);
 }
 
-/* Edges cut when the first of their triangles does, in the order of its corners, and its surface after them. */
 void change_enroll_triangles(froe_kinetic *k) {
     now_state *now = &k->now;
     for (uint32_t s = 0; s < k->tree.segments.count; s++) {
-        ktree_segment *t = ktree_segment_at(&k->tree, s);
-        t->alive = t->here = false;
-        if (!now_is_surface(now, s)) t->key = UINT64_MAX;
+        collinear_forget(k, s);
+        for (int i = 0; i < 4; i++) cert_forget(&k->certs, &k->certs.segments.data[s].end[i / 2][i % 2]);
+        change_unroll(k, s);
+        if (!now_is_surface(now, s)) ktree_segment_at(&k->tree, s)->key = UINT64_MAX;
+        call_poll(&k->call);
     }
     for (uint32_t o = 0; o < now->faces.count; o++) {
         const now_face *f = now->faces.data + o;
         ktree_segment *surface = ktree_segment_at(&k->tree, f->surface);
+        change_schedule(k, f->surface);
         if (!now_is_alive(now, o)) continue;
         surface->alive = surface->here = true;
+        certify_flop(k, f->surface);
         for (uint32_t i = 0; i < 3; i++) {
             ktree_segment *edge = ktree_segment_at(&k->tree, f->edge[i]);
-            now_segment *s = now->segments.data + f->edge[i];
-            const int order =
-                now_compare(now, (name_point){s->end[0], NAME_VERTEX}, (name_point){s->end[1], NAME_VERTEX});
             const uint64_t key = surface->key - 3 + i;
-            edge->alive = true, edge->here = order != 0, s->turned = order > 0;
             edge->key = key < edge->key ? key : edge->key;
+            change_enroll(k, f->edge[i]);
         }
+        call_poll(&k->call);
     }
 }
 
@@ -94,7 +95,7 @@ void change_insert(froe_kinetic *k, uint32_t segment) {
 
 void change_unroll(froe_kinetic *k, uint32_t segment) {
     ktree_segment *s = ktree_segment_at(&k->tree, segment);
-    for (uint32_t i = 0; i < 2 && s->alive; i++) {
+    for (uint32_t i = 0; i < 2 && s->alive && !now_is_surface(&k->now, segment); i++) {
         uint32_t *at = k->tree.vertices.data + k->now.segments.data[segment].end[i];
         while (*at != 2 * segment + i) at = &ktree_segment_at(&k->tree, *at / 2)->end[*at % 2].next;
         *at = s->end[i].next;
@@ -103,27 +104,55 @@ void change_unroll(froe_kinetic *k, uint32_t segment) {
     cert_forget(&k->certs, &k->certs.segments.data[segment].turn);
 }
 
-void change_remove(froe_kinetic *k, uint32_t segment) {
+/* Makes a subtree anew from its segments, but for one or FROE_NONE. */
+static void remake(froe_kinetic *k, uint32_t node, uint32_t without) {
     ktree *tree = &k->tree;
-    ktree_segment *s = ktree_segment_at(tree, segment);
+    const ktree_site site = ktree_site_of(tree, node);
+    surgery_begin(k);
+    ktree_new_list(tree);
+    if (without != FROE_NONE) ktree_segment_at(tree, without)->stamp = tree->list_stamp; /* keeps it off the list */
+    ktree_collect(tree, node);
+    surgery_free_tree(k, node);
+    surgery_grow(k, &site.cell, site.parent, site.slot);
+    touch_walls(tree, &site.cell);
+    certify_site(k, &site);
+}
+
+void change_remove(froe_kinetic *k, uint32_t segment) {
+    const ktree_segment *s = ktree_segment_at(&k->tree, segment);
     const bool here = s->here;
     change_unroll(k, segment);
     if (!here) return;
-    while (s->nodes && !k->call.stopped) {
-        const uint32_t node = s->nodes;
-        const ktree_site site = ktree_site_of(tree, node);
-        surgery_begin(k);
-        ktree_new_list(tree);
-        s->stamp = tree->list_stamp; /* keeps it off the list */
-        ktree_collect(tree, node);
-        surgery_free_tree(k, node);
-        surgery_grow(k, &site.cell, site.parent, site.slot);
-        touch_walls(tree, &site.cell);
-        certify_site(k, &site);
-    }
+    while (s->nodes && !k->call.stopped) remake(k, s->nodes, segment);
     collinear_find_partners(k, segment);
     collinear_forget(k, segment);
     for (size_t i = 0; i < k->collinear.partners.count; i++) insert_nodes(k, k->collinear.partners.data[i]);
+}
+
+/* The edges of a triangle, and its surface. */
+static uint32_t part_of_triangle(const now_state *now, uint32_t surface, int i) {
+    return i < 3 ? now->faces.data[now_object_of(now, surface)].edge[i] : surface;
+}
+
+/* Is no node of the triangle above this one? */
+static bool is_topmost(const ktree *tree, uint32_t surface, uint32_t node) {
+    for (uint32_t n = ktree_node_at(tree, node)->parent; n != KTREE_ROOT; n = ktree_node_at(tree, n)->parent)
+        for (int i = 0; i < 4; i++)
+            if (ktree_node_at(tree, n)->segment == part_of_triangle(tree->now, surface, i)) return false;
+    return true;
+}
+
+void change_flop(froe_kinetic *k, uint32_t surface) {
+    const ktree *tree = &k->tree;
+    k->events.roots.count = 0;
+    for (int i = 0; i < 4; i++) {
+        uint32_t n = ktree_segment_at(tree, part_of_triangle(&k->now, surface, i))->nodes;
+        for (; n; n = ktree_node_at(tree, n)->next)
+            if (is_topmost(tree, surface, n)) call_push(&k->call, &k->events.roots, n);
+    }
+    /* each goes on until its own turn, as none is below another */
+    for (size_t i = 0; i < k->events.roots.count && !k->call.stopped; i++)
+        remake(k, k->events.roots.data[i], FROE_NONE);
 }
 
 /* ---------------------------------------------------------------- schedule -- */
@@ -142,13 +171,14 @@ static void schedule(froe_kinetic *k, uint32_t *cert, cert_kind kind, uint32_t o
 }
 
 void change_schedule(froe_kinetic *k, uint32_t segment) {
-    const motion_object *o = k->now.motion->objects.data + segment;
-    const bool there = now_is_alive(&k->now, segment);
+    const uint32_t object = now_object_of(&k->now, segment);
+    const motion_object *o = k->now.motion->objects.data + object;
+    const bool there = now_is_alive(&k->now, object);
     int64_t change = NOW_NEVER;
     if (o->first <= o->last && k->now.tick < o->first) change = odd(o->first);
     if (there && o->last < k->now.motion->last_tick) change = odd(o->last + 1);
     schedule(k, &k->certs.segments.data[segment].life, CERT_LIFE, segment, change);
-    for (int i = 0; i < 2 && there; i++) {
+    for (int i = 0; i < k->now.motion->dim && there; i++) {
         int64_t last = now_course_last(&k->now, o->vertices[i]);
         schedule(k, k->certs.courses.data + o->vertices[i], CERT_COURSE, o->vertices[i], odd(last + 1));
     }

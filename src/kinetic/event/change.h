@@ -9,13 +9,18 @@
 
 /** Lets a segment take part from now on, if it has a length, without putting it into the tree. */
 void change_enroll(froe_kinetic *k, uint32_t segment);
-/** In space: all triangles that are there take part at the present tick, and no others. */
+/** In space: all triangles that are there take part from the present tick on, and no others, without being in the
+ * tree. Edges cut when the first of their triangles does, in the order of its corners, and its surface after them. */
 void change_enroll_triangles(froe_kinetic *k);
 /** The inverse. */
 void change_unroll(froe_kinetic *k, uint32_t segment);
 /** Lets a segment take part, and puts it into the tree. */
 void change_insert(froe_kinetic *k, uint32_t segment);
 void change_remove(froe_kinetic *k, uint32_t segment);
-/** (Re)sets when the segment appears or goes, and when the flight of its ends changes. */
+/** In space: a triangle has turned over, as seen from above. Its edges and its surface change places all along, so
+ * each part of the tree whose first cut is one of them is made anew. */
+void change_flop(froe_kinetic *k, uint32_t surface);
+/** (Re)sets when the segment appears or goes, and when the flight of its ends changes; in space of a surface, and of
+ * the corners of its triangle. */
 void change_schedule(froe_kinetic *k, uint32_t segment);
 #endif

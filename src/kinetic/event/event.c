@@ -166,11 +166,41 @@ static froe_event_kind kind_of(const ktree *tree, const slab_item *item) {
     return name_third_crossing(p, q, &third) ? FROE_EVENT_TRIPLE : FROE_EVENT_CROSSINGS;
 }
 
-static void add_object(froe_event *e, uint32_t object) {
-    for (unsigned i = 0; i < e->object_count && i < 4; i++)
-        if (e->objects[i] == object) return;
-    if (e->object_count < 4) e->objects[e->object_count] = object;
-    e->object_count++;
+/* Adds a number to up to four. False: it was there. */
+static bool add_to(uint32_t *all, unsigned *count, uint32_t number) {
+    for (unsigned i = 0; i < *count && i < 4; i++)
+        if (all[i] == number) return false;
+    if (*count < 4) all[*count] = number;
+    ++*count;
+    return true;
+}
+
+/* The corner of an edge in the first of its triangles that is there. */
+static uint32_t living_corner(const froe_kinetic *k, uint32_t edge) {
+    const now_state *now = &k->now;
+    uint32_t corner = now->segments.data[edge].origin;
+    for (uint32_t c = corner; c != FROE_NONE; c = now_next_corner(now, c))
+        if (ktree_segment_at(&k->tree, now->faces.data[c / 3].surface)->here) return c;
+    return corner;
+}
+
+/* An event and the segments that it is about. In the plane these are its objects. */
+typedef struct event_summary {
+    froe_event event;
+    uint32_t segments[4];
+    unsigned count; /**< may be more than 4 */
+} event_summary;
+
+static void add_segment(const froe_kinetic *k, event_summary *all, uint32_t segment) {
+    froe_event *e = &all->event;
+    if (!add_to(all->segments, &all->count, segment)) return;
+    if (!now_is_in_space(&k->now) || now_is_surface(&k->now, segment)) {
+        add_to(e->objects, &e->object_count, now_object_of(&k->now, segment));
+        return;
+    }
+    const uint32_t corner = living_corner(k, segment);
+    add_to(e->edges, &e->edge_count, corner);
+    add_to(e->objects, &e->object_count, corner / 3);
 }
 
 static froe_event event_at(const now_state *now, froe_event_kind kind) {
@@ -190,24 +220,25 @@ static bool tell_event(froe_kinetic *k, const event_watcher *watcher, const froe
 }
 
 /* What the certificates of a group have in common. */
-static froe_event describe(const froe_kinetic *k, const event_group *g) {
-    froe_event e = event_at(&k->now, kind_of(&k->tree, item_of(k, g, 0)));
+static event_summary describe(const froe_kinetic *k, const event_group *g) {
+    event_summary all = {.event = event_at(&k->now, kind_of(&k->tree, item_of(k, g, 0)))};
+    froe_event *e = &all.event;
     for (size_t i = 0; i < g->count; i++) {
         const slab_item *item = item_of(k, g, i);
         const name_point name[2] = {item->claim.p, item->claim.q};
-        if (kind_of(&k->tree, item) != e.kind) e.kind = FROE_EVENT_BATCH;
-        if (item->kind == CERT_TURN) add_object(&e, item->cert);
+        if (kind_of(&k->tree, item) != e->kind) e->kind = FROE_EVENT_BATCH;
+        if (item->kind == CERT_TURN) add_segment(k, &all, item->cert);
         for (int j = 0; j < 2 && item->kind != CERT_TURN; j++) {
             const uint32_t first = name_is_vertex(name[j]) ? k->tree.vertices.data[name[j].a] : FROE_NONE;
-            if (first != FROE_NONE) add_object(&e, first / 2);
-            if (!name_is_vertex(name[j])) add_object(&e, name[j].a);
-            if (name_is_crossing(name[j])) add_object(&e, (uint32_t)name[j].b);
+            if (first != FROE_NONE) add_segment(k, &all, first / 2);
+            if (!name_is_vertex(name[j])) add_segment(k, &all, name[j].a);
+            if (name_is_crossing(name[j])) add_segment(k, &all, (uint32_t)name[j].b);
         }
     }
-    if ((e.kind == FROE_EVENT_TRIPLE && e.object_count > 3) || (e.kind == FROE_EVENT_TURN && e.object_count > 1) ||
-        e.object_count > 4)
-        e.kind = FROE_EVENT_BATCH;
-    return e;
+    if ((e->kind == FROE_EVENT_TRIPLE && all.count > 3) || (e->kind == FROE_EVENT_TURN && all.count > 1) ||
+        all.count > 4)
+        e->kind = FROE_EVENT_BATCH;
+    return all;
 }
 
 /* ------------------------------------------------------------------ rounds -- */
@@ -262,14 +293,14 @@ static void gather_failed_certs(froe_kinetic *k) {
 }
 
 /* Does a group look like one event, in one place or on one vertical line? */
-static bool is_one_event(const froe_kinetic *k, const event_group *g, const froe_event *event) {
-    switch (event->kind) {
+static bool is_one_event(const froe_kinetic *k, const event_group *g, const event_summary *all) {
+    switch (all->event.kind) {
     case FROE_EVENT_CONTACT:
-        return g->count == 1 || event->object_count == 2;
+        return g->count == 1 || all->count == 2;
     case FROE_EVENT_TRIPLE:
-        return event->object_count == 3;
+        return all->count == 3;
     case FROE_EVENT_TURN:
-        return event->object_count == 1 && !ktree_segment_at(&k->tree, event->objects[0])->bound;
+        return all->count == 1 && !ktree_segment_at(&k->tree, all->segments[0])->bound;
     case FROE_EVENT_BATCH:
         return false;
     default:
@@ -281,7 +312,7 @@ static bool is_one_event(const froe_kinetic *k, const event_group *g, const froe
 
 /* Repairs the tree where the certificates of a group fail. */
 static void repair(froe_kinetic *k, event_group *g, unsigned round) {
-    const froe_event event = describe(k, g);
+    const event_summary event = describe(k, g);
     bool usual = true; /* unrelated points are not in one place */
     participants_clear(&k->participants);
     for (size_t i = 0; i < g->count; i++) usual &= participants_add_item(k, item_of(k, g, i));
@@ -326,7 +357,7 @@ static bool settle_tick(froe_kinetic *k, const event_watcher *watcher) {
             else
                 repair(k, &g, round);
             if (k->call.stopped) break;
-            const froe_event event = describe(k, &g);
+            const froe_event event = describe(k, &g).event;
             k->counts.batches += event.kind == FROE_EVENT_BATCH;
             if (!round) go_on &= tell_event(k, watcher, &event, &item_of(k, &g, 0)->claim);
         }
@@ -347,9 +378,18 @@ static void leave_tree(froe_kinetic *k, uint32_t segment, uint32_t tell_it) {
     call_push(&k->call, &k->events.leaving, 2 * segment + tell_it);
 }
 
+/* The same in space of the triangles that have an edge. */
+static void leave_with_edge(froe_kinetic *k, uint32_t edge, uint32_t tell_it) {
+    const now_state *now = &k->now;
+    for (uint32_t c = now->segments.data[edge].origin; c != FROE_NONE; c = now_next_corner(now, c))
+        leave_tree(k, now->faces.data[c / 3].surface, tell_it);
+}
+
 /* Takes out the segments that have to be out before time goes on to the tick. Others in one line with them may have to
- * be taken out, too, and what that changes may keep others from staying. */
+ * be taken out, too, and what that changes may keep others from staying. In space they are only listed. */
 static void let_leave(froe_kinetic *k, int64_t tick) {
+    const bool space = now_is_in_space(&k->now);
+    void (*leave)(froe_kinetic *, uint32_t, uint32_t) = space ? leave_with_edge : leave_tree;
     size_t gone = 0;
     k->events.leaving.count = k->events.staying.count = 0;
     for (bool first = true;; first = false) {
@@ -357,14 +397,15 @@ static void let_leave(froe_kinetic *k, int64_t tick) {
         for (size_t i = 0; i < k->certs.queue.due.count; i++) {
             const cert_record *c = k->certs.all.data + k->certs.queue.due.data[i];
             if (c->kind == CERT_LIFE) leave_tree(k, c->owner, 1);
-            if (c->kind == CERT_COLLINEAR) leave_tree(k, k->collinear.pairs.data[c->owner].segment[1], 0);
+            if (c->kind == CERT_COLLINEAR) leave(k, k->collinear.pairs.data[c->owner].segment[1], 0);
             uint32_t e = c->kind == CERT_COURSE ? k->tree.vertices.data[c->owner] : FROE_NONE;
-            for (; e != FROE_NONE; e = ktree_next_end(&k->tree, e)) leave_tree(k, e / 2, 1);
+            for (; e != FROE_NONE; e = ktree_next_end(&k->tree, e)) leave(k, e / 2, 1);
         }
         for (size_t i = 0; i < k->certs.queue.due.count; i++) {
             const uint32_t cert = k->certs.queue.due.data[i];
             if (k->certs.all.data[cert].kind == CERT_COURSE) cert_set_tick(&k->certs, cert, NOW_NEVER);
         }
+        if (space) return;
         if (first) renew_choose(k, tick);
         if (gone == k->events.leaving.count) renew_check(k, tick);
         if (gone == k->events.leaving.count || k->call.stopped) return;
@@ -392,24 +433,49 @@ static void turn_segments(froe_kinetic *k) {
     events->turning.count = kept;
 }
 
+/* In space: triangles that turn over, as seen from above. Most certificates that fail with one hold again then. */
+static bool flop_triangles(froe_kinetic *k, const event_watcher *watcher) {
+    event_state *events = &k->events;
+    bool go_on = true;
+    events->flopping.count = 0;
+    cert_find_due(&k->certs, k->now.tick);
+    for (size_t i = 0; i < k->certs.queue.due.count; i++) {
+        const cert_record *c = k->certs.all.data + k->certs.queue.due.data[i];
+        if (c->kind == CERT_FLOP) call_push(&k->call, &events->flopping, c->owner);
+    }
+    for (size_t i = 0; i < events->flopping.count && !k->call.stopped; i++) {
+        const uint32_t surface = events->flopping.data[i];
+        const now_claim was = k->certs.all.data[k->certs.segments.data[surface].turn].claim;
+        certify_flop(k, surface);
+        if (k->call.stopped || now_holds(&k->now, &was) > 0) continue;
+        event_summary all = {.event = event_at(&k->now, FROE_EVENT_FLOP)};
+        change_flop(k, surface);
+        add_segment(k, &all, surface);
+        go_on &= tell_event(k, watcher, &all.event, &was);
+    }
+    events->flopping.count = 0;
+    if (!k->call.stopped && !is_sound(k)) surgery_restart(k);
+    return go_on;
+}
+
 /* Puts those that have left back into the tree, if they are there, and tells what has changed, in the order of the
  * segments. */
 static bool enter_tree(froe_kinetic *k, const event_watcher *watcher) {
     static const now_claim nothing = {{0, NAME_NONE}, {0, NAME_NONE}, 0};
     bool go_on = true;
     for (size_t i = 0; i < k->events.leaving.count && !k->call.stopped; i++) {
-        const uint32_t s = k->events.leaving.data[i] / 2;
-        const motion_object *o = k->now.motion->objects.data + s;
+        const uint32_t s = k->events.leaving.data[i] / 2, object = now_object_of(&k->now, s);
+        const motion_object *o = k->now.motion->objects.data + object;
         change_schedule(k, s);
-        const bool there = now_is_alive(&k->now, s);
+        const bool there = now_is_alive(&k->now, object);
         froe_event_kind kind = !there                          ? FROE_EVENT_DISAPPEAR
                                : k->now.tick <= (o->first | 1) ? FROE_EVENT_APPEAR
                                                                : FROE_EVENT_PLAN;
-        if (there && !ktree_segment_at(&k->tree, s)->stays) change_insert(k, s);
+        if (there && !ktree_segment_at(&k->tree, s)->stays && !now_is_surface(&k->now, s)) change_insert(k, s);
         ktree_segment_at(&k->tree, s)->stays = false;
-        froe_event event = event_at(&k->now, kind);
-        add_object(&event, s);
-        if (k->events.leaving.data[i] % 2) go_on &= tell_event(k, watcher, &event, &nothing);
+        event_summary all = {.event = event_at(&k->now, kind)};
+        add_segment(k, &all, s);
+        if (k->events.leaving.data[i] % 2) go_on &= tell_event(k, watcher, &all.event, &nothing);
     }
     k->events.leaving.count = 0;
     return go_on;
@@ -426,8 +492,15 @@ bool event_step(froe_kinetic *k, int64_t tick, const event_watcher *watcher) {
     let_leave(k, next);
     k->now.tick = next;
     renew_apply(k);
-    turn_segments(k);
-    bool go_on = settle_tick(k, watcher);
+    bool go_on = true;
+    if (now_is_in_space(&k->now) && k->events.leaving.count) {
+        change_enroll_triangles(k);
+        if (!k->call.stopped) surgery_restart(k);
+    } else {
+        turn_segments(k);
+        if (now_is_in_space(&k->now)) go_on = flop_triangles(k, watcher);
+        go_on &= settle_tick(k, watcher);
+    }
     go_on &= enter_tree(k, watcher);
     return settle_tick(k, watcher) && go_on;
 }

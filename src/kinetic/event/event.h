@@ -31,9 +31,10 @@ typedef struct event_state {
     ARRAY(uint32_t) leaving; /**< 2 segment + 1: its plan or life changes now; 2 segment: it may come into the tree */
     ARRAY(uint32_t) staying; /**< segments whose plans change now, and that stay in the tree */
     ARRAY(event_renewal) renewed;
-    ARRAY(uint32_t) turning; /**< segments whose ends change sides now */
-    bool reporting;          /**< a visitor is in the callback of an event, */
-    now_claim reported;      /**< about this; no points: appearances and the like */
+    ARRAY(uint32_t) turning;  /**< segments whose ends change sides now */
+    ARRAY(uint32_t) flopping; /**< in space: surfaces of triangles that may turn over now */
+    bool reporting;           /**< a visitor is in the callback of an event, */
+    now_claim reported;       /**< about this; no points: appearances and the like */
 } event_state;
 
 /** Goes to the next tick at which something happens, or to `tick` if nothing happens before. False: the visitor asked

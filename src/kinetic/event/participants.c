@@ -106,19 +106,25 @@ static bool comes_near(const line *s, const participants_place *place) {
     return !(off > reach * (1 + 0x1p-40) + slack);
 }
 
-bool participants_add_near(froe_kinetic *k, const uint32_t *segments, size_t count) {
+static void add_if_near(froe_kinetic *k, uint32_t segment) {
     participants_table *all = &k->participants;
-    const size_t before = all->list.count;
-    for (size_t i = 0; i < count; i++) {
-        if (segments[i] == FROE_NONE || participants_have(all, segments[i])) continue;
-        const line s = line_of_segment(&k->now, segments[i]);
-        for (size_t j = 0; j < all->places.count; j++) {
-            if (!comes_near(&s, all->places.data + j)) continue;
-            add_segment(all, segments[i]);
-            break;
-        }
+    if (segment == FROE_NONE || participants_have(all, segment)) return;
+    const line s = line_of_segment(&k->now, segment);
+    for (size_t i = 0; i < all->places.count; i++) {
+        if (!comes_near(&s, all->places.data + i)) continue;
+        add_segment(all, segment);
+        return;
     }
-    return all->list.count > before;
+}
+
+bool participants_add_near(froe_kinetic *k, const uint32_t *segments, size_t count) {
+    const size_t before = k->participants.list.count;
+    for (size_t i = 0; i < count; i++) {
+        const bool surface = segments[i] != FROE_NONE && now_is_surface(&k->now, segments[i]);
+        const uint32_t *edge = surface ? k->now.faces.data[now_object_of(&k->now, segments[i])].edge : segments + i;
+        for (int j = 0; j < (surface ? 3 : 1); j++) add_if_near(k, edge[j]);
+    }
+    return k->participants.list.count > before;
 }
 
 /* ------------------------------------------------------------------- items -- */

@@ -29,7 +29,7 @@ bool participants_have(const participants_table *all, uint32_t segment);
 /** Adds the segments that a certificate is about, and the places of its points. False: the points may be in one place,
  * although their segments are unrelated. */
 bool participants_add_item(froe_kinetic *k, const slab_item *item);
-/** Adds those segments that come near a place. False: nothing was added. */
+/** Adds those segments that come near a place, and in space those edges, also of surfaces. False: nothing was added. */
 bool participants_add_near(froe_kinetic *k, const uint32_t *segments, size_t count);
 /** May a participant have an end in one of the places that is not a point of the certificate? */
 bool participants_have_loose_ends(froe_kinetic *k, const slab_item *item);

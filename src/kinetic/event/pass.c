@@ -290,7 +290,7 @@ static void move_segment(froe_kinetic *k, const passing *p) {
 pass_outcome pass_wall(froe_kinetic *k, const slab_item *item) {
     ktree *tree = &k->tree;
     passing p;
-    if (!find_near(k, item, &p)) return PASS_REFUSED;
+    if (now_is_in_space(&k->now) || !find_near(k, item, &p)) return PASS_REFUSED;
     const name_point point = ktree_wall_name(tree, p.segment, p.wall);
     if (!find_far(tree, point, &p)) return PASS_REFUSED;
     const ktree_cell *near = &p.near.site.cell, *far = &p.far.site.cell;

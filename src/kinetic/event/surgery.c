@@ -155,7 +155,7 @@ bool surgery_slab(froe_kinetic *k, uint32_t node) {
 
 void surgery_restart(froe_kinetic *k) {
     ktree *tree = &k->tree;
-    const bool space = k->now.motion->dim == 3;
+    const bool space = now_is_in_space(&k->now);
     k->counts.restarts++;
     k->call.stopped = tree->broken = k->now.lost = false;
     for (uint32_t i = KTREE_FIRST; i < tree->nodes.count; i++) /* nodes without a parent, too */
@@ -167,8 +167,5 @@ void surgery_restart(froe_kinetic *k) {
     for (uint32_t s = 0; s < tree->segments.count; s++)
         if (ktree_segment_at(tree, s)->here && (!space || now_is_surface(&k->now, s))) ktree_list(tree, s);
     surgery_grow(k, &all.cell, KTREE_ROOT, 0);
-    if (space)
-        tree->touched.count = 0; /* no certificates yet: it is made anew at each time */
-    else
-        certify_site(k, &all);
+    certify_site(k, &all);
 }

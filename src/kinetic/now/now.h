@@ -105,17 +105,30 @@ static inline uint32_t now_vertex(const now_state *now, uint32_t segment, int si
 static inline bool now_is_surface(const now_state *now, uint32_t segment) {
     return now->segments.data[segment].surface;
 }
+static inline bool now_is_in_space(const now_state *now) {
+    return now->motion->dim == 3;
+}
 /** The segment that stands for an object: in space its surface. */
 static inline uint32_t now_segment_of(const now_state *now, uint32_t object) {
-    return now->motion->dim == 3 ? now->faces.data[object].surface : object;
+    return now_is_in_space(now) ? now->faces.data[object].surface : object;
+}
+/** The object that a segment stands for; of an edge in space the first triangle that has it. */
+static inline uint32_t now_object_of(const now_state *now, uint32_t segment) {
+    const now_segment *s = now->segments.data + segment;
+    return now_is_in_space(now) && !s->surface ? s->origin / 3 : s->origin;
+}
+/** In space: the triangle after one that has the same edge, by corners: 3 object + number of the edge. An edge's
+ * `origin` is its first. FROE_NONE: there is none. */
+static inline uint32_t now_next_corner(const now_state *now, uint32_t corner) {
+    return now->faces.data[corner / 3].next[corner % 3];
 }
 static inline bool now_has_end(const now_state *now, uint32_t segment, uint32_t vertex) {
     const uint32_t *end = now->segments.data[segment].end;
     return end[0] == vertex || end[1] == vertex;
 }
-/** Does a segment's life hold the present tick? */
-static inline bool now_is_alive(const now_state *now, uint32_t segment) {
-    const motion_object *o = now->motion->objects.data + segment;
+/** Does an object's life hold the present tick? */
+static inline bool now_is_alive(const now_state *now, uint32_t object) {
+    const motion_object *o = now->motion->objects.data + object;
     return o->first <= now->tick && now->tick <= o->last;
 }
 /** The last odd tick of the window. */

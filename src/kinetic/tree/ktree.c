@@ -143,10 +143,17 @@ static void take_wall(const ktree *tree, name_point *wall, const ktree_node *nod
 
 ktree_cell ktree_cell_of(const ktree *tree, uint32_t node) {
     ktree_cell cell = ktree_plane();
+    const bool plane = !now_is_in_space(tree->now);
     for (const ktree_node *n = ktree_node_at(tree, node); n->parent != KTREE_ROOT; n = ktree_node_at(tree, n->parent)) {
-        if (name_exists(cell.wall[0]) && name_exists(cell.wall[1]) && cell.top != FROE_NONE && cell.bottom != FROE_NONE)
+        if (name_exists(cell.wall[0]) && name_exists(cell.wall[1]) && cell.top != FROE_NONE &&
+            cell.bottom != FROE_NONE && (plane || (cell.ceiling != FROE_NONE && cell.floor != FROE_NONE)))
             break;
         const ktree_node *parent = ktree_node_at(tree, n->parent);
+        if (now_is_surface(tree->now, parent->segment)) {
+            uint32_t *layer = n->slot == KTREE_UP ? &cell.floor : &cell.ceiling;
+            if (*layer == FROE_NONE) *layer = parent->segment;
+            continue;
+        }
         if (n->slot < KTREE_UP) {
             take_wall(tree, cell.wall + (1 - n->slot), parent, n->slot);
             continue;
@@ -226,7 +233,20 @@ void ktree_list(ktree *tree, uint32_t segment) {
     call_push(tree->call, &tree->list, segment);
 }
 
+/* What the list has for a segment. */
+static void list_objects(ktree *tree, uint32_t segment) {
+    const now_state *now = tree->now;
+    if (!now_is_in_space(now) || now_is_surface(now, segment)) {
+        ktree_list(tree, segment);
+        return;
+    }
+    for (uint32_t c = now->segments.data[segment].origin; c != FROE_NONE; c = now_next_corner(now, c)) {
+        const uint32_t surface = now->faces.data[c / 3].surface;
+        if (ktree_segment_at(tree, surface)->here) ktree_list(tree, surface);
+    }
+}
+
 void ktree_collect(ktree *tree, uint32_t node) {
     ktree_walk(tree, node);
-    for (uint32_t n; (n = ktree_walk_next(tree));) ktree_list(tree, ktree_node_at(tree, n)->segment);
+    for (uint32_t n; (n = ktree_walk_next(tree));) list_objects(tree, ktree_node_at(tree, n)->segment);
 }
