@@ -210,11 +210,13 @@ typedef struct froe_kinetic_options {
 } froe_kinetic_options;
 FROE_API froe_kinetic_options froe_kinetic_defaults(void);
 
-/** The partition at the first odd tick of the window; in space of triangles, which must not cross each other. There it
- * is made anew whenever time goes on, and events, questions and changes are refused with FROE_E_UNSUPPORTED; a snapshot
- * answers questions, and is refused where triangles cross. The motion must outlive it. Until it is freed, plans are
- * changed and objects added by the functions below only. FROE_E_ARG, FROE_E_OPTIONS: the order is not one,
- * FROE_E_MEMORY, FROE_E_CANCELLED.
+/** The partition at the first odd tick of the window; in space of triangles, as seen from above, along z. They must not
+ * cross each other: from the instant on at which two of them meet (froe_motion_contacts() finds it), the partition is
+ * not what it should be, and snapshots are refused where triangles cross. In space it is made anew where a triangle
+ * appears or disappears and where a plan takes another piece, what else happens at that tick is not told, and questions
+ * and changes are refused with FROE_E_UNSUPPORTED; a snapshot answers questions. Bodies are refused alike. The motion
+ * must outlive it. Until it is freed, plans are changed and objects added by the functions below only. FROE_E_ARG,
+ * FROE_E_OPTIONS: the order is not one, FROE_E_UNSUPPORTED, FROE_E_MEMORY, FROE_E_CANCELLED.
  * Expected O(n log^2 n + k log n) for n segments with k crossings. */
 FROE_API froe_status froe_kinetic_new(froe_motion *motion, const froe_kinetic_options *options,
                                       const froe_allocator *alloc, froe_kinetic **out, froe_diagnostic *diag);
@@ -228,7 +230,7 @@ FROE_API void froe_kinetic_watch(froe_kinetic *kinetic, froe_progress_fn *progre
 
 /** What happens at an instant. */
 typedef enum froe_event_kind {
-    FROE_EVENT_VERTICES, /**< a vertex passes over or under another: in space, as seen from above, and so below */
+    FROE_EVENT_VERTICES,        /**< a vertex passes over or under another; in space all is as seen from above */
     FROE_EVENT_VERTEX_CROSSING, /**< a vertex passes over or under a crossing */
     FROE_EVENT_CROSSINGS,       /**< a crossing passes over or under another */
     FROE_EVENT_CONTACT,         /**< an end of a segment meets another segment */
@@ -259,8 +261,7 @@ typedef struct froe_event {
 typedef bool froe_event_fn(void *user, const froe_event *event);
 
 /** Lets time go on to `time`, rounded up to an odd tick, and keeps the partition right; `visit` (may be NULL) is called
- * for each event. FROE_E_ARG: the time is before the present or after the window.
- * FROE_E_UNSUPPORTED: `visit` in space. FROE_E_MEMORY: call again, or free
+ * for each event. FROE_E_ARG: the time is before the present or after the window. FROE_E_MEMORY: call again, or free
  * it. FROE_E_CANCELLED: `visit` returned false, and the partition is that right after the event; or the progress
  * function did, and it is that of some moment before `time`. Expected polylogarithmic in n for each event, if the
  * motion does not depend on the order, and no coordinate is beyond 2^480: then the partition is made anew for each. */

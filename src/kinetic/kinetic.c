@@ -178,6 +178,9 @@ froe_status froe_kinetic_new(froe_motion *motion, const froe_kinetic_options *op
     if (options->size != sizeof *options) return support_fail_defaults(diag, "froe_kinetic_defaults");
     if (motion->dim == 3 && (options->augmented || options->epoch))
         return support_fail(diag, FROE_E_UNSUPPORTED, "A partition in space is not augmented, and has no epochs.");
+    if (motion->bodies.count)
+        return support_fail(diag, FROE_E_UNSUPPORTED,
+                            "The motion has bodies: a partition in space takes triangles whose corners have plans.");
     froe_allocator memory = support_allocator(alloc);
     froe_kinetic *k;
     if (new_at(motion, &memory, options, 1, &k)) return support_fail_memory(diag);

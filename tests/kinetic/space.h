@@ -103,9 +103,23 @@ static inline bool space_is_solid(const space_data *d, size_t v) {
     bool below = false, above = false;
     for (int i = 0; i <= STEPS; i++) {
         const double volume = space_volume(d, v, (double)i / STEPS);
-        below |= volume < 1e5, above |= volume > -1e5;
+        below |= volume<1e5, above |= volume> - 1e5;
     }
     return below != above;
+}
+
+/* Are the vertex and the two after it in one line, at the start or the end? */
+static inline bool space_is_thin(const space_data *d, size_t v) {
+    for (int end = 0; end < 2; end++) {
+        const int(*at)[3] = end ? d->to + v : d->at + v;
+        bool thin = true;
+        for (int k = 0; k < 3; k++) {
+            const int i = (k + 1) % 3, j = (k + 2) % 3;
+            thin &= (at[1][i] - at[0][i]) * (at[2][j] - at[0][j]) == (at[1][j] - at[0][j]) * (at[2][i] - at[0][i]);
+        }
+        if (thin) return true;
+    }
+    return false;
 }
 
 static inline void space_layer(const space_kind *kind, space_data *d, int layer) {
@@ -114,7 +128,7 @@ static inline void space_layer(const space_kind *kind, space_data *d, int layer)
     do {
         d->vertex_count = first;
         space_cloud(kind, d, layer, solid ? 4 : 3);
-    } while (solid && !space_is_solid(d, first));
+    } while (solid ? !space_is_solid(d, first) : space_is_thin(d, first));
     space_face(d, first, first + 1, first + 2);
     if (!solid) return;
     space_face(d, first, first + 3, first + 1);
@@ -348,13 +362,55 @@ static const space_kind space_kinds[] = {
     {.name = "lattice", .form = SPACE_LAYERS, .count = 14, .grid = 12, .reach = 5, .speed = 4, .spin = 2},
     {.name = "rigid lattice", .form = SPACE_LAYERS, .count = 16, .grid = 12, .reach = 4, .speed = 6},
     {.name = "far", .form = SPACE_LAYERS, .count = 14, .grid = 1000, .reach = 250, .speed = 300, .spin = 99, .far = 24},
-    {.name = "still", .form = SPACE_LAYERS, .count = 20, .grid = 1000, .reach = 250, .speed = 500, .spin = 99, .still = 2},
-    {.name = "minute", .form = SPACE_LAYERS, .count = 10, .grid = 1000, .reach = 250, .speed = 300, .spin = 99, .scale = -990},
-    {.name = "huge", .form = SPACE_LAYERS, .count = 6, .grid = 1000, .reach = 250, .speed = 300, .spin = 99, .scale = 990},
-    {.name = "curved", .form = SPACE_LAYERS, .count = 12, .grid = 1000, .reach = 200, .speed = 300, .spin = 99, .curved = true},
+    {.name = "still",
+     .form = SPACE_LAYERS,
+     .count = 20,
+     .grid = 1000,
+     .reach = 250,
+     .speed = 500,
+     .spin = 99,
+     .still = 2},
+    {.name = "minute",
+     .form = SPACE_LAYERS,
+     .count = 10,
+     .grid = 1000,
+     .reach = 250,
+     .speed = 300,
+     .spin = 99,
+     .scale = -990},
+    {.name = "huge",
+     .form = SPACE_LAYERS,
+     .count = 6,
+     .grid = 1000,
+     .reach = 250,
+     .speed = 300,
+     .spin = 99,
+     .scale = 990},
+    {.name = "curved",
+     .form = SPACE_LAYERS,
+     .count = 12,
+     .grid = 1000,
+     .reach = 200,
+     .speed = 300,
+     .spin = 99,
+     .curved = true},
     {.name = "one", .form = SPACE_LAYERS, .count = 1, .grid = 1000, .reach = 300, .speed = 300, .spin = 900},
-    {.name = "bouncing", .form = SPACE_LAYERS, .count = 10, .grid = 1000, .reach = 250, .speed = 300, .spin = 99, .legs = 4},
-    {.name = "mortal", .form = SPACE_LAYERS, .count = 24, .grid = 1000, .reach = 200, .speed = 300, .spin = 99, .mortal = true},
+    {.name = "bouncing",
+     .form = SPACE_LAYERS,
+     .count = 10,
+     .grid = 1000,
+     .reach = 250,
+     .speed = 300,
+     .spin = 99,
+     .legs = 4},
+    {.name = "mortal",
+     .form = SPACE_LAYERS,
+     .count = 24,
+     .grid = 1000,
+     .reach = 200,
+     .speed = 300,
+     .spin = 99,
+     .mortal = true},
 };
 enum { SPACE_KINDS = sizeof space_kinds / sizeof *space_kinds };
 #endif

@@ -261,7 +261,7 @@ void certify_turn(froe_kinetic *k, uint32_t segment) {
 /* A surface is a segment from its first corner to the second that never turns, so a claim about its third corner is
  * about its area. */
 void certify_flop(froe_kinetic *k, uint32_t surface) {
-    const uint32_t third = k->now.faces.data[now_object_of(&k->now, surface)].vertex[2];
+    const uint32_t third = now_face_of(&k->now, surface)->vertex[2];
     const int side = now_side(&k->now, surface, third);
     const now_claim claim = {{surface, NAME_SEGMENT}, {third, NAME_VERTEX}, side < 0 ? -1 : 1};
     uint32_t *cert = &k->certs.segments.data[surface].turn;

@@ -104,55 +104,27 @@ void change_unroll(froe_kinetic *k, uint32_t segment) {
     cert_forget(&k->certs, &k->certs.segments.data[segment].turn);
 }
 
-/* Makes a subtree anew from its segments, but for one or FROE_NONE. */
-static void remake(froe_kinetic *k, uint32_t node, uint32_t without) {
-    ktree *tree = &k->tree;
-    const ktree_site site = ktree_site_of(tree, node);
-    surgery_begin(k);
-    ktree_new_list(tree);
-    if (without != FROE_NONE) ktree_segment_at(tree, without)->stamp = tree->list_stamp; /* keeps it off the list */
-    ktree_collect(tree, node);
-    surgery_free_tree(k, node);
-    surgery_grow(k, &site.cell, site.parent, site.slot);
-    touch_walls(tree, &site.cell);
-    certify_site(k, &site);
-}
-
 void change_remove(froe_kinetic *k, uint32_t segment) {
-    const ktree_segment *s = ktree_segment_at(&k->tree, segment);
+    ktree *tree = &k->tree;
+    ktree_segment *s = ktree_segment_at(tree, segment);
     const bool here = s->here;
     change_unroll(k, segment);
     if (!here) return;
-    while (s->nodes && !k->call.stopped) remake(k, s->nodes, segment);
+    while (s->nodes && !k->call.stopped) {
+        const uint32_t node = s->nodes;
+        const ktree_site site = ktree_site_of(tree, node);
+        surgery_begin(k);
+        ktree_new_list(tree);
+        s->stamp = tree->list_stamp; /* keeps it off the list */
+        ktree_collect(tree, node);
+        surgery_free_tree(k, node);
+        surgery_grow(k, &site.cell, site.parent, site.slot);
+        touch_walls(tree, &site.cell);
+        certify_site(k, &site);
+    }
     collinear_find_partners(k, segment);
     collinear_forget(k, segment);
     for (size_t i = 0; i < k->collinear.partners.count; i++) insert_nodes(k, k->collinear.partners.data[i]);
-}
-
-/* The edges of a triangle, and its surface. */
-static uint32_t part_of_triangle(const now_state *now, uint32_t surface, int i) {
-    return i < 3 ? now->faces.data[now_object_of(now, surface)].edge[i] : surface;
-}
-
-/* Is no node of the triangle above this one? */
-static bool is_topmost(const ktree *tree, uint32_t surface, uint32_t node) {
-    for (uint32_t n = ktree_node_at(tree, node)->parent; n != KTREE_ROOT; n = ktree_node_at(tree, n)->parent)
-        for (int i = 0; i < 4; i++)
-            if (ktree_node_at(tree, n)->segment == part_of_triangle(tree->now, surface, i)) return false;
-    return true;
-}
-
-void change_flop(froe_kinetic *k, uint32_t surface) {
-    const ktree *tree = &k->tree;
-    k->events.roots.count = 0;
-    for (int i = 0; i < 4; i++) {
-        uint32_t n = ktree_segment_at(tree, part_of_triangle(&k->now, surface, i))->nodes;
-        for (; n; n = ktree_node_at(tree, n)->next)
-            if (is_topmost(tree, surface, n)) call_push(&k->call, &k->events.roots, n);
-    }
-    /* each goes on until its own turn, as none is below another */
-    for (size_t i = 0; i < k->events.roots.count && !k->call.stopped; i++)
-        remake(k, k->events.roots.data[i], FROE_NONE);
 }
 
 /* ---------------------------------------------------------------- schedule -- */

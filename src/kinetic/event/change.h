@@ -17,9 +17,6 @@ void change_unroll(froe_kinetic *k, uint32_t segment);
 /** Lets a segment take part, and puts it into the tree. */
 void change_insert(froe_kinetic *k, uint32_t segment);
 void change_remove(froe_kinetic *k, uint32_t segment);
-/** In space: a triangle has turned over, as seen from above. Its edges and its surface change places all along, so
- * each part of the tree whose first cut is one of them is made anew. */
-void change_flop(froe_kinetic *k, uint32_t surface);
 /** (Re)sets when the segment appears or goes, and when the flight of its ends changes; in space of a surface, and of
  * the corners of its triangle. */
 void change_schedule(froe_kinetic *k, uint32_t segment);

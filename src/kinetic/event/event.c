@@ -66,7 +66,7 @@ static const slab_item *item_of(const froe_kinetic *k, const event_group *g, siz
 }
 
 static bool is_current(const froe_kinetic *k, const slab_item *item) {
-    if (item->kind == CERT_TURN) return ktree_segment_at(&k->tree, item->cert)->here;
+    if (item->kind == CERT_TURN || item->kind == CERT_FLOP) return ktree_segment_at(&k->tree, item->cert)->here;
     const cert_record *c = k->certs.all.data + item->cert;
     if (c->kind == CERT_FREE || c->tick > k->now.tick || certify_kind(&k->tree, &k->certs, item->cert) != item->kind)
         return false;
@@ -87,15 +87,22 @@ static uint32_t root_at(const froe_kinetic *k, size_t i) {
     return ktree_node_at(&k->tree, k->events.roots.data[i] / 4)->child[k->events.roots.data[i] % 4];
 }
 
+/* All nodes of a segment. */
+static void add_roots_of(froe_kinetic *k, uint32_t segment) {
+    uint32_t n = ktree_segment_at(&k->tree, segment)->nodes;
+    for (; n; n = ktree_node_at(&k->tree, n)->next) add_root(k, climb_clear_of_slab(k, n, false));
+}
+
 /* Where surgery is needed for an item. */
 static void add_roots(froe_kinetic *k, const slab_item *item) {
     if (!is_current(k, item)) return;
-    if (item->kind != CERT_TURN) {
+    if (item->kind == CERT_TURN) {
+        add_roots_of(k, item->cert);
+    } else if (item->kind == CERT_FLOP) {
+        for (int i = 0; i < 3; i++) add_roots_of(k, now_face_of(&k->now, item->cert)->edge[i]);
+    } else {
         add_root(k, climb_clear_of_slab(k, node_of(k, item), false));
-        return;
     }
-    uint32_t n = ktree_segment_at(&k->tree, item->cert)->nodes;
-    for (; n; n = ktree_node_at(&k->tree, n)->next) add_root(k, climb_clear_of_slab(k, n, false));
 }
 
 static bool is_sound(const froe_kinetic *k) {
@@ -159,6 +166,7 @@ static void operate_carefully(froe_kinetic *k, event_group *g) {
 static froe_event_kind kind_of(const ktree *tree, const slab_item *item) {
     name_point p = item->claim.p, q = item->claim.q, third;
     if (item->kind == CERT_TURN) return FROE_EVENT_TURN;
+    if (item->kind == CERT_FLOP) return FROE_EVENT_FLOP;
     if (item->kind > CERT_RIGHT || now_met_segment(tree->now, p, q) != FROE_NONE) return FROE_EVENT_CONTACT;
     if (ktree_is_one_segment(tree, p, q)) return FROE_EVENT_TURN;
     if (name_is_vertex(p) && name_is_vertex(q)) return FROE_EVENT_VERTICES;
@@ -219,22 +227,34 @@ static bool tell_event(froe_kinetic *k, const event_watcher *watcher, const froe
     return go_on;
 }
 
-/* What the certificates of a group have in common. */
+/* The segments that an item is about. */
+static void add_names(const froe_kinetic *k, event_summary *all, const slab_item *item) {
+    const name_point name[2] = {item->claim.p, item->claim.q};
+    if (item->kind == CERT_TURN || item->kind == CERT_FLOP) {
+        add_segment(k, all, item->cert);
+        return;
+    }
+    for (int j = 0; j < 2; j++) {
+        const uint32_t first = name_is_vertex(name[j]) ? k->tree.vertices.data[name[j].a] : FROE_NONE;
+        if (first != FROE_NONE) add_segment(k, all, first / 2);
+        if (!name_is_vertex(name[j])) add_segment(k, all, name[j].a);
+        if (name_is_crossing(name[j])) add_segment(k, all, (uint32_t)name[j].b);
+    }
+}
+
+/* What the certificates of a group have in common. Of a triangle that turns over all fail that are about its edges. */
 static event_summary describe(const froe_kinetic *k, const event_group *g) {
+    size_t flops = 0;
+    for (size_t i = 0; i < g->count; i++) flops += item_of(k, g, i)->kind == CERT_FLOP;
     event_summary all = {.event = event_at(&k->now, kind_of(&k->tree, item_of(k, g, 0)))};
     froe_event *e = &all.event;
     for (size_t i = 0; i < g->count; i++) {
         const slab_item *item = item_of(k, g, i);
-        const name_point name[2] = {item->claim.p, item->claim.q};
+        if (flops && item->kind != CERT_FLOP) continue;
         if (kind_of(&k->tree, item) != e->kind) e->kind = FROE_EVENT_BATCH;
-        if (item->kind == CERT_TURN) add_segment(k, &all, item->cert);
-        for (int j = 0; j < 2 && item->kind != CERT_TURN; j++) {
-            const uint32_t first = name_is_vertex(name[j]) ? k->tree.vertices.data[name[j].a] : FROE_NONE;
-            if (first != FROE_NONE) add_segment(k, &all, first / 2);
-            if (!name_is_vertex(name[j])) add_segment(k, &all, name[j].a);
-            if (name_is_crossing(name[j])) add_segment(k, &all, (uint32_t)name[j].b);
-        }
+        add_names(k, &all, item);
     }
+    if (flops) e->kind = flops > 1 ? FROE_EVENT_BATCH : FROE_EVENT_FLOP;
     if ((e->kind == FROE_EVENT_TRIPLE && all.count > 3) || (e->kind == FROE_EVENT_TURN && all.count > 1) ||
         all.count > 4)
         e->kind = FROE_EVENT_BATCH;
@@ -263,9 +283,23 @@ static void sort_items(kinetic_call *call, event_state *events) {
     for (size_t i = 0; i < n; i++) items[i] = items[n + i];
 }
 
+static void gather_flops(froe_kinetic *k) {
+    event_state *events = &k->events;
+    for (size_t i = 0; i < events->flopping.count; i++) {
+        const uint32_t surface = events->flopping.data[i];
+        now_claim was = k->certs.all.data[k->certs.segments.data[surface].turn].claim;
+        was.above = -was.above;
+        slab_item item = {surface, CERT_FLOP, was, {0, 0}};
+        slab_find(&k->tree, &item);
+        call_push(&k->call, &events->items, item);
+    }
+    events->flopping.count = 0;
+}
+
 static void gather_failed_certs(froe_kinetic *k) {
     event_state *events = &k->events;
     events->items.count = 0;
+    gather_flops(k);
     for (size_t i = 0; i < events->turning.count; i++) {
         const uint32_t s = events->turning.data[i], *end = k->now.segments.data[s].end;
         slab_item item = {s, CERT_TURN, {{end[0], NAME_VERTEX}, {end[1], NAME_VERTEX}, 0}, {0, 0}};
@@ -301,6 +335,7 @@ static bool is_one_event(const froe_kinetic *k, const event_group *g, const even
         return all->count == 3;
     case FROE_EVENT_TURN:
         return all->count == 1 && !ktree_segment_at(&k->tree, all->segments[0])->bound;
+    case FROE_EVENT_FLOP:
     case FROE_EVENT_BATCH:
         return false;
     default:
@@ -433,10 +468,10 @@ static void turn_segments(froe_kinetic *k) {
     events->turning.count = kept;
 }
 
-/* In space: triangles that turn over, as seen from above. Most certificates that fail with one hold again then. */
-static bool flop_triangles(froe_kinetic *k, const event_watcher *watcher) {
+/* In space: finds triangles that turn over, as seen from above. */
+static void flop_triangles(froe_kinetic *k) {
     event_state *events = &k->events;
-    bool go_on = true;
+    size_t kept = 0;
     events->flopping.count = 0;
     cert_find_due(&k->certs, k->now.tick);
     for (size_t i = 0; i < k->certs.queue.due.count; i++) {
@@ -447,15 +482,9 @@ static bool flop_triangles(froe_kinetic *k, const event_watcher *watcher) {
         const uint32_t surface = events->flopping.data[i];
         const now_claim was = k->certs.all.data[k->certs.segments.data[surface].turn].claim;
         certify_flop(k, surface);
-        if (k->call.stopped || now_holds(&k->now, &was) > 0) continue;
-        event_summary all = {.event = event_at(&k->now, FROE_EVENT_FLOP)};
-        change_flop(k, surface);
-        add_segment(k, &all, surface);
-        go_on &= tell_event(k, watcher, &all.event, &was);
+        if (now_holds(&k->now, &was) < 0) events->flopping.data[kept++] = surface;
     }
-    events->flopping.count = 0;
-    if (!k->call.stopped && !is_sound(k)) surgery_restart(k);
-    return go_on;
+    events->flopping.count = kept;
 }
 
 /* Puts those that have left back into the tree, if they are there, and tells what has changed, in the order of the
@@ -498,7 +527,7 @@ bool event_step(froe_kinetic *k, int64_t tick, const event_watcher *watcher) {
         if (!k->call.stopped) surgery_restart(k);
     } else {
         turn_segments(k);
-        if (now_is_in_space(&k->now)) go_on = flop_triangles(k, watcher);
+        flop_triangles(k);
         go_on &= settle_tick(k, watcher);
     }
     go_on &= enter_tree(k, watcher);

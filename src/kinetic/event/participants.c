@@ -121,7 +121,7 @@ bool participants_add_near(froe_kinetic *k, const uint32_t *segments, size_t cou
     const size_t before = k->participants.list.count;
     for (size_t i = 0; i < count; i++) {
         const bool surface = segments[i] != FROE_NONE && now_is_surface(&k->now, segments[i]);
-        const uint32_t *edge = surface ? k->now.faces.data[now_object_of(&k->now, segments[i])].edge : segments + i;
+        const uint32_t *edge = surface ? now_face_of(&k->now, segments[i])->edge : segments + i;
         for (int j = 0; j < (surface ? 3 : 1); j++) add_if_near(k, edge[j]);
     }
     return k->participants.list.count > before;
@@ -147,8 +147,26 @@ static bool are_apart(ktree *tree, const name_point name[2], const participants_
     return true;
 }
 
+static void add_segments_at(froe_kinetic *k, uint32_t vertex) {
+    for (uint32_t e = k->tree.vertices.data[vertex]; e != FROE_NONE; e = ktree_next_end(&k->tree, e))
+        if (ktree_segment_at(&k->tree, e / 2)->here) add_segment(&k->participants, e / 2);
+}
+
+/* A triangle that turns over happens at its corners, and all along its edges. */
+static void add_flop(froe_kinetic *k, uint32_t surface) {
+    for (int i = 0; i < 3; i++) {
+        const uint32_t vertex = now_face_of(&k->now, surface)->vertex[i];
+        add_segments_at(k, vertex);
+        call_push(&k->call, &k->participants.places, place_of_name(&k->now, (name_point){vertex, NAME_VERTEX}, 0));
+    }
+}
+
 bool participants_add_item(froe_kinetic *k, const slab_item *item) {
     participants_table *all = &k->participants;
+    if (item->kind == CERT_FLOP) {
+        add_flop(k, item->cert);
+        return false;
+    }
     const name_point name[2] = {item->claim.p, item->claim.q};
     participants_place place[2];
     if (item->kind == CERT_TURN) add_segment(all, item->cert);
@@ -156,9 +174,7 @@ bool participants_add_item(froe_kinetic *k, const slab_item *item) {
         const name_point p = name[i];
         if (p.b == NAME_SEGMENT || name_is_crossing(p)) add_segment(all, p.a);
         if (name_is_crossing(p)) add_segment(all, (uint32_t)p.b);
-        uint32_t e = name_is_vertex(p) ? k->tree.vertices.data[p.a] : FROE_NONE;
-        for (; e != FROE_NONE; e = ktree_next_end(&k->tree, e))
-            if (ktree_segment_at(&k->tree, e / 2)->here) add_segment(all, e / 2);
+        if (name_is_vertex(p)) add_segments_at(k, p.a);
         if (p.b == NAME_SEGMENT) continue;
         const name_point other = name[1 - i].b == NAME_SEGMENT ? p : name[1 - i];
         place[i] = place_of_name(&k->now, p, now_spot_of(&k->now, other).x);

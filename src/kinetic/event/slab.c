@@ -36,6 +36,11 @@ void slab_find(ktree *tree, slab_item *item) {
         return;
     }
     item->slab[0] = (double)INFINITY, item->slab[1] = -(double)INFINITY;
+    if (item->kind == CERT_FLOP) { /* edges change places all along */
+        for (int i = 0; i < 3; i++)
+            slab_reach(tree->now, item->slab, (name_point){now_face_of(tree->now, item->cert)->vertex[i], NAME_VERTEX});
+        return;
+    }
     slab_reach(tree->now, item->slab, q);
     if (p.b == NAME_SEGMENT) {
         reach_crossings(tree, item->slab, q.a, p.a);

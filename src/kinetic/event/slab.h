@@ -4,9 +4,9 @@
 #include "kinetic/certificate/cert.h"
 #include "kinetic/tree/ktree.h"
 
-/** A certificate that fails, or a segment that turns. */
+/** A certificate that fails, or a segment that turns, or a triangle that turns over. */
 typedef struct slab_item {
-    uint32_t cert; /**< CERT_TURN: the segment */
+    uint32_t cert; /**< CERT_TURN: the segment; CERT_FLOP: the surface */
     cert_kind kind;
     now_claim claim;
     double slab[2]; /**< of x */

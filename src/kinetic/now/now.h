@@ -117,6 +117,10 @@ static inline uint32_t now_object_of(const now_state *now, uint32_t segment) {
     const now_segment *s = now->segments.data + segment;
     return now_is_in_space(now) && !s->surface ? s->origin / 3 : s->origin;
 }
+/** In space: the triangle of a surface. */
+static inline const now_face *now_face_of(const now_state *now, uint32_t surface) {
+    return now->faces.data + now->segments.data[surface].origin;
+}
 /** In space: the triangle after one that has the same edge, by corners: 3 object + number of the edge. An edge's
  * `origin` is its first. FROE_NONE: there is none. */
 static inline uint32_t now_next_corner(const now_state *now, uint32_t corner) {
