@@ -44,7 +44,7 @@ static bool find_feature(num_context *context, const double *point, const geom_b
 
 geom_distance geom_distance_from(num_context *context, const double *point, const geom_body *body) {
     geom_distance d; /* not all of it matters, and zeroing it would take as long as the filter */
-    d.lo = d.hi = NULL;
+    d.lo = d.hi = d.corner[0] = NULL;
     d.dim = body->dim, d.count = 0, d.radius = body->form == FROE_BALL ? body->radius : 0;
     d.high.count = 0;
     if (body->form == FROE_POINT || body->form == FROE_BOX || body->form == FROE_BALL) {
