@@ -233,7 +233,7 @@ static const char *axis_name(int axis) {
     return names[axis];
 }
 
-static froe_status finite(formats_sink *sink, const double *coords, size_t corners) {
+static froe_status all_finite(formats_sink *sink, const double *coords, size_t corners) {
     size_t count = corners * (size_t)sink->dim;
     for (size_t i = 0; i < count; ++i) {
         if (isfinite(coords[i])) continue;
@@ -259,7 +259,7 @@ static void widen(const formats_sink *sink, formats_bounds *bounds, const double
 /* Checks; then adds the object, or with `boxes` only widens the feature's box. */
 static froe_status add_to_sink(formats_sink *sink, froe_kind kind, const double *coords, const uint32_t *indices,
                                size_t corners) {
-    froe_status status = finite(sink, coords, corners);
+    froe_status status = all_finite(sink, coords, corners);
     if (status) return status;
     if (!sink->boxes) return put_in_sink(sink, kind, coords, indices, corners);
     if (!corners) return FROE_OK;
@@ -319,7 +319,7 @@ froe_status formats_sink_box(formats_sink *sink, const double *lo, const double 
 }
 
 froe_status formats_sink_ball(formats_sink *sink, const double *centre, double radius) {
-    froe_status status = finite(sink, centre, 1);
+    froe_status status = all_finite(sink, centre, 1);
     if (status) return status;
     if (!(radius >= 0) || !isfinite(radius))
         return formats_sink_fail(sink, FROE_E_INPUT, "Its radius is %.17g, not a finite number >= 0.", radius);
@@ -373,7 +373,7 @@ static froe_status add_face(formats_sink *sink, const double *corners, const uin
     if (count == 1) return formats_sink_point(sink, corners);
     if (count == 2) return formats_sink_segment(sink, corners, corners + 3);
     if (count == 3 || sink->boxes) return add_to_sink(sink, FROE_POLYGON, corners, indices, count);
-    froe_status status = finite(sink, corners, count);
+    froe_status status = all_finite(sink, corners, count);
     bool whole = false;
     if (!status && sink->faces == FROE_FACES_POLYGONS) status = polygon_fits(sink, corners, count, &whole);
     if (status) return status;

@@ -200,7 +200,7 @@ static froe_status splice_job(void *user, unsigned worker, size_t number) {
     return FROE_OK;
 }
 
-static froe_status splice(building *b) {
+static froe_status splice_in(building *b) {
     size_t count = b->nodes.count;
     for (size_t i = 0, before = 0; i < b->jobs.count; i++) {
         job *j = &b->jobs.data[i];
@@ -253,7 +253,7 @@ static froe_status build_guard_tree(building *b, double span, const split_grid_b
     add_up(b->out, &b->upper);
     for (unsigned i = 0; i < b->worker_count; i++) add_up(b->out, &b->workers[i].work);
     if (b->jobs.count) {
-        status = splice(b);
+        status = splice_in(b);
     } else {
         memcpy(&b->out->nodes, &b->nodes, sizeof b->nodes);
         b->nodes = (guard_nodes){0};
