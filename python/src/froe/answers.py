@@ -12,17 +12,20 @@ from ._arrays import Doubles, Ids
 
 
 class Answers:
-    """The answers to question i are ``ids[starts[i]:starts[i + 1]]``, which is ``answers[i]``.
+    """A ragged array: any number of answers to each question. Those to question ``i`` are ``ids[starts[i]:starts[i +
+    1]]``, which is ``answers[i]``. ``len(answers)`` is the number of questions, and a loop goes through these.
+
+    :ivar starts: int64, one more than questions
+    :ivar ids: int32, objects or groups
+    :ivar values: float64 beside the ids: distances, or parameters of rays; None where there are none
+    :param starts, ids, values: the same
+    :raises IndexError: there is no such question
 
     >>> import froe
     >>> tree = froe.segments([[0, 0, 2, 2], [3, 0, 3, 2]]).build(purpose="query")
     >>> answers = tree.query([[0, 0, 1, 1], [9, 9, 9, 9], [0, 0, 3, 3]])
     >>> len(answers), answers.starts.tolist(), sorted(answers[2].tolist())
     (3, [0, 1, 1, 3], [0, 1])
-
-    :ivar starts: int64, one more than questions
-    :ivar ids: int32, objects (or groups)
-    :ivar values: float64 beside the ids: distances or parameters of rays; None where there are none
     """
 
     __slots__ = ("ids", "starts", "values")
@@ -51,6 +54,9 @@ class Answers:
     def counts(self) -> npt.NDArray[np.int64]:
         """How many answers each question has.
 
+        :returns: (questions,) int64
+        :cost: O(questions)
+
         >>> Answers([0, 2, 2], [5, 7]).counts().tolist()
         [2, 0]
         """
@@ -58,6 +64,9 @@ class Answers:
 
     def pairs(self) -> npt.NDArray[np.int64]:
         """All answers as an array of two rows, questions and ids, as ``shapely.STRtree.query`` returns them.
+
+        :returns: (2, answers) int64
+        :cost: O(questions + answers)
 
         >>> Answers([0, 2, 2, 3], [5, 7, 6]).pairs().tolist()
         [[0, 0, 2], [5, 7, 6]]

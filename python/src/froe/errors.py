@@ -13,9 +13,9 @@ from __future__ import annotations
 
 
 class Error(Exception):
-    """Any failure of froe. The message is a whole sentence.
+    """Any failure of froe. The message is a whole sentence, which names the object and the reason.
 
-    :ivar status: the name of the C interface's status, for example ``"FROE_E_INPUT"``
+    :ivar status: the name of the C interface's status, for example ``"FROE_E_INPUT"``; "" where the package refused
     :ivar object: the object, or the position in the arrays given, that is to blame; None if there is none
     :ivar corner: its corner, or None
     :ivar axis: the axis of the coordinate, or None

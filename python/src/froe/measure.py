@@ -1,7 +1,11 @@
 """Measures of scenes, on which the bounds of methods depend: fatness, density, clutter, directional density, defects.
 
-Bounds are certified for the numbers of the scene. Where there are more than ``samples`` objects, a random sample of so
-many is used (0: all), the same for the same seed.
+Every function takes a ``scene``, ``seed`` and ``progress``, a function that is called with the share done and ends the
+call by returning False. Where there are more than ``samples`` objects, a random sample of so many is used (0: all), the
+same for the same seed. Lower bounds hold for the whole scene, upper bounds for the sample.
+
+:raises CancelledError: the progress function returned False
+:raises ArgumentError: an argument is out of range
 
 >>> import froe, froe.measure
 >>> scene = froe.generate("segments", 1000)
@@ -23,7 +27,13 @@ Measure = TypeVar("Measure")
 
 @dataclass(frozen=True)
 class Spread:
-    """How values are distributed; all 0 without any."""
+    """How values are distributed; all are 0 where there are none.
+
+    :ivar count: how many there are
+    :ivar least, most: the least and the largest
+    :ivar q05, q25, median, q75, q95: 5, 25, 50, 75 and 95 % of the values are not above these
+    :ivar mean: the average
+    """
 
     count: int
     least: float
@@ -38,7 +48,15 @@ class Spread:
 
 @dataclass(frozen=True)
 class Defects:
-    """What is odd about a scene: objects without extent or equal to others, and pairs that cross, touch or overlap."""
+    """What is odd about a scene.
+
+    :ivar zero_length: segments without length
+    :ivar zero_area: polygons without area
+    :ivar duplicates: objects that are equal to earlier ones
+    :ivar crossings: pairs that pass through each other
+    :ivar t_junctions: pairs of which an end or edge of one touches the inside of the other
+    :ivar overlaps: pairs in one line or plane with more than a point or a segment in common
+    """
 
     zero_length: int
     zero_area: int
@@ -50,8 +68,13 @@ class Defects:
 
 @dataclass(frozen=True)
 class Fatness:
-    """Volume over that of the smallest enclosing ball; of polygons area over that of the disc (``flat``) and width over
-    length (``sliver``). ``thin`` counts objects without volume."""
+    """How fat objects are: near 1 for balls, near 0 for needles.
+
+    :ivar full: volume divided by that of the smallest enclosing ball
+    :ivar flat: of polygons in space, area divided by that of the smallest enclosing disc
+    :ivar sliver: of these, width divided by length
+    :ivar thin: how many objects have no volume
+    """
 
     full: Spread
     flat: Spread
@@ -61,8 +84,14 @@ class Fatness:
 
 @dataclass(frozen=True)
 class Density:
-    """lower <= density <= upper; the ball at ``centre`` meets ``lower`` objects of at least its size. ``upper`` is that
-    of the ``count`` objects in the sample. ``load``: neighbours of at least its own size, for each object."""
+    """The most objects that meet a ball and are at least as large as the ball: between ``lower`` and ``upper``.
+
+    :ivar lower: the ball at ``centre`` meets so many
+    :ivar upper: no ball meets more of the objects in the sample
+    :ivar count: objects in the sample
+    :ivar centre, radius: of a ball that meets ``lower`` objects
+    :ivar load: of each object: those of at least its size within three radii of its centre
+    """
 
     lower: int
     upper: int
@@ -74,7 +103,13 @@ class Density:
 
 @dataclass(frozen=True)
 class Clutter:
-    """The cube from ``lo`` to ``hi`` has no corner of a bounding box inside, and ``lower`` objects meet it."""
+    """The most objects that meet a cube without a corner of a bounding box inside it: at least ``lower``.
+
+    :ivar lower: the cube from ``lo`` to ``hi`` meets so many
+    :ivar lo, hi: corners of that cube
+    :ivar count: cubes that were tried
+    :ivar load: of each cube that cannot grow any more: the objects that meet it
+    """
 
     lower: int
     lo: tuple[float, ...]
@@ -85,7 +120,15 @@ class Clutter:
 
 @dataclass(frozen=True)
 class Directional:
-    """How many other boxes cross the plane of a face near it, by four ways to say near."""
+    """How many other boxes cross the plane of a face of a box near that face, by four definitions of near.
+
+    :ivar delta: how far near is, in sides of a box
+    :ivar count: boxes in the sample
+    :ivar simple: each face is widened by ``delta`` times its own sides
+    :ivar extended: by 1 + 2 ``delta`` times its longest side
+    :ivar two_directional: by as much, but on one axis by ``delta`` times the side
+    :ivar paired: the same for the two faces across that axis alone
+    """
 
     delta: float
     count: int
@@ -102,7 +145,10 @@ def _filled(kind: type[Measure], found: dict[str, Any]) -> Measure:
 
 
 def defects(scene: Scene, *, threads: int = 0, progress: Progress | None = None) -> Defects:
-    """Counts what is odd, exactly.
+    """Counts what is odd about a scene, exactly.
+
+    :param threads: how many may work at once; 0: one for each processor
+    :cost: O(n log n + pairs of bounding boxes that touch)
 
     >>> import froe
     >>> defects(froe.segments([[0, 0, 2, 2], [0, 2, 2, 0], [1, 1, 1, 1]])).crossings
@@ -114,6 +160,8 @@ def defects(scene: Scene, *, threads: int = 0, progress: Progress | None = None)
 def fatness(scene: Scene, *, samples: int = 20000, seed: int = 1, progress: Progress | None = None) -> Fatness:
     """How fat objects are.
 
+    :cost: O(n)
+
     >>> import froe
     >>> fatness(froe.boxes([[0, 0, 1, 1]])).full.median > 0.6
     True
@@ -124,8 +172,10 @@ def fatness(scene: Scene, *, samples: int = 20000, seed: int = 1, progress: Prog
 def density(
     scene: Scene, *, diameter: bool = False, samples: int = 20000, seed: int = 1, progress: Progress | None = None
 ) -> Density:
-    """The most objects, of at least the size of a ball, that meet a ball: by the radius of the smallest enclosing ball,
-    or by the diameter.
+    """The most objects that meet a ball and are at least as large as the ball.
+
+    :param diameter: how large an object is, is told by its diameter; otherwise by its smallest enclosing ball
+    :cost: O(n log n + neighbours)
 
     >>> import froe
     >>> density(froe.segments([[0, 0, 1, 0], [0, 1, 1, 1]])).count
@@ -135,7 +185,9 @@ def density(
 
 
 def clutter(scene: Scene, *, samples: int = 20000, seed: int = 1, progress: Progress | None = None) -> Clutter:
-    """The most objects that meet a cube without a corner of a bounding box inside: a lower bound.
+    """The most objects that meet a cube without a corner of a bounding box inside it: a lower bound.
+
+    :cost: O(n log n + samples (log n + objects that meet each cube))
 
     >>> import froe
     >>> clutter(froe.segments([[0, 0, 1, 0], [0, 1, 1, 1]])).lower >= 1
@@ -147,7 +199,10 @@ def clutter(scene: Scene, *, samples: int = 20000, seed: int = 1, progress: Prog
 def directional(
     scene: Scene, delta: float = 1.0, *, samples: int = 20000, seed: int = 1, progress: Progress | None = None
 ) -> Directional:
-    """Directional density of bounding boxes, with neighbourhoods of ``delta`` times a side.
+    """How many other boxes cross the plane of a face of a bounding box near that face.
+
+    :param delta: how far near is, in sides of a box
+    :cost: O(n log n + samples (log n + boxes))
 
     >>> import froe
     >>> directional(froe.boxes([[0, 0, 1, 1], [2, 0, 3, 1]]), 2.0).count

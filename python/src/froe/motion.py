@@ -1,5 +1,6 @@
-"""Moving objects: segments of the plane, or triangles in space; when they touch, and a partition that is kept right
-while they move."""
+"""Moving objects, which are segments of the plane or triangles in space: when they touch, and a partition that is kept
+right while they move. Times and lengths have the caller's units.
+"""
 
 from __future__ import annotations
 
@@ -36,9 +37,12 @@ _UPDATE, _REMOVE, _AUDIT = range(3)
 class Contacts:
     """Pairs of objects that meet, each from one instant to another, in the order of their beginnings.
 
-    :ivar begin: (n, 2): the true time lies between these two doubles, which are equal or nearly neighbours; so ``end``
+    :ivar a, b: the two objects
+    :ivar begin: (n, 2): the true time lies between these two doubles, which are equal or nearly neighbours
+    :ivar end: (n, 2): the same of the last instant
     :ivar instant: they meet at one instant alone
-    :ivar since_start: they meet already when the time asked for begins; ``to_stop``: still when it ends
+    :ivar since_start: they meet already when the time that was asked for begins
+    :ivar to_stop: they still meet when it ends
     """
 
     a: Ids
@@ -55,9 +59,12 @@ class Contacts:
 
 @dataclass(frozen=True)
 class Events:
-    """Changes of a partition, in order of time. Event ``i`` is of the kind ``EVENTS[kinds[i]]``.
+    """Changes of a partition, in order of time. Event ``i`` is of the kind ``froe.motion.EVENTS[kinds[i]]``.
 
-    :ivar objects: (n, 4): what each is about, -1 where there are fewer; ``counts`` tells how many there are
+    :ivar kinds: numbers of kinds
+    :ivar objects: (n, 4): what each is about, -1 where there are fewer
+    :ivar counts: how many of these there are
+    :ivar ticks: the instant at which the partition was changed, in ticks of the motion
     :ivar early, late: it happened between these times
     """
 
@@ -74,8 +81,12 @@ class Events:
 
 @dataclass(frozen=True)
 class Snapshot:
-    """The present as an ordinary tree, over a scene of its own. ``rounded`` vertices are not exactly where the tree has
-    them; ``alike``: the tree has the cuts of the partition, as if nothing had been rounded."""
+    """The present as an ordinary tree, over a scene of its own.
+
+    :ivar tree: answers all questions; the tags of its objects are those of the motion's, or their numbers there
+    :ivar rounded: how many vertices are not exactly where the tree has them
+    :ivar alike: the tree has the cuts of the partition, as if nothing had been rounded
+    """
 
     tree: Tree
     rounded: int
@@ -83,7 +94,16 @@ class Snapshot:
 
 
 class Motion:
-    """Moving objects in a window of time: segments of the plane (``dim`` 2), or triangles in space (3).
+    """Moving objects in a window of time: segments of the plane, or triangles in space.
+
+    :param begin, end: the window; nothing is known before and after it
+    :param dim: 2 for segments of the plane, 3 for triangles in space
+    :param tick: the length of time that is told apart, a power of 2; 0: chosen by the window
+    :raises OptionError: the dimension is another one, or the tick no power of 2
+    :raises ArrayError: an array has another shape or type, or numbers that float64 does not have
+    :raises InputError: the window is empty; NaN or infinity, times that do not ascend, or a plan that does not cover
+        the life of its object
+    :raises CancelledError: the progress function returned False
 
     >>> import froe
     >>> motion = froe.Motion(0, 10)
@@ -122,7 +142,16 @@ class Motion:
         return self._core.counts()[1]
 
     def add_group(self, name: str = "") -> int:
-        """A group, which objects may then belong to. Returns its number."""
+        """A new group, which objects may then belong to.
+
+        :param name: its name
+        :returns: its number
+        :cost: O(1)
+
+        >>> import froe
+        >>> froe.Motion(0, 10).add_group("lorry")
+        0
+        """
         return self._core.add_group(name)
 
     def add(
@@ -138,10 +167,18 @@ class Motion:
         tags: npt.ArrayLike | None = None,
         groups: npt.ArrayLike | None = None,
     ) -> None:
-        """Adds objects. Vertex ``v`` passes ``coords[i]`` at ``times[i]``, for ``i`` from ``starts[v]`` to
-        ``starts[v + 1] - 1``; in between it goes straight on at constant speed, or on the parabola with the control
-        point ``controls[i]`` where that is not NaN. A vertex with one time stands still. Objects join the vertices in
-        the rows of ``vertices``, by default each vertex once, in order.
+        """Adds objects. Vertex ``v`` passes ``coords[i]`` at ``times[i]``, for ``i`` from ``starts[v]`` to ``starts[v +
+        1] - 1``, and in between it goes straight on at constant speed. A vertex with one time stands still.
+
+        :param times: (m,), ascending for each vertex
+        :param coords: (m, dim)
+        :param starts: (vertices + 1,)
+        :param controls: (m, dim); where it is not NaN, the vertex follows the parabola with this control point
+        :param vertices: (objects, dim) numbers of vertices that each object joins; None: each vertex once, in order
+        :param births, deaths: (objects,), times at which each appears and disappears; None: it is there all the time
+        :param tags: (objects,) whole numbers that name them to the caller
+        :param groups: (objects,) the group of each
+        :cost: O(times + objects)
         """
         plans = doubles(times, "times").ravel()
         self._core.add(
@@ -166,17 +203,48 @@ class Motion:
         threads: int = 0,
         progress: Progress | None = None,
     ) -> Contacts:
-        """All contacts, none of which is missed, however short; NaN: from the beginning and to the end of the window.
-        ``first``: only what may be the first of all. ``apart``: without pairs of objects of one group."""
+        """All contacts, none of which is missed, however short it is.
+
+        :param begin, end: the time that counts; NaN: from the beginning and to the end of the window
+        :param first: only what may be the first contact of all
+        :param apart: without pairs of objects of one group
+        :param threads: how many may work at once; 0: one for each processor
+        :param progress: is called with the share done; False from it ends the call
+        :cost: O(n log^2 n + candidates)
+        """
         a, b, begins, ends, *flags = map(np.asarray, self._core.contacts(begin, end, first, apart, threads, progress))
         return Contacts(a, b, begins, ends, *(flag.view(np.bool_) for flag in flags))
 
     def kinetic(self, *, seed: int = 1, augmented: bool = False, progress: Progress | None = None) -> Kinetic:
-        """A partition of the motion, which is at the beginning of the window."""
+        """A partition of the motion, which is at the beginning of the window.
+
+        :param seed: of random choices; the same seed gives the same partition on every machine
+        :param augmented: a segment that turns upright costs nothing, however many it crosses
+        :param progress: is called with the share done; False from it ends the call
+        :raises UnsupportedError: the motion has objects that no partition follows
+        :cost: O(n log^2 n + crossings log n) expected
+
+        >>> import froe
+        >>> motion = froe.Motion(0, 10)
+        >>> motion.add([0, 10, 0, 10], [[0, 0], [10, 0], [0, 1], [10, 1]], [0, 2, 4])
+        >>> 0 <= motion.kinetic().time < 1
+        True
+        """
         return Kinetic(self, _core.kinetic(self._core, seed, augmented, progress))
 
     def write(self, path: str | os.PathLike[str]) -> None:
-        """Writes OGC Moving Features JSON, which ``froe.read_motion`` gives back."""
+        """Writes OGC Moving Features JSON, which ``froe.read_motion`` gives back.
+
+        :param path: the file
+        :raises FileError: the file cannot be written
+        :cost: O(times + objects)
+
+        >>> import froe, tempfile, os
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     froe.Motion(0, 4).write(os.path.join(folder, "a.mfjson"))
+        ...     os.listdir(folder)
+        ['a.mfjson']
+        """
         self._core.write(path)
 
     def __repr__(self) -> str:
@@ -185,7 +253,12 @@ class Motion:
 
 
 class Kinetic:
-    """A partition of moving objects, exact at every instant it stands at.
+    """A partition of moving objects, which is exact at every instant. It is made by ``Motion.kinetic``.
+
+    :param motion, core: are those of ``Motion.kinetic``
+    :raises ArgumentError: a time before the present or after the window, or an object that does not exist
+    :raises ArrayError: an array has another shape or type
+    :raises BusyError: another thread is using it
 
     >>> import froe
     >>> motion = froe.Motion(0, 10)
@@ -193,8 +266,14 @@ class Kinetic:
     >>> motion.add([0, 0], [[5, 3], [6, 3]], [0, 1, 2])
     >>> kinetic = motion.kinetic()
     >>> events = kinetic.advance(5.5)
-    >>> len(events) > 0, kinetic.locate([[5.4, 2]]).tolist()
-    (True, [[-1, 1, -1]])
+    >>> len(events) > 0, kinetic.locate([[5.4, 2]]).tolist(), kinetic.ray([[5, 0.5]], [[9, 0.5]]).tolist()
+    (True, [[-1, 1, -1]], [0])
+    >>> motion.add([0, 0], [[8, 0], [8, 1]], [0, 1, 2])
+    >>> kinetic.update()
+    >>> kinetic.remove(0)
+    >>> kinetic.audit()
+    >>> kinetic.ray([[5, 0.5]], [[9, 0.5]]).tolist()
+    [2]
     """
 
     def __init__(self, motion: Motion, core: _core.Kinetic) -> None:
@@ -208,11 +287,17 @@ class Kinetic:
 
     @property
     def next(self) -> float:
-        """The time of the next event at the earliest; infinity: nothing happens in the rest of the window."""
+        """The time of the next event at the earliest; infinity where nothing happens in the rest of the window."""
         return self._core.now()[1]
 
     def advance(self, time: float, *, progress: Progress | None = None) -> Events:
-        """Lets time go on, and returns what happened; in space, where events are not told, none."""
+        """Lets time go on, and repairs the partition at each event on the way.
+
+        :param time: from the present to the end of the window
+        :param progress: is called with the share done; False from it ends the call, between two events
+        :returns: the events; in space none are told
+        :cost: O(log n) expected for each event
+        """
         plane = self.motion.dim == 2
         found = self._core.advance(time, plane, progress)
         if found is None:
@@ -222,30 +307,57 @@ class Kinetic:
         return Events(*(np.asarray(part) for part in found))
 
     def update(self) -> None:
-        """Objects that were added to the motion meanwhile take part from now on."""
+        """Objects that were added to the motion meanwhile take part from now on.
+
+        :cost: O(log n) expected for each object, and for each crossing
+        """
         self._core.change(_UPDATE, 0)
 
     def remove(self, number: int) -> None:
-        """Takes an object out, for good."""
+        """Takes an object out, for good.
+
+        :param number: the object
+        :cost: O(log n) expected for each crossing
+        """
         self._core.change(_REMOVE, number)
 
     def audit(self) -> None:
-        """Compares the partition with one made from scratch; InputError if something is wrong."""
+        """Proves that the partition is right, by comparing it with one that is made anew. It returns nothing when all
+        is well.
+
+        :raises InputError: something is wrong; the message says what
+        :cost: that of making a partition
+        """
         self._core.change(_AUDIT, 0)
 
     def locate(self, points: npt.ArrayLike) -> Ids:
-        """For each point the segment that it lies on, the next one above, and the next one below; -1: none."""
+        """For each point the segment that it lies on, the next one above, and the next one below, at the present.
+
+        :param points: (n, 2)
+        :returns: (n, 3) objects, -1: none
+        :cost: O(log n) expected for a point
+        """
         return np.asarray(self._core.locate(rows(points, "points", 2, 2)))
 
     def ray(self, origins: npt.ArrayLike, ends: npt.ArrayLike) -> Ids:
-        """The first segment met on each way from one point to another, -1: none."""
+        """The first segment on each way from one point straight to another, at the present.
+
+        :param origins, ends: (n, 2)
+        :returns: (n,) objects, -1: none
+        :cost: O(log n + segments and cells passed) expected for each
+        """
         start, stop = rows(origins, "origins", 2, 2), rows(ends, "ends", 2, 2)
         if len(start) != len(stop):
             raise ArrayError(f"There are {len(start)} origins and {len(stop)} ends.")
         return np.asarray(self._core.ray(np.hstack([start, stop])))
 
     def snapshot(self, *, refuse: bool = False, progress: Progress | None = None) -> Snapshot:
-        """The present as a tree, for all other questions; ``refuse``: rather none than one with rounded places.
+        """The present as an ordinary tree, for all other questions.
+
+        :param refuse: rather none than one with rounded places
+        :param progress: is called with the share done; False from it ends the call
+        :raises UnsupportedError: with ``refuse``, places have more digits than doubles have
+        :cost: O(nodes)
 
         >>> import froe
         >>> motion = froe.Motion(0, 4)
@@ -260,7 +372,12 @@ class Kinetic:
 
 
 def read_motion(path: str | os.PathLike[str]) -> Motion:
-    """A motion from OGC Moving Features JSON.
+    """A motion from OGC Moving Features JSON (``MovingLineString`` and ``MovingPolygon``).
+
+    :param path: the file
+    :raises FileError: the file cannot be opened or read
+    :raises FormatError: it is not what it claims to be; the message says where
+    :cost: O(size of the file)
 
     >>> import froe, tempfile, os
     >>> motion = froe.Motion(0, 4)

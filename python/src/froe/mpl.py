@@ -40,9 +40,23 @@ def draw(
     linewidth: float = 0.8,
 ) -> tuple[Any, Any]:
     """Draws the cells of a tree of the plane, coloured by the number of cuts on the way to each, and its pieces over
-    them. ``lo`` and ``hi`` are the corners of what is drawn, and unless they are given those of all pieces.
+    them.
 
-    Returns the two collections that were added to the axes.
+    :param ax: axes of matplotlib
+    :param tree: a tree of the plane
+    :param lo, hi: (2,), corners of what is drawn; None: those of all pieces
+    :param cmap, alpha: colours of the cells
+    :param color, linewidth: of the pieces
+    :returns: the two collections that were added to the axes
+    :raises ValueError: the tree is not one of the plane
+    :cost: O(height) for each cell that is drawn
+
+    >>> import froe, froe.mpl
+    >>> from matplotlib import pyplot
+    >>> tree = froe.segments([[0, 0, 2, 2], [0, 2, 2, 0]]).build("autopartition", leaf=0)
+    >>> cells, lines = froe.mpl.draw(pyplot.figure().add_subplot(), tree)
+    >>> len(cells.get_paths())
+    4
     """
     from matplotlib.collections import LineCollection, PolyCollection
 
@@ -64,12 +78,17 @@ def draw(
 
 
 def draw3d(ax: Any, triangles: npt.ArrayLike | Tree, *, color: Any = "0.8", shade: bool = True, **style: Any) -> Any:
-    """Draws triangles in axes with ``projection="3d"``: an array (n, 3, 3), or a tree of triangles that was built with
-    ``purpose="draw"``. The order is found anew whenever the axes are drawn, so that they may be turned.
+    """Draws triangles in axes with ``projection="3d"``. The order is found anew whenever the axes are drawn, so that
+    they may be turned.
 
-    ``color`` is one colour, or one for each triangle. With ``shade`` triangles are darker the more they are turned
-    away from a light at the upper left. ``style`` goes to ``Poly3DCollection``. Returns the collection, of which
-    ``tree`` is the tree.
+    :param ax: axes of matplotlib
+    :param triangles: (n, 3, 3), or a tree of triangles that was built with ``purpose="draw"``
+    :param color: one colour, or one for each triangle
+    :param shade: triangles are darker the more they are turned away from a light at the upper left
+    :param style: goes to ``Poly3DCollection``
+    :returns: the collection; its ``tree`` is the tree
+    :raises ArrayError: the array has another shape or type
+    :cost: that of building a tree, once, and O(pieces) whenever the axes are drawn
     """
     from froe.scene import triangles as scene_of
     from froe.tree import Tree

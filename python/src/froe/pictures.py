@@ -33,9 +33,16 @@ FORMATS = {".svg": SVG, ".pdf": PDF, ".eps": EPS}
 class RenderReport:
     """What a picture shows.
 
-    :ivar pieces: pieces of the tree that were looked at before the picture was closed
-    :ivar visible_faces: faces of which something is visible, and ``hidden_faces`` those behind others
-    :ivar shapes: in the file, as are ``lines``, ``points`` and ``paths``
+    :ivar paint: how faces were filled: ``"whole"``, ``"regions"`` or ``"fragments"``
+    :ivar pieces: pieces of the tree that were looked at before nothing behind them could be visible any more
+    :ivar visible_pieces: visible parts of pieces
+    :ivar visible_faces: faces of which something is visible
+    :ivar hidden_faces: faces that are wholly behind others
+    :ivar shapes: filled shapes in the file
+    :ivar lines: strokes in the file
+    :ivar points: of the strokes those that are points
+    :ivar paths: elements of the file that hold shapes and lines
+    :ivar bytes: size of the file
     """
 
     paint: str
@@ -51,10 +58,11 @@ class RenderReport:
 
 
 class Picture:
-    """A picture, as SVG, which notebooks show. ``save`` writes a file; its ending says of which format.
+    """A picture as SVG, which notebooks show. ``save`` writes a file of any format.
 
     :ivar svg: the picture as text
-    :ivar report: what it shows, for those with hidden surfaces removed; otherwise None
+    :ivar report: what it shows, for pictures with hidden surfaces removed; otherwise None
+    :param svg, report, writer: are those of ``Tree.render`` and ``Tree.draw``, which make pictures
     """
 
     def __init__(
@@ -68,8 +76,13 @@ class Picture:
         return self.svg
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes ``.svg``; pictures with hidden surfaces removed also ``.pdf``, ``.eps``, and the lines alone as
-        ``.csv`` and ``.geojson``.
+        """Writes a file.
+
+        :param path: ends in .svg; for pictures with hidden surfaces removed also .pdf, .eps, and .csv or .geojson with
+            the lines alone
+        :raises UnsupportedError: the picture cannot be written in that format
+        :raises FileError: the file cannot be written
+        :cost: that of making the picture again
 
         >>> import froe, tempfile, os
         >>> picture = froe.segments([[0, 0, 1, 1]]).build().draw()

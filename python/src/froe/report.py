@@ -8,7 +8,12 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Promise:
-    """A bound that a method promises of its trees, and what was measured. It holds where measured <= promised."""
+    """A bound that a method promises of its trees, beside what was measured.
+
+    :ivar name: what is bounded, for example ``"height"``
+    :ivar promised: the bound, for this scene
+    :ivar measured: the value of this tree
+    """
 
     name: str
     promised: float
@@ -24,17 +29,35 @@ class Promise:
 class Report:
     """Counts of a tree, as ``froe build`` prints them.
 
+    :ivar method: that built the tree
+    :ivar settings: all options of the method, as ``"name=value ..."``
+    :ivar dim: dimension of the space
+    :ivar leaf: the most objects of a leaf that were asked for
+    :ivar seed: of random choices
+    :ivar objects: of the scene
+    :ivar nodes: of the tree, with its leaves
+    :ivar leaves: nodes without a cut
+    :ivar pieces: in all lists of nodes
+    :ivar in_cut: pieces that lie in the cut of their node
+    :ivar covers: pieces that contain the whole region of their node
+    :ivar size: nodes and entries of lists
+    :ivar height: the number of cuts on the longest path
+    :ivar mean_depth: the number of cuts on the way to a piece, on average
+    :ivar max_leaf: pieces in the fullest leaf
+    :ivar inseparable: leaves over capacity that nothing can separate
+    :ivar crowded: leaves over capacity that more cuts would not thin out
+    :ivar bytes: of the tree, without its scene
+    :ivar predicates: how often the side of a point was decided while the tree was built; 0 for one that was opened
+    :ivar predicates_by_id: of these, because the point is known to be on the line or plane
+    :ivar predicates_filtered: in doubles, with a bound of the error
+    :ivar predicates_refined: with more digits
+    :ivar predicates_exact: by exact numbers
+    :ivar promises: bounds that the method promises
+
     >>> import froe
     >>> report = froe.points([[0, 0], [1, 1]]).build("kd").report
     >>> report.method, report.objects, report.pieces
     ('kd', 2, 2)
-
-    :ivar method: that built the tree, and ``settings`` all its options
-    :ivar pieces: in all lists; of these ``in_cut`` lie in the cut of their node, and ``covers`` contain its region
-    :ivar size: nodes and entries of lists; ``height`` is the number of cuts on the longest path
-    :ivar inseparable: leaves over capacity that nothing can separate; ``crowded``: that more cuts would not thin out
-    :ivar bytes: of the tree, without its scene
-    :ivar predicates: sides that were asked for while building, and by which stage each was decided
     """
 
     method: str
@@ -64,7 +87,7 @@ class Report:
 
     @property
     def pieces_per_object(self) -> float:
-        """At least 1, unless there are no objects."""
+        """The number of pieces divided by that of objects: at least 1, and 0 where there are no objects."""
         return self.pieces / self.objects if self.objects else 0.0
 
 

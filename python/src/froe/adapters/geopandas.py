@@ -21,9 +21,13 @@ if TYPE_CHECKING:
 
 
 def from_geopandas(table: Any, names: str | None = None) -> Scene:
-    """A scene of a GeoDataFrame or GeoSeries: row ``i``, by position, is group ``i``, as in :func:`froe.from_shapely`.
+    """A scene of the plane from a GeoDataFrame or GeoSeries. Row ``i``, by position, is group ``i``, as in
+    :func:`froe.from_shapely`.
 
-    ``names`` is the column that names the groups.
+    :param table: the GeoDataFrame or GeoSeries
+    :param names: the column that names the groups
+    :raises KeyError: there is no such column
+    :cost: that of ``from_shapely``
     """
     labels = None if names is None else [str(label) for label in table[names]]
     return features(np.asarray(table.geometry, object)).scene(labels)

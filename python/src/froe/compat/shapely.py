@@ -72,10 +72,16 @@ class STRtree:
         return Nearest(self._relations)
 
     def query(self, geometry: Any, predicate: str | None = None, distance: Any = None) -> Integers:
-        """Indices of the geometries of the tree that ``predicate(geometry, tree_geometry)`` holds for.
+        """The geometries of the tree that ``predicate(geometry, tree_geometry)`` holds for.
 
-        Without a predicate those whose bounding box meets the geometry's. ``"dwithin"`` takes ``distance``, a number
-        or one for each geometry.
+        :param geometry: one geometry, or an array of them
+        :param predicate: None: their bounding boxes meet; otherwise a name that ``shapely.STRtree`` knows
+        :param distance: for ``"dwithin"``: a number, or one for each geometry
+        :returns: indices (m,) for one geometry, and (2, m) for an array: those of geometries, and of geometries of the
+            tree
+        :raises ValueError: there is no such predicate, or ``"dwithin"`` has no distance
+        :raises UnsupportedError: the interior of a collection of several dimensions would decide
+        :cost: that of ``Tree.query`` for bounding boxes, of ``Tree.join_groups`` for predicates
         """
         single, asked = _asked(geometry)
         if predicate == "dwithin":
@@ -89,8 +95,18 @@ class STRtree:
         return indices
 
     def nearest(self, geometry: Any) -> Any:
-        """The index of the nearest geometry of the tree for each geometry, of several the first. None if the tree is
-        empty."""
+        """The nearest geometry of the tree to each geometry, of several the first.
+
+        :param geometry: one geometry, or an array of them
+        :returns: an index, or (n,) for an array; None where the tree is empty
+        :raises ValueError: a geometry is missing or empty
+        :cost: that of ``Tree.nearest`` for the corners of each geometry
+
+        >>> from froe.compat.shapely import STRtree
+        >>> from shapely.geometry import Point
+        >>> int(STRtree([Point(0, 0), Point(5, 5)]).nearest(Point(4, 4)))
+        1
+        """
         if len(self) == 0:
             return None
         single, asked = _asked(geometry)
@@ -108,8 +124,19 @@ class STRtree:
         exclusive: bool = False,
         all_matches: bool = True,
     ) -> Any:
-        """Indices of the geometries of the tree that are nearest to each geometry, and their distances: the doubles
-        nearest to the exact ones. That two distances are equal is decided exactly."""
+        """The geometries of the tree that are nearest to each geometry. That two are equally near is decided exactly.
+
+        :param geometry: one geometry, or an array of them
+        :param max_distance: those farther away do not count
+        :param return_distance: also the distances
+        :param exclusive: True is refused
+        :param all_matches: all that are equally near; otherwise the first of them
+        :returns: indices as ``query`` returns them; with ``return_distance`` also their distances (m,), the doubles
+            nearest to the exact ones
+        :raises ValueError: ``max_distance`` is not above 0
+        :raises UnsupportedError: ``exclusive`` is True
+        :cost: that of ``Tree.nearest`` for the corners of each geometry
+        """
         if max_distance is not None and not max_distance > 0:
             raise ValueError("max_distance must be greater than 0.")
         single, asked = _asked(geometry)
