@@ -15,6 +15,7 @@ from .adapters.shapely import from_shapely, to_shapely
 from .answers import Answers
 from .errors import Error
 from .motion import Contacts, Events, Kinetic, Motion, Snapshot, read_motion
+from .parts import Cells, Pieces
 from .pictures import Picture, RenderReport
 from .report import Promise, Report
 from .scene import (
@@ -30,7 +31,7 @@ from .scene import (
     segments,
     triangles,
 )
-from .tree import Cells, Pieces, Tree, open
+from .tree import Tree, open
 
 __all__ = [
     "Answers",

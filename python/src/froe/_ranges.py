@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from fractions import Fraction
 from typing import Any, Literal, NamedTuple, get_args
 
 import numpy as np
 import numpy.typing as npt
 
-from ._arrays import Doubles, doubles, rows
-from .errors import ArrayError, OptionError
+from ._arrays import Doubles, doubles, point, rows
+from .errors import ArrayError, OptionError, UnsupportedError
 
 BOX, BALL, CAPSULE, HULL, SEGMENT = 0, 1, 3, 5, 6  # froe_range_shape
 
@@ -27,13 +28,54 @@ class Ranges(NamedTuple):
     radii: Doubles | None = None
 
 
+def one_or_many(
+    dim: int,
+    boxes: npt.ArrayLike | None = None,
+    ball: Any = None,
+    polygon: npt.ArrayLike | None = None,
+    **many: Any,
+) -> tuple[bool, Ranges]:
+    """Is a single range asked for? And the ranges."""
+    if ball is not None:
+        if not isinstance(ball, tuple) or len(ball) != 2:
+            raise ArrayError("A ball is a tuple of its centre and its radius.")
+        return True, of(dim, boxes, balls=(point(ball[0], "centre", dim)[None], ball[1]), **many)
+    if polygon is not None:
+        return True, of(dim, boxes, hulls=[convex(rows(polygon, "polygon", dim, dim))], **many)
+    if boxes is not None and np.ndim(box := doubles(boxes, "boxes")) == 1 and len(box):
+        return True, of(dim, point(box, "box", 2 * dim)[None], **many)
+    return False, of(dim, boxes, **many)
+
+
+def convex(corners: Doubles) -> Doubles:
+    """The corners of a polygon of the plane, if it is convex."""
+    if corners.shape[1] != 2 or len(corners) < 3:
+        raise ArrayError(f"polygon must have the shape (n, 2) with 3 corners at least, and has {corners.shape}.")
+    if not np.isfinite(corners).all():
+        return corners  # which is refused as any range is
+    points = [(Fraction(x), Fraction(y)) for x, y in corners.tolist()]
+    steps = [(b[0] - a[0], b[1] - a[1]) for a, b in zip(points, points[1:] + points[:1]) if a != b]
+    nowhere = (Fraction(0), Fraction(0))
+    turns = [u[0] * v[1] - u[1] * v[0] for u, v in zip(steps, steps[1:] + steps[:1])]
+    back = any(turn == 0 and u[0] * v[0] + u[1] * v[1] < 0 for turn, u, v in zip(turns, steps, steps[1:] + steps[:1]))
+    # Of a polygon that turns one way alone and goes round once, the steps go up once and down once.
+    ups = [v > nowhere for v in steps]
+    rounds = sum(a != b for a, b in zip(ups, ups[1:] + ups[:1]))
+    if back or rounds > 2 or (min(turns, default=0) < 0 < max(turns, default=0)):
+        raise UnsupportedError(
+            "The polygon is not convex. What lies in other polygons is answered by join_groups(), where they are groups "
+            "of a tree, and by froe.compat.shapely.STRtree."
+        )
+    return corners
+
+
 def of(
     dim: int,
-    boxes: npt.ArrayLike | None,
-    balls: Round | None,
-    segments: npt.ArrayLike | None,
-    capsules: Round | None,
-    hulls: Points | None,
+    boxes: npt.ArrayLike | None = None,
+    balls: Round | None = None,
+    segments: npt.ArrayLike | None = None,
+    capsules: Round | None = None,
+    hulls: Points | None = None,
 ) -> Ranges:
     """The one kind that is given."""
     given = sum(shape is not None for shape in (boxes, balls, segments, capsules, hulls))

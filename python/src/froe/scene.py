@@ -232,24 +232,60 @@ class Scene:
         return Tree(self._core.build(method, purpose, settings, leaf, seed, None, max_pieces, threads, progress))
 
 
-def segments(segments: npt.ArrayLike, dim: int = 2) -> Scene:
-    """A scene of segments: an array (n, 4) or (n, 2, 2), or of more columns in higher dimensions."""
-    scene = Scene(dim)
-    scene.add_segments(segments)
+def _dim(array: Doubles, name: str, ends: int, dim: int | None) -> int:
+    """The dimension that an array has where none is given: that of its rows of one or two ends."""
+    if dim is not None:
+        return dim
+    if array.size == 0:
+        return 2
+    width = array.shape[-1] * (ends if array.ndim == 3 else 1) if array.ndim else 0
+    if array.ndim < 2 or width % ends:
+        raise ArrayError(f"{name} must have the shape (n, {ends} dim), and has {array.shape}.")
+    return width // ends
+
+
+def segments(segments: npt.ArrayLike, dim: int | None = None) -> Scene:
+    """A scene of segments: an array (n, 2 dim) or (n, 2, dim).
+
+    >>> import froe
+    >>> froe.segments([[0, 0, 1, 1]]), froe.segments([[0, 0, 0, 1, 1, 1]])
+    (<froe.Scene: 1 objects in R^2>, <froe.Scene: 1 objects in R^3>)
+    """
+    array = doubles(segments, "segments")
+    scene = Scene(_dim(array, "segments", 2, dim))
+    scene.add_segments(array)
     return scene
 
 
-def points(points: npt.ArrayLike, dim: int = 2) -> Scene:
-    """A scene of points: an array (n, dim)."""
-    scene = Scene(dim)
-    scene.add_points(points)
+def points(points: npt.ArrayLike, dim: int | None = None) -> Scene:
+    """A scene of points: an array (n, dim).
+
+    >>> import froe
+    >>> froe.points([[0, 0, 1], [2, 2, 2]])
+    <froe.Scene: 2 objects in R^3>
+    """
+    array = doubles(points, "points")
+    scene = Scene(_dim(array, "points", 1, dim))
+    scene.add_points(array)
     return scene
 
 
-def boxes(boxes: npt.ArrayLike, dim: int = 2) -> Scene:
-    """A scene of boxes: an array (n, 2 dim) of lower and upper corners."""
-    scene = Scene(dim)
-    scene.add_boxes(boxes)
+def boxes(boxes: npt.ArrayLike, hi: npt.ArrayLike | None = None, dim: int | None = None) -> Scene:
+    """A scene of boxes: an array (n, 2 dim) of lower and upper corners, or lower and upper corners as an array (n, dim)
+    each.
+
+    >>> import froe
+    >>> froe.boxes([[0, 0, 1, 1]]).bounds.tolist(), froe.boxes([[0, 0]], [[1, 1]]).bounds.tolist()
+    ([[0.0, 0.0], [1.0, 1.0]], [[0.0, 0.0], [1.0, 1.0]])
+    """
+    array = doubles(boxes, "boxes")
+    if hi is not None:
+        upper = doubles(hi, "hi")
+        if upper.shape != array.shape or array.ndim != 2:
+            raise ArrayError(f"Lower and upper corners have the shapes {array.shape} and {upper.shape}.")
+        array = np.hstack([array, upper])
+    scene = Scene(_dim(array, "boxes", 2, dim))
+    scene.add_boxes(array)
     return scene
 
 

@@ -18,8 +18,8 @@ import numpy as np
 from froe.adapters.features import Features, of_mappings
 
 if TYPE_CHECKING:
+    from froe.parts import Cells
     from froe.scene import Scene
-    from froe.tree import Cells
 
 _POINT, _POLYGON, _SIMPLE = 0, 3, 3  # of shapely.get_type_id(): types above are collections
 
