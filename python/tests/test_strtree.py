@@ -87,6 +87,37 @@ def test_nearest_are_those_that_shapely_measures(seed, limit):
             assert (i, j) in set(zip(*found.tolist()))
 
 
+@pytest.mark.parametrize("seed", range(20))
+@pytest.mark.parametrize("limit", [None, 1.5])
+def test_nearest_but_for_equal_ones(seed, limit):
+    """Nothing but what shapely calls equal is left out, so that an index may be asked for its own geometries."""
+    random = randoms.Random(seed)
+    kept = geometries.some(random, 12, [*geometries.ALL, geometries.missing])
+    asked = kept + [one.buffer(0) if one and one.area else one for one in kept[:4]]  # equal, from another corner on
+    found, lengths = STRtree(kept).query_nearest(asked, max_distance=limit, return_distance=True, exclusive=True)
+    distances = {}
+    for i, one in enumerate(asked):
+        for j, other in enumerate(kept):
+            if one is not None and other is not None and not one.is_empty and not other.is_empty:
+                if not one.equals(other) and (limit is None or one.distance(other) <= limit):
+                    distances[i, j] = one.distance(other)
+    assert {i for i, _ in distances} == set(found[0].tolist())
+    for i, j, length in zip(*found.tolist(), lengths):
+        assert length == pytest.approx(min(far for (k, _), far in distances.items() if k == i), rel=1e-12)
+        assert distances[i, j] == pytest.approx(length, rel=1e-12)
+
+
+def test_many_points_at_one_place_are_passed_over():
+    tree = STRtree([Point(0, 0)] * 30 + [Point(3, 4), Point(-3, -4)])
+    found, distances = tree.query_nearest(Point(0, 0), exclusive=True, return_distance=True)
+    assert found.tolist() == [30, 31] and distances.tolist() == [5, 5]
+    line = LineString([(0, 0), (0, 1)])
+    tree = STRtree([line, LineString([(0, 1), (0, 0.25), (0, 0)]), LineString([(2, 0), (2, 1)])])
+    assert tree.query_nearest(line, exclusive=True).tolist() == [2]
+    assert STRtree([line]).query_nearest(line, exclusive=True).tolist() == []
+    assert STRtree([Point(1, 1)] * 5).query_nearest([Point(1, 1)], exclusive=True).shape == (2, 0)
+
+
 def test_ties_are_decided_exactly():
     """Both are 0.1 away from the point, as doubles say; the second is nearer by 10^-30."""
     near = np.nextafter(0.1, 0)

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from froe.adapters.features import Features
-from froe.compat.layers import pairs
+from froe.compat.layers import among, pairs, without
 from froe.compat.relations import Relations
 
 Floats = npt.NDArray[np.float64]
@@ -27,9 +27,11 @@ class Nearest:
         #: the two ends of each object of the tree; those of points are equal
         self.ends = np.concatenate([features.segments, points, features.flat()[0]])
 
-    def nearest(self, asked: Features, limit: float | None) -> tuple[Integers, Floats]:
-        """Pairs, all that are equally near, and their distances: those below or at the limit."""
-        met = self.relations.intersecting(asked)
+    def nearest(self, asked: Features, limit: float | None, exclusive: bool = False) -> tuple[Integers, Floats]:
+        """Pairs, all that are equally near, and their distances: those below or at the limit; with `exclusive` without
+        geometries that are the same set of points."""
+        passed_over = self.relations.equal(asked) if exclusive else np.empty((2, 0), np.int64)
+        met = without(self.relations.intersecting(asked), passed_over)
         found = [met]
         distances = [np.zeros(met.shape[1])]
         empty = np.isnan(asked.bounds()[:, 0])
@@ -39,8 +41,8 @@ class Nearest:
             np.bincount(asked.segment_of, minlength=asked.count) == 0
         )
         for pair, distance in (
-            self._of_points(asked, apart[single[apart]], limit),
-            *(self._of_geometry(asked, int(one), limit) for one in apart[~single[apart]]),
+            self._of_points(asked, apart[single[apart]], limit, passed_over),
+            *(self._of_geometry(asked, int(one), limit, passed_over) for one in apart[~single[apart]]),
         ):
             found.append(pair)
             distances.append(distance)
@@ -48,8 +50,10 @@ class Nearest:
         order = np.lexsort((both[1], both[0]))
         return both[:, order], lengths[order]
 
-    def _of_points(self, asked: Features, which: Integers, limit: float | None) -> tuple[Integers, Floats]:
-        """Of geometries that are one point each and meet nothing."""
+    def _of_points(
+        self, asked: Features, which: Integers, limit: float | None, passed_over: Integers
+    ) -> tuple[Integers, Floats]:
+        """Of geometries that are one point each and meet nothing but what is passed over."""
         place = np.full(asked.count, -1)
         place[asked.point_of] = np.arange(len(asked.points))
         points = asked.points[place[which]]
@@ -62,11 +66,12 @@ class Nearest:
             )
             row, value = np.repeat(np.arange(len(rows)), answers.counts()), answers.values
             assert value is not None
+            passed = among(np.stack([which[rows[row]], self.relations.owner[answers.ids]]), passed_over)
             least = np.full(len(rows), np.inf)
-            least[answers.counts() > 0] = value[answers.starts[:-1][answers.counts() > 0]]
-            tied = value == least[row]
-            ties = np.bincount(row, tied, minlength=len(rows))
-            more = (ties == wanted) & (wanted < objects)  # those farther on may be as near
+            np.minimum.at(least, row[~passed], value[~passed])
+            tied = (value == least[row]) & ~passed
+            seen = np.bincount(row, tied | passed, minlength=len(rows))
+            more = (seen == wanted) & (wanted < objects)  # those farther on may be as near
             use = tied & ~more[row]
             first.append(rows[row[use]])
             second.append(answers.ids[use].astype(np.int64))
@@ -93,12 +98,16 @@ class Nearest:
         both, index = np.unique(found, axis=1, return_index=True)
         return both, lengths[keep][index]
 
-    def _of_geometry(self, asked: Features, one: int, limit: float | None) -> tuple[Integers, Floats]:
-        """Of one geometry that meets nothing. Segments that do not meet are nearest at an end of one of them. The
-        nearest object to any corner bounds the distance; what is within that of a segment is compared exactly."""
+    def _of_geometry(
+        self, asked: Features, one: int, limit: float | None, passed_over: Integers
+    ) -> tuple[Integers, Floats]:
+        """Of one geometry that meets nothing but what is passed over. Segments that do not meet are nearest at an end
+        of one of them. The nearest object to any corner bounds the distance; what is within that of a segment is
+        compared exactly."""
         corners, owner = asked.corners()
         bound = math.inf if limit is None else limit
-        best = self.relations.tree.nearest(corners[owner == one], max_distance=bound)[1].min(initial=math.inf)
+        passed = passed_over[1, passed_over[0] == one]
+        best = self._least(corners[owner == one], bound, passed)
         reach = min(bound, math.nextafter(best, math.inf))
         nothing = np.empty((2, 0), np.int64), np.empty(0)
         if math.isinf(reach):
@@ -112,12 +121,25 @@ class Nearest:
         for segment, thing in found.T:
             square = segment_square(segments[segment], self.ends[thing])
             geometry = int(self.relations.owner[thing])
+            if geometry in passed:
+                continue
             squares[geometry] = min(square, squares.get(geometry, square))
         if not squares:
             return nothing
         least = min(squares.values())
         nearest = sorted(geometry for geometry, square in squares.items() if square == least)
         return np.array([[one] * len(nearest), nearest]), np.full(len(nearest), rounded_root(least))
+
+    def _least(self, corners: Floats, bound: float, passed: Integers) -> float:
+        """The distance of the nearest object to any of the corners, but for those of the geometries passed over."""
+        wanted, objects = 2, len(self.ends)
+        while True:
+            answers = self.relations.tree.nearest(corners, k=wanted, max_distance=bound)
+            assert answers.values is not None
+            others = ~np.isin(self.relations.owner[answers.ids], passed)
+            if others.any() or wanted >= objects:
+                return float(answers.values[others].min(initial=math.inf))
+            wanted *= 4
 
 
 def point_square(point: Floats, ends: Floats) -> Fraction:

@@ -55,6 +55,12 @@ class Relations(Layer):
     def _covered_by(self, asked: Layer) -> Integers:
         return self.tree.join_groups(asked.tree, relation="covers").pairs()
 
+    def equal(self, asked: Features) -> Integers:
+        """Pairs that are the same set of points."""
+        layer = Layer(asked)
+        covers = self._covers(layer)
+        return covers[:, among(covers, self._covered_by(layer))]
+
     def _contains(self, asked: Layer) -> Integers:
         covered = self._alike(asked, self._covers(asked))
         return without(covered, self.tree.join_groups(asked.boundary.tree, relation="within").pairs())

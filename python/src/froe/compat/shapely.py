@@ -25,7 +25,6 @@ from froe.adapters.features import Features
 from froe.adapters.shapely import features
 from froe.compat.nearest import Nearest
 from froe.compat.relations import Relations
-from froe.errors import UnsupportedError
 
 Floats = npt.NDArray[np.float64]
 Integers = npt.NDArray[np.int64]
@@ -129,20 +128,17 @@ class STRtree:
         :param geometry: one geometry, or an array of them
         :param max_distance: those farther away do not count
         :param return_distance: also the distances
-        :param exclusive: True is refused
+        :param exclusive: pass over those that are the same set of points as the geometry
         :param all_matches: all that are equally near; otherwise the first of them
         :returns: indices as ``query`` returns them; with ``return_distance`` also their distances (m,), the doubles
             nearest to the exact ones
         :raises ValueError: ``max_distance`` is not above 0
-        :raises UnsupportedError: ``exclusive`` is True
         :cost: that of ``Tree.nearest`` for the corners of each geometry
         """
         if max_distance is not None and not max_distance > 0:
             raise ValueError("max_distance must be greater than 0.")
         single, asked = _asked(geometry)
-        if exclusive:
-            raise UnsupportedError("The exact nearest geometries are not found with exclusive=True.")
-        found, distances = self._nearest.nearest(asked, max_distance)
+        found, distances = self._nearest.nearest(asked, max_distance, exclusive)
         if not all_matches:
             first = np.unique(found[0], return_index=True)[1]
             found, distances = found[:, first], distances[first]
