@@ -166,11 +166,10 @@ froe_status view_order_check(const froe_tree *tree, bool faces, froe_diagnostic 
     }
     if (!ordered) return FROE_OK;
     if (tree_is_space(tree))
-        return support_fail(
-            diag, FROE_E_UNSUPPORTED,
-            "A tree of method '%s' lists whole objects, which are in no depth order. A tree for the "
-            "purpose \"draw\" has pieces, which are.",
-            tree->meta.method);
+        return support_fail(diag, FROE_E_UNSUPPORTED,
+                            "A tree of method '%s' lists whole objects, which are in no depth order. A tree for the "
+                            "purpose \"draw\" has pieces, which are.",
+                            tree->meta.method);
     if (tree->report.max_leaf <= 1) return FROE_OK;
     if (geom_context_new(&tree->alloc, &context)) return support_fail_memory(diag);
     for (uint32_t node = 0; node < tree->node_count && !status; node++) {
