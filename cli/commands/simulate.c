@@ -9,6 +9,7 @@
 #include <froe/io.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 typedef struct simulate_args {
     cli_common common;
@@ -19,8 +20,8 @@ typedef struct simulate_args {
 } simulate_args;
 
 static const cli_option options[] = {
-    {NULL, 0, CLI_TEXT, offsetof(simulate_args, path), "MOVING", .file = CLI_READ, .help = "moving features (MF-JSON)",
-     .required = true},
+    {NULL, 0, CLI_TEXT, offsetof(simulate_args, path), "MOVING", .file = CLI_READ,
+     .help = "moving features (MF-JSON); - is standard input", .required = true},
     {"poses", 0, CLI_TEXT, offsetof(simulate_args, poses), "FILE", .file = CLI_READ,
      .help = "MOVING is a model; its parts move as a table says: body,time,x,y,z,qx,qy,qz,qw (.csv)"},
     {"from", 0, CLI_REAL, offsetof(simulate_args, from), "T", .help = "begin here (default: the file's first instant)"},
@@ -140,6 +141,10 @@ static int check(const simulate_args *args) {
     return 0;
 }
 
+static const char *or_standard_input(const char *path) {
+    return strcmp(path, "-") ? path : "/dev/stdin";
+}
+
 /* The motion of a file, or of a model by a table of poses. Returns an exit code. */
 static int read_moving(simulation *s) {
     const simulate_args *args = s->args;
@@ -150,10 +155,13 @@ static int read_moving(simulation *s) {
     froe_scene *model = NULL;
     froe_read_report read;
     const cli_scene_args scene = {.path = args->path, .faces = FROE_FACES_TRIANGLES};
+    if (args->poses && !strcmp(args->path, "-"))
+        return cli_fail(CLI_USE, NULL, "With --poses, MOVING is the file of a model, and not standard input.");
     const int code = args->poses ? cli_read_scene(&args->common, &scene, &model, &read) : 0;
     if (code) return code;
-    const froe_status status = args->poses ? froe_read_poses(args->poses, model, &o, &s->motion, &s->read, &diag)
-                                           : froe_read_motion(args->path, &o, &s->motion, &s->read, &diag);
+    const char *path = or_standard_input(args->poses ? args->poses : args->path);
+    const froe_status status = args->poses ? froe_read_poses(path, model, &o, &s->motion, &s->read, &diag)
+                                           : froe_read_motion(path, &o, &s->motion, &s->read, &diag);
     froe_scene_free(model);
     return status ? cli_fail_status(CLI_READING, NULL, status, &diag) : 0;
 }

@@ -353,6 +353,10 @@ static froe_status take_moving(reading *r, const formats_json *geometry) {
     if (r->dim && r->dim != dim)
         return fail_feature(r, FROE_E_INPUT, "It moves in %s, and those before it do not.",
                             dim == 3 ? "space" : "the plane");
+    if (dim == 2 && formats_json_get(base, "coordinates"))
+        return fail_feature(r, FROE_E_FORMAT, "Its base has coordinates, but no triangles.");
+    if (dim == 2 && formats_json_get(geometry, "turns"))
+        return fail_feature(r, FROE_E_FORMAT, "It has turns, but no base with triangles.");
     r->dim = dim;
     int which = 0;
     while (which < FORMS && type && strcmp(type, forms[dim - 2][which]) != 0) which++;

@@ -254,6 +254,18 @@ static froe_status add_triangles(pose_reading *r) {
     return froe_motion_add(r->motion, &b, r->diag);
 }
 
+/* Is a part in the window that moves? Or does none move at all, so that there is nothing to miss? */
+static bool shows_motion(const pose_reading *r, const froe_motion_options *window) {
+    bool moves = false;
+    for (size_t g = 0; g < r->names.count; g++) {
+        const size_t first = r->starts.data[g], end = r->starts.data[g + 1];
+        if (end <= first + 1) continue;
+        moves = true;
+        if (pose_of(r, first)->at[TIME] <= window->end && pose_of(r, end - 1)->at[TIME] >= window->begin) return true;
+    }
+    return !moves;
+}
+
 static froe_status make_motion(pose_reading *r, const froe_motion_read_options *o) {
     froe_diagnostic why;
     froe_motion_options w = froe_motion_defaults();
@@ -268,6 +280,10 @@ static froe_status make_motion(pose_reading *r, const froe_motion_read_options *
     if (status) return support_fail(r->diag, status, "%s: %s", support_short(r->path), why.message);
     status = sort_poses(r);
     if (!status) status = add_parts(r);
+    if (!status && !shows_motion(r, &w))
+        return support_fail(r->diag, FROE_E_INPUT,
+                            "%s: No part moves from %.17g to %.17g. All rows are from %.17g to %.17g.",
+                            support_short(r->path), w.begin, w.end, r->first, r->last);
     return status ? status : add_triangles(r);
 }
 

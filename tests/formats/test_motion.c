@@ -169,6 +169,21 @@ static void what_is_wrong_in_space_is_said_with_the_feature(void **state) {
                    "bad.mfjson: feature 0: body 0: The quaternion of turn 1, 0 0 0 0, has not the length 1.");
 }
 
+/* The standard's base, a file of a model, says how a point looks; one with coordinates would be a body. */
+static void a_base_without_triangles_is_no_point(void **state) {
+    (void)state;
+#define POINT(base)                                                                                                    \
+    "{\"type\":\"Feature\",\"temporalGeometry\":{\"type\":\"MovingPoint\",\"datetimes\":[0,1],"                        \
+    "\"coordinates\":[[0,0],[1,1]]" base "}}"
+    assert_refused(POINT(",\"base\":{\"coordinates\":[[0,0,0],[1,0,0],[0,1,0]]}"), FROE_E_FORMAT,
+                   "bad.mfjson: feature 0: Its base has coordinates, but no triangles.");
+    assert_refused(POINT(",\"turns\":[[0,0,0,1],[0,0,0,1]]"), FROE_E_FORMAT,
+                   "bad.mfjson: feature 0: It has turns, but no base with triangles.");
+    froe_motion *m = read_text(POINT(",\"base\":{\"type\":\"glTF\",\"href\":\"car.gltf\"}"), NULL);
+    assert_true(froe_motion_window(m).dim == 2 && froe_motion_object_count(m) == 1);
+    froe_motion_free(m);
+}
+
 static void what_is_wrong_is_said_with_the_feature(void **state) {
     (void)state;
     assert_refused("{", FROE_E_FORMAT, "bad.mfjson: line 1: JSON needs a string or '}' near the end of the file.");
@@ -387,6 +402,7 @@ int main(void) {
         cmocka_unit_test(quadratic_interpolation_continues_its_velocity),
         cmocka_unit_test(triangles_move_in_space),
         cmocka_unit_test(what_is_wrong_in_space_is_said_with_the_feature),
+        cmocka_unit_test(a_base_without_triangles_is_no_point),
         cmocka_unit_test(what_is_wrong_is_said_with_the_feature),
         cmocka_unit_test(every_kind_of_motion_survives_a_file),
         cmocka_unit_test(motions_that_the_format_cannot_say_are_refused),

@@ -123,6 +123,31 @@ static void what_is_wrong_is_said_with_line_or_part(void **state) {
     froe_scene_free(model);
 }
 
+/* A window in which no part that moves is there would give an answer about nothing. */
+static void a_window_beside_all_motion_is_refused(void **state) {
+    (void)state;
+    static const double windows[][2] = {{3, 4}, {-2, -1}, {2.5, NAN}, {0, 1}, {2, 3}, {-1, 0}};
+    froe_scene *model = make_model();
+    put("body,time,x,y,z\nstrut,0,1,0,0\nlid,0,0,0,0\nlid,2,0,0,1\nfloor,9,0,0,0\n");
+    for (size_t i = 0; i < sizeof windows / sizeof *windows; i++) {
+        froe_motion_read_options o = froe_motion_read_defaults();
+        froe_motion *m = NULL;
+        froe_diagnostic diag;
+        o.from = windows[i][0], o.to = windows[i][1];
+        const froe_status status = froe_read_poses("poses.csv", model, &o, &m, NULL, &diag);
+        assert_int_equal(status, i < 3 ? FROE_E_INPUT : FROE_OK);
+        if (!i) assert_string_equal(diag.message, "poses.csv: No part moves from 3 to 4. All rows are from 0 to 9.");
+        froe_motion_free(m);
+    }
+    put("body,time,x,y,z\nlid,5,0,0,1\n"); /* where nothing is to move, anything may be asked */
+    froe_motion_read_options o = froe_motion_read_defaults();
+    froe_motion *m = NULL;
+    o.from = 0, o.to = 1;
+    assert_int_equal(froe_read_poses("poses.csv", model, &o, &m, NULL, NULL), FROE_OK);
+    froe_motion_free(m);
+    froe_scene_free(model);
+}
+
 static froe_status read_with(void *user, const froe_allocator *alloc) {
     froe_motion_read_options o = froe_motion_read_defaults();
     froe_motion *m = NULL;
@@ -145,6 +170,7 @@ int main(void) {
         cmocka_unit_test(parts_fly_by_their_rows),
         cmocka_unit_test(a_part_of_one_row_stands_where_it_says),
         cmocka_unit_test(what_is_wrong_is_said_with_line_or_part),
+        cmocka_unit_test(a_window_beside_all_motion_is_refused),
         cmocka_unit_test(every_allocation_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -296,7 +296,11 @@ static void test_calls(void **state) {
     assert_int_equal(froe_kinetic_advance(k, (double)NAN, NULL, NULL, &why), FROE_E_ARG);
     assert_int_equal(froe_kinetic_remove(k, 1000, &why), FROE_E_ARG);
     assert_int_equal(froe_kinetic_replan(k, 1000, 0, NULL, NULL, NULL, &why), FROE_E_ARG);
-    assert_int_equal(froe_kinetic_new(NULL, NULL, NULL, &k, &why), FROE_E_ARG);
+    froe_kinetic *none = NULL;
+    assert_int_equal(froe_kinetic_new(NULL, &(froe_kinetic_options){0}, NULL, &none, &why), FROE_E_ARG);
+    assert_int_equal(froe_kinetic_new(m, NULL, NULL, &none, &why), FROE_E_ARG);
+    assert_int_equal(froe_kinetic_new(m, &(froe_kinetic_options){0}, NULL, &none, &why), FROE_E_OPTIONS);
+    assert_null(none);
     assert_null(froe_event_name(FROE_EVENT_KINDS));
     froe_kinetic_free(k);
     froe_kinetic_free(NULL);

@@ -51,7 +51,7 @@ typedef struct near_point {
 } near_point;
 
 /* Of what rounding adds there is less than the error of the course once more. */
-static void place(now_state *now, uint32_t vertex, double span, near_point *out) {
+static void place_vertex(now_state *now, uint32_t vertex, double span, near_point *out) {
     const now_course *c = now_course_of(now, vertex);
     const now_bend *bend = now->bends.data + vertex;
     const double s = (double)(now->tick - c->base), *const x[2] = {c->x, c->y}, b[2] = {bend->x, bend->y};
@@ -71,16 +71,16 @@ static void step_between(const near_point *p, const near_point *q, near_point *o
     for (int i = 0; i < 2; i++) subtract(q->at + i, p->at + i, out->at + i);
 }
 
-static void cross(const near_point *d, const near_point *e, near_poly *out) {
+static void turn_between(const near_point *d, const near_point *e, near_poly *out) {
     determinant(d->at, d->at + 1, e->at, e->at + 1, out);
 }
 
 /* How the line of a segment turns to a vertex: > 0 on its left. */
 static void turn_to(now_state *now, const uint32_t end[2], uint32_t vertex, double span, near_poly *out) {
     near_point a, b, q, d, e;
-    place(now, end[0], span, &a), place(now, end[1], span, &b), place(now, vertex, span, &q);
+    place_vertex(now, end[0], span, &a), place_vertex(now, end[1], span, &b), place_vertex(now, vertex, span, &q);
     step_between(&a, &b, &d), step_between(&a, &q, &e);
-    cross(&d, &e, out);
+    turn_between(&d, &e, out);
 }
 
 /* A point in one coordinate: base + off / turn; of a vertex base alone. */
@@ -91,9 +91,9 @@ typedef struct near_name {
 
 static void lines_turn(now_state *now, name_point p, double span, near_point v[4], near_point step[2], near_poly *out) {
     const uint32_t *s = now->segments.data[p.a].end, *t = now->segments.data[p.b].end;
-    for (int i = 0; i < 4; i++) place(now, i < 2 ? s[i] : t[i - 2], span, v + i);
+    for (int i = 0; i < 4; i++) place_vertex(now, i < 2 ? s[i] : t[i - 2], span, v + i);
     for (int i = 0; i < 2; i++) step_between(v + 2 * i, v + 2 * i + 1, step + i);
-    cross(step, step + 1, out);
+    turn_between(step, step + 1, out);
 }
 
 static void find_named(now_state *now, name_point p, int axis, double span, near_name *out) {
@@ -101,13 +101,13 @@ static void find_named(now_state *now, name_point p, int axis, double span, near
     near_poly shift;
     out->crossing = name_is_crossing(p);
     if (!out->crossing) {
-        place(now, p.a, span, v);
+        place_vertex(now, p.a, span, v);
         out->base = v->at[axis];
         return;
     }
     lines_turn(now, p, span, v, step, &out->turn);
     step_between(v, v + 2, &between);
-    cross(&between, step + 1, &shift);
+    turn_between(&between, step + 1, &shift);
     multiply(&shift, step->at + axis, &out->off);
     out->base = v->at[axis];
 }
