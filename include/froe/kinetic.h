@@ -215,9 +215,9 @@ FROE_API froe_kinetic_options froe_kinetic_defaults(void);
  * not what it should be, and snapshots are refused where triangles cross. In space it is made anew where a triangle
  * appears or disappears and where a plan takes another piece, what else happens at that tick is not told, and questions
  * and changes are refused with FROE_E_UNSUPPORTED; a snapshot answers questions. Bodies are refused alike. The motion
- * must outlive it. Until it is freed, plans are changed and objects added by the functions below only. FROE_E_ARG: motion,
- * options or out is NULL. FROE_E_OPTIONS: the order is not one, or the options are not from froe_kinetic_defaults().
- * FROE_E_UNSUPPORTED, FROE_E_MEMORY, FROE_E_CANCELLED.
+ * must outlive it. Until it is freed, plans are changed and objects added by the functions below only. FROE_E_ARG:
+ * motion, options or out is NULL. FROE_E_OPTIONS: the order is not one, or the options are not from
+ * froe_kinetic_defaults(). FROE_E_UNSUPPORTED, FROE_E_MEMORY, FROE_E_CANCELLED.
  * Expected O(n log^2 n + k log n) for n segments with k crossings. */
 FROE_API froe_status froe_kinetic_new(froe_motion *motion, const froe_kinetic_options *options,
                                       const froe_allocator *alloc, froe_kinetic **out, froe_diagnostic *diag);
