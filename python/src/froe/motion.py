@@ -255,7 +255,7 @@ class Motion:
 class Kinetic:
     """A partition of moving objects, which is exact at every instant. It is made by ``Motion.kinetic``.
 
-    :param motion, core: are those of ``Motion.kinetic``
+    :ivar motion: the motion
     :raises ArgumentError: a time before the present or after the window, or an object that does not exist
     :raises ArrayError: an array has another shape or type
     :raises BusyError: another thread is using it

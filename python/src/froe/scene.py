@@ -1,4 +1,4 @@
-"""Scenes: sets of objects, from arrays."""
+"""Scenes: sets of objects, from arrays, files and generators."""
 
 from __future__ import annotations
 
@@ -22,7 +22,13 @@ _POINT, _SEGMENT, _POLYGON, _BOX, _BALL, _HULL = range(6)  # froe_kind
 
 @dataclass(frozen=True)
 class Group:
-    """What the objects of one feature, mesh or layer share. ``colour`` is 0xRRGGBBAA, or 0: unknown."""
+    """What the objects of one feature, mesh or layer of a file have in common.
+
+    :ivar name: its name, for example that of a country; "" where the file has none
+    :ivar material: of a mesh its material, of a map the layer
+    :ivar left, right: what is on the left and on the right of its segments, where the file says so; otherwise ""
+    :ivar colour: 0xRRGGBBAA, or 0 where it is unknown
+    """
 
     name: str
     material: str
@@ -33,11 +39,18 @@ class Group:
 
 @dataclass(frozen=True)
 class SceneArrays:
-    """A scene. Object ``i`` has the vertices ``corners[starts[i]:starts[i + 1]]``, whose places are in ``coords``.
+    """A whole scene as arrays. Object ``i`` has the vertices ``corners[starts[i]:starts[i + 1]]``, whose places are the
+    rows of ``coords`` with these numbers.
 
+    :ivar coords: (vertices, dim) places; equal places are one vertex
     :ivar kinds: of each object, as it was added: 0 point, 1 segment, 2 polygon, 3 box, 4 ball, 5 hull
-    :ivar forms: the same, as it is: a segment without length is a point
-    :ivar groups: of each object, -1: none
+    :ivar forms: of each object, as it is: a segment without length is a point (0)
+    :ivar starts: one more than objects
+    :ivar corners: numbers of vertices; of a box its lower and upper corner, of a ball its centre
+    :ivar radii: of each object, 0 except for balls
+    :ivar tags: of each object, the number that the caller gave it, or 0
+    :ivar faces: of each object, the polygon that it is a part of, or -1
+    :ivar groups: of each object, its group, or -1
     """
 
     coords: Doubles
@@ -53,7 +66,20 @@ class SceneArrays:
 
 @dataclass(frozen=True)
 class ReadReport:
-    """How a file was read: nothing is done to a scene that is not counted here."""
+    """How a file was read. Nothing is done to a scene that is not counted here.
+
+    :ivar format: for example ``"GeoJSON"``
+    :ivar precision: of the coordinates as they were read, ``"float64"`` or ``"float32"``
+    :ivar features: features, rows, or named parts of a model
+    :ivar groups: groups of the scene
+    :ivar triangulated: polygons of more than three corners that were split into triangles
+    :ivar closed: rings whose last edge was missing and was added
+    :ivar skipped: geometries that are empty, of no known type, or lines of one point
+    :ivar no_geometry: features without geometry
+    :ivar wrapped: features that were cut at the antimeridian
+    :ivar unread_library: of OBJ the first file of materials that is missing or unreadable, otherwise ""
+    :ivar no_degrees: the format promises longitudes and latitudes, and the numbers are none (beyond 180 or 90)
+    """
 
     format: str
     precision: str
@@ -69,17 +95,35 @@ class ReadReport:
 
 
 class Scene:
-    """A set of objects in R^dim. Objects have the ids 0, 1, ... in the order they were added.
+    """A set of objects in R^dim. Objects have the ids 0, 1, ... in the order in which they were added.
 
-    Every method that adds objects takes arrays, and adds all of them or, if it fails, none. ``tags`` are whole numbers
-    that name the objects to the caller, ``groups`` say which group each belongs to (``group`` of all), and ``faces``
-    which polygon it is a part of.
+    Each method that adds objects takes arrays, and adds all of them or, if it fails, none. All of them take, by name:
+
+    - ``tags``: (n,) whole numbers up to 2^64 - 1 that name the objects to the caller
+    - ``groups``: (n,) the group of each object, or ``group``: that of all
+    - ``faces``: (n,) the polygon that each object is a part of
+    - ``threads``: how many may work at once; 0: one for each processor
+    - ``progress``: a function that is called now and then with the share done, from 0 to 1; False from it ends the call
+
+    :ivar read_report: how the file was read, of a scene that ``froe.read`` returned, otherwise None
+    :param dim: dimension of the space, from 2 to 8
+    :raises ArgumentError: the dimension is out of range
+    :raises ArrayError: an array has another shape or type, or numbers that float64 does not have
+    :raises InputError: NaN or infinity, a box whose upper corner is below its lower one, a polygon that is not planar
+    :raises LimitError: there would be more than 2^31 - 2 objects or vertices
+    :raises FrozenError: a tree has been built of the scene, which therefore cannot grow
+    :raises CancelledError: the progress function returned False
+    :raises OutOfMemoryError: there is not enough memory; the scene is as it was
 
     >>> import froe
     >>> scene = froe.Scene(2)
-    >>> scene.add_segments([[0, 0, 2, 2], [0, 2, 2, 0]])
+    >>> scene.add_segments([[0, 0, 2, 2], [0, 2, 2, 0]], tags=[7, 9])
+    >>> scene.add_points([[1, 1]])
+    >>> scene.add_boxes([[4, 4, 5, 6]])
+    >>> scene.add_balls([[8, 8]], [0.5])
+    >>> scene.add_hulls([[0, 9], [1, 9], [0, 10]], starts=[0, 3])
     >>> len(scene)
-    2
+    6
     """
 
     def __init__(self, dim: int = 2) -> None:
@@ -115,7 +159,17 @@ class Scene:
     def add_group(
         self, name: str = "", *, material: str = "", left: str = "", right: str = "", colour: int = 0
     ) -> int:
-        """A group, which objects may then belong to. Returns its number. ``colour`` is 0xRRGGBBAA, or 0: unknown."""
+        """A new group, which objects may then belong to.
+
+        :param name, material, left, right, colour: what ``group`` returns
+        :returns: its number
+        :cost: O(1)
+
+        >>> import froe
+        >>> scene = froe.Scene(2)
+        >>> scene.add_group("harbour"), scene.add_group("river")
+        (0, 1)
+        """
         return self._core.add_group(name, material, left, right, colour)
 
     @property
@@ -124,7 +178,9 @@ class Scene:
         return self._core.counts()[3]
 
     def group(self, group: int) -> Group:
-        """What the objects of a group share.
+        """What the objects of the group with the number ``group`` have in common.
+
+        :cost: O(1)
 
         >>> import froe
         >>> scene = froe.Scene(2)
@@ -136,6 +192,8 @@ class Scene:
     def arrays(self) -> SceneArrays:
         """The whole scene as arrays, which are copies.
 
+        :cost: O(objects + corners)
+
         >>> import froe
         >>> froe.segments([[0, 0, 1, 1], [1, 1, 2, 0]]).arrays().corners.tolist()
         [0, 1, 1, 2]
@@ -143,40 +201,106 @@ class Scene:
         return SceneArrays(*(np.asarray(part) for part in self._core.arrays()))
 
     def write(self, path: str | os.PathLike[str]) -> None:
-        """Writes a file that ``froe.read`` gives back, exactly: .geojson, .csv, .off or .obj."""
+        """Writes a file that ``froe.read`` gives back, exactly.
+
+        :param path: its ending is that of the format: .geojson, .csv, .off or .obj
+        :raises FileError: the file cannot be written; a file that was there before is kept
+        :raises UnsupportedError: the format cannot hold these objects
+        :cost: O(objects + corners)
+
+        >>> import froe, tempfile, os
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     froe.points([[0.1, 3]]).write(os.path.join(folder, "a.csv"))
+        ...     froe.read(os.path.join(folder, "a.csv")).bounds.tolist()
+        [[0.1, 3.0], [0.1, 3.0]]
+        """
         self._core.write(path)
 
     def __repr__(self) -> str:
         return f"<froe.Scene: {len(self)} objects in R^{self.dim}>"
 
     def add_points(self, points: npt.ArrayLike, **about: Any) -> None:
-        """Adds points: an array (n, dim)."""
+        """Adds points.
+
+        :param points: (n, dim)
+        :param about: tags, groups and others, as the class says
+        :cost: O(n) expected time
+        """
         self._add(_POINT, rows(points, "points", self.dim, self.dim), **about)
 
     def add_segments(self, segments: npt.ArrayLike, **about: Any) -> None:
-        """Adds segments: an array (n, 2 dim) or (n, 2, dim)."""
+        """Adds segments.
+
+        :param segments: (n, 2 dim) or (n, 2, dim), both ends of each
+        :param about: tags, groups and others, as the class says
+        :cost: O(n) expected time
+        """
         self._add(_SEGMENT, rows(segments, "segments", 2 * self.dim, self.dim), **about)
 
     def add_boxes(self, boxes: npt.ArrayLike, **about: Any) -> None:
-        """Adds boxes: an array (n, 2 dim) or (n, 2, dim) of their lower and upper corners."""
+        """Adds boxes along the axes.
+
+        :param boxes: (n, 2 dim) or (n, 2, dim), the lower and the upper corner of each
+        :param about: tags, groups and others, as the class says
+        :cost: O(n) expected time
+        """
         self._add(_BOX, rows(boxes, "boxes", 2 * self.dim, self.dim), **about)
 
     def add_balls(self, centres: npt.ArrayLike, radii: npt.ArrayLike, **about: Any) -> None:
-        """Adds balls: an array (n, dim) of centres, and n radii."""
+        """Adds balls.
+
+        :param centres: (n, dim)
+        :param radii: (n,), not negative
+        :param about: tags, groups and others, as the class says
+        :cost: O(n) expected time
+        """
         self._add(_BALL, rows(centres, "centres", self.dim, self.dim), radii=doubles(radii, "radii"), **about)
 
     def add_hulls(self, points: npt.ArrayLike, starts: npt.ArrayLike, **about: Any) -> None:
-        """Adds convex hulls: hull ``i`` is the smallest convex set around ``points[starts[i]:starts[i + 1]]``."""
+        """Adds convex hulls. Hull ``i`` is the smallest convex set around ``points[starts[i]:starts[i + 1]]``.
+
+        :param points: (corners, dim)
+        :param starts: (n + 1,)
+        :param about: tags, groups and others, as the class says
+        :cost: O(corners) expected time
+        """
         at = whole(starts, "starts", np.uint64)
         self._add(_HULL, rows(points, "points", self.dim, self.dim), starts=at, **about)
 
     def add_polygons(self, points: npt.ArrayLike, starts: npt.ArrayLike, **about: Any) -> None:
-        """Adds polygons in space, planar, convex and simple: their corners in order, as for hulls."""
+        """Adds polygons in space, which are planar, convex and simple. Polygon ``i`` has the corners
+        ``points[starts[i]:starts[i + 1]]``, in order.
+
+        :param points: (corners, 3)
+        :param starts: (n + 1,)
+        :param about: tags, groups and others, as the class says
+        :raises InputError: also where a polygon is not exactly planar; triangles always are
+        :cost: O(corners) expected time
+
+        >>> import froe
+        >>> scene = froe.Scene(3)
+        >>> scene.add_polygons([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], starts=[0, 4])
+        >>> len(scene)
+        1
+        """
         at = whole(starts, "starts", np.uint64)
         self._add(_POLYGON, rows(points, "points", self.dim, self.dim), starts=at, **about)
 
     def add_triangles(self, vertices: npt.ArrayLike, triangles: npt.ArrayLike | None = None, **about: Any) -> None:
-        """Adds triangles in space: (n, 3) vertices and (m, 3) numbers of these, or (m, 3, 3) or (m, 9) corners."""
+        """Adds triangles in space.
+
+        :param vertices: (vertices, 3) if there are ``triangles``, otherwise the corners, (m, 3, 3) or (m, 9)
+        :param triangles: (m, 3) numbers of vertices
+        :param about: tags, groups and others, as the class says
+        :raises UnsupportedError: the scene has another dimension than 3
+        :cost: O(m) expected time
+
+        >>> import froe
+        >>> scene = froe.Scene(3)
+        >>> scene.add_triangles([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 1, 2], [0, 1, 3]])
+        >>> len(scene)
+        2
+        """
         if self.dim != 3:
             raise UnsupportedError(f"Triangles are added to scenes of dimension 3, and this one has {self.dim}.")
         if triangles is None:
@@ -228,7 +352,26 @@ class Scene:
         threads: int = 0,
         progress: Progress | None = None,
     ) -> Tree:
-        """Builds a tree, which freezes the scene."""
+        """Builds a tree, after which the scene cannot grow any more. Any number of trees may be built of one scene.
+
+        :param method: one of ``froe methods``, or ``"auto"``: what suits scene and purpose
+        :param purpose: ``"query"``: for questions; ``"pieces"``: as few pieces as possible; ``"draw"``: for one drawing
+        :param settings: options of the method, such as ``"crossing=split"``; ``froe methods`` lists them
+        :param leaf: the most objects of a leaf; None: what the method does best
+        :param seed: of random choices; the same seed gives the same tree on every machine
+        :param max_pieces: the most pieces that the tree may have; 0: any number
+        :param threads: how many may work at once; 0: one for each processor
+        :param progress: is called with the share done; False from it ends the call
+        :raises OptionError: there is no such method, purpose or option
+        :raises UnsupportedError: the method does not serve objects of this kind or dimension
+        :raises BudgetError: there would be more pieces than ``max_pieces``
+        :cost: O(n log n) for queries, about 0.1 microseconds a segment; more for fewer pieces, as the pages of methods
+            say
+
+        >>> import froe
+        >>> froe.segments([[0, 0, 2, 2], [0, 2, 2, 0]]).build("autopartition", purpose="pieces").report.pieces
+        3
+        """
         return Tree(self._core.build(method, purpose, settings, leaf, seed, None, max_pieces, threads, progress))
 
 
@@ -245,7 +388,12 @@ def _dim(array: Doubles, name: str, ends: int, dim: int | None) -> int:
 
 
 def segments(segments: npt.ArrayLike, dim: int | None = None) -> Scene:
-    """A scene of segments: an array (n, 2 dim) or (n, 2, dim).
+    """A scene of segments.
+
+    :param segments: (n, 2 dim) or (n, 2, dim), both ends of each
+    :param dim: dimension of the space; None: that of the array
+    :raises ArrayError, InputError: as ``Scene``
+    :cost: O(n) expected time
 
     >>> import froe
     >>> froe.segments([[0, 0, 1, 1]]), froe.segments([[0, 0, 0, 1, 1, 1]])
@@ -258,7 +406,12 @@ def segments(segments: npt.ArrayLike, dim: int | None = None) -> Scene:
 
 
 def points(points: npt.ArrayLike, dim: int | None = None) -> Scene:
-    """A scene of points: an array (n, dim).
+    """A scene of points.
+
+    :param points: (n, dim)
+    :param dim: dimension of the space; None: that of the array
+    :raises ArrayError, InputError: as ``Scene``
+    :cost: O(n) expected time
 
     >>> import froe
     >>> froe.points([[0, 0, 1], [2, 2, 2]])
@@ -271,8 +424,14 @@ def points(points: npt.ArrayLike, dim: int | None = None) -> Scene:
 
 
 def boxes(boxes: npt.ArrayLike, hi: npt.ArrayLike | None = None, dim: int | None = None) -> Scene:
-    """A scene of boxes: an array (n, 2 dim) of lower and upper corners, or lower and upper corners as an array (n, dim)
-    each.
+    """A scene of boxes along the axes.
+
+    :param boxes: (n, 2 dim) or (n, 2, dim), the lower and the upper corner of each; with ``hi`` the lower corners, (n,
+        dim)
+    :param hi: (n, dim), the upper corners
+    :param dim: dimension of the space; None: that of the array
+    :raises ArrayError, InputError: as ``Scene``
+    :cost: O(n) expected time
 
     >>> import froe
     >>> froe.boxes([[0, 0, 1, 1]]).bounds.tolist(), froe.boxes([[0, 0]], [[1, 1]]).bounds.tolist()
@@ -290,7 +449,17 @@ def boxes(boxes: npt.ArrayLike, hi: npt.ArrayLike | None = None, dim: int | None
 
 
 def triangles(vertices: npt.ArrayLike, triangles: npt.ArrayLike | None = None) -> Scene:
-    """A scene of triangles in space: vertices (n, 3) and numbers of these (m, 3), or corners (m, 3, 3)."""
+    """A scene of triangles in space.
+
+    :param vertices: (vertices, 3) if there are ``triangles``, otherwise the corners, (m, 3, 3) or (m, 9)
+    :param triangles: (m, 3) numbers of vertices
+    :raises ArrayError, InputError: as ``Scene``
+    :cost: O(m) expected time
+
+    >>> import froe
+    >>> froe.triangles([[[0, 0, 0], [1, 0, 0], [0, 1, 0]]])
+    <froe.Scene: 1 objects in R^3>
+    """
     scene = Scene(3)
     scene.add_triangles(vertices, triangles)
     return scene
@@ -304,11 +473,17 @@ def read(
     wrap: bool = False,
     progress: Progress | None = None,
 ) -> Scene:
-    """A scene from a file: GeoJSON, CSV with a header, OBJ, OFF or PLY. ``scene.read_report`` tells how it was read.
+    """A scene from a file: GeoJSON, CSV with a header, OBJ, OFF or PLY. Its ``read_report`` tells how it was read.
 
-    :param polygons: planar, convex polygons of models stay whole; otherwise all are triangulated
+    :param path: the file; its content decides of which format it is
+    :param polygons: planar, convex polygons of models stay whole; otherwise all are split into triangles
     :param boxes: the bounding box of each feature in place of its shape
     :param wrap: borders on maps that cross the antimeridian are cut there
+    :param progress: is called with the share done; False from it ends the call
+    :raises FileError: the file cannot be opened or read
+    :raises FormatError: it is not what it claims to be; the message names the line or the byte
+    :raises UnsupportedError: it has another format
+    :cost: O(size of the file)
 
     >>> import froe, tempfile, os
     >>> with tempfile.TemporaryDirectory() as folder:
@@ -322,7 +497,13 @@ def read(
 
 
 def generate(kind: str, count: int, seed: int = 1) -> Scene:
-    """A made-up scene of about so many objects, the same everywhere: ``froe generate --help`` lists the kinds.
+    """A made-up scene for tests, the same on every machine.
+
+    :param kind: one of those that ``froe generate --help`` lists
+    :param count: about how many objects
+    :param seed: another one gives another scene
+    :raises OptionError: there is no such kind
+    :cost: O(count)
 
     >>> import froe
     >>> len(froe.generate("segments", 100))
@@ -332,7 +513,15 @@ def generate(kind: str, count: int, seed: int = 1) -> Scene:
 
 
 def compare(scene: Scene, methods: Sequence[str], **options: Any) -> dict[str, Report]:
-    """The report of a tree by each method; those that do not serve the scene are left out.
+    """Builds a tree by each method and keeps its report alone. Methods that do not serve scenes of this kind are left
+    out.
+
+    :param scene: any scene
+    :param methods: names of methods
+    :param options: what ``Scene.build`` takes besides
+    :returns: the reports by method
+    :raises Error: what ``Scene.build`` raises, except UnsupportedError
+    :cost: that of building each tree, one after the other
 
     >>> import froe
     >>> found = froe.compare(froe.segments([[0, 0, 2, 2], [0, 2, 2, 0]]), ["kd", "cylindrical", "autopartition"])

@@ -1,4 +1,4 @@
-"""Trees: made by building, saved and opened, looked at, drawn. What they answer is in questions.py."""
+"""Trees: what they answer, and how they are saved, opened, looked at and drawn."""
 
 from __future__ import annotations
 
@@ -23,8 +23,21 @@ if TYPE_CHECKING:
 class Tree(Questions):
     """A binary space partition of a scene. Made by ``Scene.build``, or opened from a file by ``froe.open``.
 
-    Questions are arrays; one call answers all of them, on ``threads`` threads (0: one per processor). Objects and
-    ranges are closed, so that touching counts as meeting, and every answer is exact.
+    Questions are arrays, and one call answers all of them. Objects and ranges are closed sets, so that touching counts
+    as meeting, and every answer is exact for the numbers given. A tree never changes, so that any number of Python's
+    threads may use it at once. Every call takes, by name:
+
+    - ``threads``: how many may work on it at once; 0: one for each processor
+    - ``progress``: a function that is called now and then with the share done, from 0 to 1; False from it ends the call
+
+    Ctrl-C ends every call, too. In a ``with`` statement the tree is closed at its end.
+
+    :raises ArrayError: an array has another shape or type, or numbers that float64 does not have
+    :raises InputError: NaN or infinity, or a box whose upper corner is below its lower one; ``.object`` is its row
+    :raises UnsupportedError: trees of this kind cannot serve the question; the message says which can
+    :raises ClosedError: the tree is closed
+    :raises CancelledError: the progress function returned False
+    :raises OutOfMemoryError: there is not enough memory for the answers
     """
 
     def __init__(self, core: _core.Tree, path: str | None = None) -> None:
@@ -33,7 +46,7 @@ class Tree(Questions):
 
     @property
     def scene(self) -> Scene:
-        """The scene, which can no longer grow, and which keeps the tree.
+        """The scene that the tree was built of. It cannot grow any more, and it keeps the tree alive.
 
         >>> import froe
         >>> len(froe.points([[0, 0], [1, 1]]).build().scene)
@@ -54,7 +67,9 @@ class Tree(Questions):
         return report.of(self._core.report())
 
     def pieces(self) -> Pieces:
-        """All pieces.
+        """All pieces of the tree, as arrays.
+
+        :cost: O(nodes + pieces)
 
         >>> import froe
         >>> tree = froe.segments([[0, 0, 2, 2], [0, 2, 2, 0]]).build("autopartition", purpose="pieces")
@@ -66,8 +81,12 @@ class Tree(Questions):
     def cells(
         self, lo: npt.ArrayLike | None = None, hi: npt.ArrayLike | None = None, *, inner: bool = False
     ) -> Cells:
-        """The regions of all leaves that meet a box, by default the bounds of the scene, clipped to it; with ``inner``
-        those of all nodes.
+        """The regions of all leaves that meet a box, clipped to it.
+
+        :param lo, hi: (dim,), the corners of the box; None: those of ``scene.bounds``
+        :param inner: the regions of all nodes, not only of leaves
+        :raises UnsupportedError: the dimension is neither 2 nor 3
+        :cost: O(height) for each cell, and its corners
 
         >>> import froe
         >>> tree = froe.segments([[0, 1, 2, 1], [1, 0, 1, 2]]).build("autopartition")
@@ -85,7 +104,13 @@ class Tree(Questions):
         return Cells(*(np.asarray(part) for part in self._core.cells(box, inner)))
 
     def order(self, eye: npt.ArrayLike, *, parallel: bool = False) -> Ids:
-        """All pieces, back to front, as they are seen from a point, or with ``parallel`` from a direction.
+        """All pieces, back to front, as they are seen.
+
+        :param eye: (dim,), the point that they are seen from
+        :param parallel: the eye is infinitely far away, in the direction ``eye``
+        :returns: numbers of pieces, those of ``pieces()``
+        :raises UnsupportedError: the tree was built for queries, and has no cut between some of its pieces
+        :cost: O(nodes + pieces)
 
         >>> import froe
         >>> tree = froe.segments([[0, 1, 2, 1], [0, 5, 2, 5]]).build("autopartition", purpose="draw")
@@ -95,7 +120,12 @@ class Tree(Questions):
         return np.asarray(self._core.order(point(eye, "eye", self.dim), parallel))
 
     def audit(self, *, exact_only: bool = False, threads: int = 0, progress: Progress | None = None) -> None:
-        """Proves that the tree is right; otherwise AuditError.
+        """Proves that the tree is right: every object is exactly the union of its pieces, and every piece is in the
+        list of its cell. It returns nothing when all is well.
+
+        :param exact_only: also lists in which objects without a part of the cell may stand have none of these
+        :raises AuditError: the tree is wrong; the message says where
+        :cost: about as much as building the tree
 
         >>> import froe
         >>> froe.points([[0, 0], [1, 1]]).build().audit()
@@ -103,7 +133,18 @@ class Tree(Questions):
         self._core.audit(exact_only, threads, progress)
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes the tree with its scene: the old file or the whole new one is there, whatever happens."""
+        """Writes the tree with its scene. The old file or the whole new one is there, whatever happens.
+
+        :param path: where to
+        :raises FileError: the file cannot be written
+        :cost: O(size of the tree and its scene)
+
+        >>> import froe, tempfile, os
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     froe.points([[0, 0]]).build().save(os.path.join(folder, "a.froe"))
+        ...     os.listdir(folder)
+        ['a.froe']
+        """
         self._core.save(path)
 
     def export(
@@ -113,7 +154,20 @@ class Tree(Questions):
         *,
         progress: Progress | None = None,
     ) -> None:
-        """Writes pieces, cells or cuts for other programs: .geojson of the plane, .obj of space, or .csv."""
+        """Writes pieces, cells or cuts for other programs.
+
+        :param path: its ending is that of the format: .geojson of the plane, .obj of space, or .csv
+        :param what: ``"fragments"``, which are the pieces, ``"cells"`` or ``"cuts"``
+        :raises OptionError: there is no such part
+        :raises FileError: the file cannot be written
+        :cost: O(size of the tree)
+
+        >>> import froe, tempfile, os
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     froe.segments([[0, 0, 1, 1]]).build().export(os.path.join(folder, "a.geojson"), "cells")
+        ...     os.listdir(folder)
+        ['a.geojson']
+        """
         parts = ("fragments", "cells", "cuts")
         if what not in parts:
             raise OptionError(f"what is {what!r}, and must be one of {', '.join(parts)}.")
@@ -121,7 +175,7 @@ class Tree(Questions):
 
     def render(self, *, progress: Progress | None = None, **options: Any) -> Picture:
         """A picture of a tree in space with hidden surfaces removed, exactly. The tree has to be built with
-        ``purpose="draw"`` or ``"pieces"``. Options, all of which may be left out:
+        ``purpose="draw"`` or ``"pieces"``. These options may be given by name; the page on drawings describes each:
 
         ============================================================== ==============================================
         ``eye, target, up``                                            points; with ``fit`` only their direction counts
@@ -135,6 +189,11 @@ class Tree(Questions):
         ``decimals, ids, layers, title, description``                  of the file
         ============================================================== ==============================================
 
+        :param options: as the table says
+        :raises OptionError: there is no such option, or its value is out of range
+        :raises UnsupportedError: the scene is not in space, or the tree was built for queries
+        :cost: O(pieces + visible pieces) times the depth of the tree of what is in front, about 20 to 60 in models
+
         >>> import froe
         >>> scene = froe.triangles([[[0, 0, 0], [4, 0, 0], [2, 0, 3]], [[0, 5, 0], [4, 5, 0], [2, 5, 3]]])
         >>> picture = scene.build(purpose="draw").render(eye=(0, -9, 0), parallel=True, lines=["border"])
@@ -146,7 +205,13 @@ class Tree(Questions):
     def draw(
         self, *, width: float = 800, lo: npt.ArrayLike | None = None, hi: npt.ArrayLike | None = None
     ) -> Picture:
-        """A picture of a partition of the plane: cells, deeper in colour where more cuts lead to them, and pieces.
+        """A picture of a partition of the plane: its cells, deeper in colour where more cuts lead to them, and its
+        pieces.
+
+        :param width: of the picture, in pixels
+        :param lo, hi: (2,), corners of the box that is shown; None: all objects, and a little more
+        :raises UnsupportedError: the tree is not one of the plane
+        :cost: O(height) for each cell that is shown
 
         >>> import froe
         >>> froe.segments([[0, 0, 2, 2], [0, 2, 2, 0]]).build("autopartition").draw().svg[:4]
@@ -174,12 +239,27 @@ class Tree(Questions):
         return f"<froe.Tree: {found.objects} objects in R^{found.dim}, {found.pieces} pieces, by {found.method}>"
 
     def close(self) -> None:
-        """Frees the tree. Questions raise ClosedError from now on."""
+        """Frees the tree. Every later question raises ClosedError. Without it the tree is freed with its last
+        reference.
+
+        :cost: O(nodes)
+
+        >>> import froe
+        >>> tree = froe.points([[0, 0]]).build()
+        >>> tree.close()
+        >>> tree
+        <froe.Tree: closed>
+        """
         self._core.close()
 
 
 def open(path: str | os.PathLike[str]) -> Tree:
-    """A tree that ``Tree.save`` or ``froe build`` has written.
+    """Opens a tree that ``Tree.save`` or ``froe build`` has written. The file is mapped into memory, and checked.
+
+    :param path: the file
+    :raises FileError: the file cannot be opened
+    :raises FormatError: the file is no tree, truncated, corrupted, or of another version of froe
+    :cost: O(size of the file), to check it
 
     >>> import froe, tempfile, os
     >>> with tempfile.TemporaryDirectory() as folder:
