@@ -58,34 +58,50 @@ static bool has_cut(const ktree *tree, uint32_t node) {
 
 void certify_borders(const ktree *tree, uint32_t node, const ktree_cell *cell, cert_kind region, name_point out[2]) {
     const ktree_node *n = ktree_node_at(tree, node);
-    const name_point own[2] = {ktree_wall_name(tree, n->segment, n->wall[KTREE_LEFT]),
-                               ktree_wall_name(tree, n->segment, n->wall[KTREE_RIGHT])};
-    out[KTREE_LEFT] = region == CERT_RIGHT ? own[KTREE_RIGHT] : cell->wall[KTREE_LEFT];
-    out[KTREE_RIGHT] = region == CERT_LEFT ? own[KTREE_LEFT] : cell->wall[KTREE_RIGHT];
-    for (int side = 0; side < 2 && region == CERT_MIDDLE; side++)
-        if (name_exists(own[side])) out[side] = own[side];
+    for (int side = 0; side < 2; side++) {
+        const bool outer = region == (side == KTREE_LEFT ? CERT_LEFT : CERT_RIGHT);
+        const int own = region == CERT_MIDDLE ? side : 1 - side;
+        out[side] =
+            outer || n->wall[own] == KTREE_NO_WALL ? cell->wall[side] : ktree_wall_name(tree, n->segment, n->wall[own]);
+    }
 }
 
+/* Is there such a region, without a wall inside? */
+static bool has_region(const ktree *tree, const ktree_node *n, cert_kind region) {
+    const uint32_t *wall = n->wall, *child = n->child;
+    if (region == CERT_LEFT) return wall[KTREE_LEFT] != KTREE_NO_WALL && !has_cut(tree, child[KTREE_LEFT]);
+    if (region == CERT_RIGHT) return wall[KTREE_RIGHT] != KTREE_NO_WALL && !has_cut(tree, child[KTREE_RIGHT]);
+    if (wall[KTREE_LEFT] == KTREE_NO_WALL && wall[KTREE_RIGHT] == KTREE_NO_WALL) return false;
+    /* the middle between the two ends of the segment exists as long as the segment does, in an augmented tree */
+    if (tree->augmented && ktree_is_end(wall[KTREE_LEFT]) && ktree_is_end(wall[KTREE_RIGHT])) return false;
+    return !has_cut(tree, child[KTREE_UP]) && !has_cut(tree, child[KTREE_DOWN]);
+}
+
+/* The regions of a node. cell NULL: its walls have stayed, and nothing but what is inside of its regions has changed.
+ */
 static void certify_regions(froe_kinetic *k, uint32_t node, const ktree_cell *cell) {
+    static const cert_kind order[3] = {CERT_LEFT, CERT_RIGHT, CERT_MIDDLE};
     const ktree *tree = &k->tree;
     ktree_node *n = ktree_node_at(tree, node);
-    const bool left = n->wall[KTREE_LEFT] != KTREE_NO_WALL, right = n->wall[KTREE_RIGHT] != KTREE_NO_WALL;
-    /* the middle between the two ends of the segment exists as long as the segment does, in an augmented tree */
-    const bool whole = tree->augmented && ktree_is_end(n->wall[KTREE_LEFT]) && ktree_is_end(n->wall[KTREE_RIGHT]);
-    static const cert_kind order[3] = {CERT_LEFT, CERT_RIGHT, CERT_MIDDLE};
+    ktree_cell own;
     for (int i = 0; i < 3; i++) {
         const cert_kind region = order[i];
-        bool wanted = region == CERT_LEFT    ? left && !has_cut(tree, n->child[KTREE_LEFT])
-                      : region == CERT_RIGHT ? right && !has_cut(tree, n->child[KTREE_RIGHT])
-                                             : (left || right) && !whole && !has_cut(tree, n->child[KTREE_UP]) &&
-                                                   !has_cut(tree, n->child[KTREE_DOWN]);
-        name_point border[2];
-        certify_borders(tree, node, cell, region, border);
-        now_claim claim = {border[KTREE_LEFT], border[KTREE_RIGHT], 0};
-        wanted = wanted && name_exists(claim.p) && name_exists(claim.q);
+        uint32_t *cert = n->cert + region;
+        bool wanted = has_region(tree, n, region);
+        if (!wanted && *cert == FROE_NONE) continue;
+        if (wanted && !cell && !tree->augmented && *cert != FROE_NONE && k->certs.all.data[*cert].tick > k->now.tick)
+            continue;
+        now_claim claim = {{0, NAME_NONE}, {0, NAME_NONE}, 0};
+        if (wanted) {
+            name_point border[2];
+            if (!cell) own = ktree_cell_of(tree, node), cell = &own;
+            certify_borders(tree, node, cell, region, border);
+            claim.p = border[KTREE_LEFT], claim.q = border[KTREE_RIGHT];
+            wanted = name_exists(claim.p) && name_exists(claim.q);
+        }
         if (wanted) turn_name_along(tree, &claim);
-        set_cert(k, n->cert + region, region, node, wanted ? &claim : NULL);
-        if (tree->augmented && n->cert[region] != FROE_NONE) turn_cover(k, n->cert[region]);
+        set_cert(k, cert, region, node, wanted ? &claim : NULL);
+        if (tree->augmented && *cert != FROE_NONE) turn_cover(k, *cert);
     }
 }
 
@@ -227,8 +243,7 @@ void certify_site(froe_kinetic *k, const ktree_site *site) {
         bool cut = find_cut(tree, n);
         changed = cut != ktree_node_at(tree, n)->cut;
         ktree_node_at(tree, n)->cut = cut;
-        ktree_cell cell = ktree_cell_of(tree, n);
-        certify_regions(k, n, &cell);
+        certify_regions(k, n, NULL);
     }
     if (k->call.stopped) return;
     for (size_t i = 0; i < tree->touched.count; i++) { /* ends outside of the subtree, and those without a wall */

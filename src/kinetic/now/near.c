@@ -53,15 +53,15 @@ typedef struct near_point {
 /* Of what rounding adds there is less than the error of the course once more. */
 static void place_vertex(now_state *now, uint32_t vertex, double span, near_point *out) {
     const now_course *c = now_course_of(now, vertex);
-    const now_bend *bend = now->bends.data + vertex;
-    const double s = (double)(now->tick - c->base), *const x[2] = {c->x, c->y}, b[2] = {bend->x, bend->y};
+    const double s = (double)(now->tick - c->base), *const x[2] = {c->x, c->y};
+    double b[2] = {0, 0};
+    if (c->degree > 1) b[0] = now->bends.data[vertex].x, b[1] = now->bends.data[vertex].y;
     for (int i = 0; i < 2; i++) {
         near_poly *p = out->at + i;
-        const double more = c->degree > 1 ? b[i] : 0;
         p->degree = (int)c->degree;
-        p->c[0] = x[i][0] + s * (x[i][1] + s * more);
-        p->c[1] = (x[i][1] + 2 * s * more) * span;
-        p->c[2] = more * span * span;
+        p->c[0] = x[i][0] + s * (x[i][1] + s * b[i]);
+        p->c[1] = (x[i][1] + 2 * s * b[i]) * span;
+        p->c[2] = b[i] * span * span;
         p->size = fabs(p->c[0]) + fabs(p->c[1]) + fabs(p->c[2]);
         p->error = 2 * c->error;
     }
