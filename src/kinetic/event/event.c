@@ -345,13 +345,12 @@ static bool is_one_event(const froe_kinetic *k, const event_group *g, const even
     }
 }
 
-/* Repairs the tree where the certificates of a group fail. */
-static void repair(froe_kinetic *k, event_group *g, unsigned round) {
-    const event_summary event = describe(k, g);
+/* Repairs the tree where the certificates of a group fail, described by the event. The group may grow. */
+static void repair(froe_kinetic *k, event_group *g, const event_summary *event, unsigned round) {
     bool usual = true; /* unrelated points are not in one place */
     participants_clear(&k->participants);
     for (size_t i = 0; i < g->count; i++) usual &= participants_add_item(k, item_of(k, g, i));
-    const bool simple = usual && round < CAREFUL_ROUND && is_one_event(k, g, &event) &&
+    const bool simple = usual && round < CAREFUL_ROUND && is_one_event(k, g, event) &&
                         !participants_have_loose_ends(k, item_of(k, g, 0));
     k->now.lost = !(g->slab[0] <= g->slab[1] && g->slab[1] - g->slab[0] < (double)INFINITY);
     pass_outcome outcome = simple ? PASS_DONE : PASS_REFUSED;
@@ -386,15 +385,17 @@ static bool settle_tick(froe_kinetic *k, const event_watcher *watcher) {
             g = (event_group){i, 1, {items[i].slab[0], items[i].slab[1]}};
             for (size_t j = i + 1; j < count && items[j].slab[0] <= g.slab[1]; j++, g.count++)
                 if (items[j].slab[1] > g.slab[1]) g.slab[1] = items[j].slab[1];
+            event_summary event = describe(k, &g);
+            const size_t described = g.count;
             /* a turn and nothing else may leave the tree as it is */
             if (g.count == 1 && items[i].kind == CERT_TURN && turn_is_free(&k->tree, items[i].cert))
                 k->counts.free_turns++;
             else
-                repair(k, &g, round);
+                repair(k, &g, &event, round);
             if (k->call.stopped) break;
-            const froe_event event = describe(k, &g).event;
-            k->counts.batches += event.kind == FROE_EVENT_BATCH;
-            if (!round) go_on &= tell_event(k, watcher, &event, &item_of(k, &g, 0)->claim);
+            if (g.count > described) event = describe(k, &g);
+            k->counts.batches += event.event.kind == FROE_EVENT_BATCH;
+            if (!round) go_on &= tell_event(k, watcher, &event.event, &item_of(k, &g, 0)->claim);
         }
     }
     return go_on;
