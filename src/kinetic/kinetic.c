@@ -4,6 +4,7 @@
 #include "base/floats.h"
 #include "base/random.h"
 #include "kinetic/event/change.h"
+#include "kinetic/event/triangle.h"
 #include "support/fail.h"
 
 froe_kinetic_options froe_kinetic_defaults(void) {
@@ -29,7 +30,7 @@ froe_status kinetic_settle(froe_kinetic *k, froe_diagnostic *diag) {
     if (k->call.stopped && !base_cancelled(&k->call.task)) {
         k->call.stopped = false;
         const bool space = now_is_in_space(&k->now);
-        if (space) change_enroll_triangles(k);
+        if (space) triangle_enroll_all(k);
         for (uint32_t s = 0; s < k->tree.segments.count && !space; s++) {
             collinear_forget(k, s);
             for (int i = 0; i < 4; i++) /* certificates of ends may be about pieces of plans that have ended since */
@@ -121,7 +122,7 @@ froe_status kinetic_copy(froe_kinetic *k, froe_kinetic **out, froe_diagnostic *d
         if (ktree_segment_at(&k->tree, s)->alive && k->now.motion->dim == 2) change_enroll(copy, s);
         call_poll(&copy->call);
     }
-    if (k->now.motion->dim == 3) change_enroll_triangles(copy);
+    if (k->now.motion->dim == 3) triangle_enroll_all(copy);
     if (!copy->call.stopped) surgery_restart(copy);
     if (!copy->call.stopped) {
         *out = copy;
@@ -160,7 +161,7 @@ static froe_status start(froe_kinetic *k, froe_diagnostic *diag) {
     const bool space = k->now.motion->dim == 3;
     froe_status status = take_order(k, diag);
     if (status) return status;
-    if (space) change_enroll_triangles(k);
+    if (space) triangle_enroll_all(k);
     for (uint32_t s = 0; s < k->tree.segments.count && !space; s++) {
         change_schedule(k, s);
         if (now_is_alive(&k->now, s)) change_enroll(k, s);

@@ -1,6 +1,7 @@
 /* change.c: segments enter and leave a partition in motion. */
 #include "kinetic/event/change.h"
 #include "kinetic/certificate/certify.h"
+#include "kinetic/event/triangle.h"
 #include "kinetic/kinetic.h"
 
 static void push_insertion(froe_kinetic *k, const ktree_cell *cell, uint32_t parent, uint8_t slot) {
@@ -9,8 +10,8 @@ static void push_insertion(froe_kinetic *k, const ktree_cell *cell, uint32_t par
 
 static void insert_below(froe_kinetic *k, uint32_t segment, const surgery_task *at) {
     ktree *tree = &k->tree;
-    uint32_t node = ktree_node_at(tree, at->parent)->child[at->slot], end[2];
-    if (node && ktree_node_at(tree, node)->segment == segment) return; /* it is there already */
+    uint32_t node = ktree_node_at(tree, at->parent)->child[at->slot];
+    if (node && ktree_is_part(tree, node, segment)) return; /* it is there already */
     if (!node || ktree_before(tree, segment, ktree_node_at(tree, node)->segment)) {
         ktree_new_list(tree);
         ktree_list(tree, segment);
@@ -23,7 +24,7 @@ static void insert_below(froe_kinetic *k, uint32_t segment, const surgery_task *
     for (uint8_t slot = 0; slot < 4; slot++) {
         if (slot < KTREE_UP && ktree_node_at(tree, node)->wall[slot] == KTREE_NO_WALL) continue;
         ktree_cell cell = ktree_child_cell(tree, &at->cell, node, slot);
-        if (surgery_clip(k, segment, &cell, end)) push_insertion(k, &cell, node, slot);
+        if (surgery_reaches(k, segment, &cell)) push_insertion(k, &cell, node, slot);
     }
 }
 
@@ -31,7 +32,15 @@ static void touch_walls(ktree *tree, const ktree_cell *cell) {
     for (int side = 0; side < 2; side++) ktree_touch_wall(tree, cell->wall[side]);
 }
 
-static void insert_nodes(froe_kinetic *k, uint32_t segment) {
+static void touch_nodes(froe_kinetic *k, uint32_t segment) {
+    uint32_t n = ktree_segment_at(&k->tree, segment)->nodes;
+    for (; n && !k->call.stopped; n = ktree_node_at(&k->tree, n)->next) {
+        ktree_cell cell = ktree_cell_of(&k->tree, n);
+        touch_walls(&k->tree, &cell);
+    }
+}
+
+void change_put_in(froe_kinetic *k, uint32_t segment) {
     const ktree_site all = {KTREE_ROOT, 0, false, ktree_plane()};
     size_t waiting = k->surgery.tasks.count;
     surgery_begin(k);
@@ -40,12 +49,23 @@ static void insert_nodes(froe_kinetic *k, uint32_t segment) {
         surgery_task task = k->surgery.tasks.data[--k->surgery.tasks.count];
         insert_below(k, segment, &task);
     }
-    uint32_t n = ktree_segment_at(&k->tree, segment)->nodes;
-    for (; n && !k->call.stopped; n = ktree_node_at(&k->tree, n)->next) {
-        ktree_cell cell = ktree_cell_of(&k->tree, n);
-        touch_walls(&k->tree, &cell);
-    }
+    touch_nodes(k, segment);
+    for (int i = 0; i < 3 && now_is_surface(&k->now, segment); i++)
+        touch_nodes(k, now_face_of(&k->now, segment)->edge[i]);
     certify_site(k, &all);
+}
+
+void change_make_anew(froe_kinetic *k, uint32_t node, uint32_t without) {
+    ktree *tree = &k->tree;
+    const ktree_site site = ktree_site_of(tree, node);
+    surgery_begin(k);
+    ktree_new_list(tree);
+    if (without != FROE_NONE) ktree_segment_at(tree, without)->stamp = tree->list_stamp; /* keeps it off the list */
+    ktree_collect(tree, node);
+    surgery_free_tree(k, node);
+    surgery_grow(k, &site.cell, site.parent, site.slot);
+    touch_walls(tree, &site.cell);
+    certify_site(k, &site);
 }
 
 void change_enroll(froe_kinetic *k, uint32_t segment) {
@@ -62,35 +82,13 @@ void change_enroll(froe_kinetic *k, uint32_t segment) {
     certify_turn(k, segment);
 }
 
-void change_enroll_triangles(froe_kinetic *k) {
-    now_state *now = &k->now;
-    for (uint32_t s = 0; s < k->tree.segments.count; s++) {
-        collinear_forget(k, s);
-        for (int i = 0; i < 4; i++) cert_forget(&k->certs, &k->certs.segments.data[s].end[i / 2][i % 2]);
-        change_unroll(k, s);
-        if (!now_is_surface(now, s)) ktree_segment_at(&k->tree, s)->key = UINT64_MAX;
-        call_poll(&k->call);
-    }
-    for (uint32_t o = 0; o < now->faces.count; o++) {
-        const now_face *f = now->faces.data + o;
-        ktree_segment *surface = ktree_segment_at(&k->tree, f->surface);
-        change_schedule(k, f->surface);
-        if (!now_is_alive(now, o)) continue;
-        surface->alive = surface->here = true;
-        certify_flop(k, f->surface);
-        for (uint32_t i = 0; i < 3; i++) {
-            ktree_segment *edge = ktree_segment_at(&k->tree, f->edge[i]);
-            const uint64_t key = surface->key - 3 + i;
-            edge->key = key < edge->key ? key : edge->key;
-            change_enroll(k, f->edge[i]);
-        }
-        call_poll(&k->call);
-    }
-}
-
 void change_insert(froe_kinetic *k, uint32_t segment) {
+    if (now_is_surface(&k->now, segment)) {
+        triangle_insert(k, segment);
+        return;
+    }
     change_enroll(k, segment);
-    if (ktree_segment_at(&k->tree, segment)->here) insert_nodes(k, segment);
+    if (ktree_segment_at(&k->tree, segment)->here) change_put_in(k, segment);
 }
 
 void change_unroll(froe_kinetic *k, uint32_t segment) {
@@ -105,26 +103,18 @@ void change_unroll(froe_kinetic *k, uint32_t segment) {
 }
 
 void change_remove(froe_kinetic *k, uint32_t segment) {
-    ktree *tree = &k->tree;
-    ktree_segment *s = ktree_segment_at(tree, segment);
+    const ktree_segment *s = ktree_segment_at(&k->tree, segment);
     const bool here = s->here;
+    if (now_is_surface(&k->now, segment)) {
+        if (here) triangle_remove(k, segment);
+        return;
+    }
     change_unroll(k, segment);
     if (!here) return;
-    while (s->nodes && !k->call.stopped) {
-        const uint32_t node = s->nodes;
-        const ktree_site site = ktree_site_of(tree, node);
-        surgery_begin(k);
-        ktree_new_list(tree);
-        s->stamp = tree->list_stamp; /* keeps it off the list */
-        ktree_collect(tree, node);
-        surgery_free_tree(k, node);
-        surgery_grow(k, &site.cell, site.parent, site.slot);
-        touch_walls(tree, &site.cell);
-        certify_site(k, &site);
-    }
+    while (s->nodes && !k->call.stopped) change_make_anew(k, s->nodes, segment);
     collinear_find_partners(k, segment);
     collinear_forget(k, segment);
-    for (size_t i = 0; i < k->collinear.partners.count; i++) insert_nodes(k, k->collinear.partners.data[i]);
+    for (size_t i = 0; i < k->collinear.partners.count; i++) change_put_in(k, k->collinear.partners.data[i]);
 }
 
 /* ---------------------------------------------------------------- schedule -- */

@@ -7,14 +7,15 @@
 #define FROE_KINETIC_CHANGE_H
 #include <froe/kinetic.h>
 
-/** Lets a segment take part from now on, if it has a length, without putting it into the tree. */
+/** Lets a segment take part from now on, if it has a length, without putting it into the tree. Not of surfaces. */
 void change_enroll(froe_kinetic *k, uint32_t segment);
-/** In space: all triangles that are there take part from the present tick on, and no others, without being in the
- * tree. Edges cut when the first of their triangles does, in the order of its corners, and its surface after them. */
-void change_enroll_triangles(froe_kinetic *k);
-/** The inverse. */
+/** The inverse. Of a surface without its edges. */
 void change_unroll(froe_kinetic *k, uint32_t segment);
-/** Lets a segment take part, and puts it into the tree. */
+/** Puts it into the tree, wherever it is not in it. */
+void change_put_in(froe_kinetic *k, uint32_t segment);
+/** Makes a subtree anew from its segments, but for one or FROE_NONE. */
+void change_make_anew(froe_kinetic *k, uint32_t node, uint32_t without);
+/** Lets a segment take part, or the triangle of a surface, and puts it into the tree. */
 void change_insert(froe_kinetic *k, uint32_t segment);
 void change_remove(froe_kinetic *k, uint32_t segment);
 /** (Re)sets when the segment appears or goes, and when the flight of its ends changes; in space of a surface, and of

@@ -6,9 +6,11 @@
 #include "kinetic/event/change.h"
 #include "kinetic/event/pass.h"
 #include "kinetic/event/renew.h"
+#include "kinetic/event/triangle.h"
 #include "kinetic/kinetic.h"
 
 enum { CAREFUL_ROUND = 4, RESTART_ROUND = 16, LAST_ROUND = 20 };
+enum { FEW = 8 }; /* triangles leave and enter one by one, if they are no more than one in so many of all */
 
 /* ------------------------------------------------------------------- cells -- */
 
@@ -422,8 +424,11 @@ static void leave_with_edge(froe_kinetic *k, uint32_t edge, uint32_t tell_it) {
 }
 
 /* Takes out the segments that have to be out before time goes on to the tick. Others in one line with them may have to
- * be taken out, too, and what that changes may keep others from staying. In space they are only listed. */
-static void let_leave(froe_kinetic *k, int64_t tick) {
+ * be taken out, too, and what that changes may keep others from staying. In space plans that go on change nothing; only
+ * what is equal from then on, for as long as pieces last, may be something else, and no certificate tells. True: the
+ * plans of so many triangles go on that all is to be made anew at the tick, and they are left in the tree until then.
+ */
+static bool let_leave(froe_kinetic *k, int64_t tick) {
     const bool space = now_is_in_space(&k->now);
     void (*leave)(froe_kinetic *, uint32_t, uint32_t) = space ? leave_with_edge : leave_tree;
     size_t gone = 0;
@@ -441,12 +446,14 @@ static void let_leave(froe_kinetic *k, int64_t tick) {
             const uint32_t cert = k->certs.queue.due.data[i];
             if (k->certs.all.data[cert].kind == CERT_COURSE) cert_set_tick(&k->certs, cert, NOW_NEVER);
         }
-        if (space) return;
-        if (first) renew_choose(k, tick);
+        if (first && !space) renew_choose(k, tick);
         if (gone == k->events.leaving.count) renew_check(k, tick);
-        if (gone == k->events.leaving.count || k->call.stopped) return;
-        for (; gone < k->events.leaving.count && !k->call.stopped; gone++)
-            change_remove(k, k->events.leaving.data[gone] / 2);
+        const bool all = space && FEW * k->events.leaving.count > k->now.motion->objects.count;
+        if (gone == k->events.leaving.count || k->call.stopped) return all;
+        for (; gone < k->events.leaving.count && !k->call.stopped; gone++) {
+            const uint32_t s = k->events.leaving.data[gone] / 2;
+            if (!all || k->now.motion->objects.data[now_object_of(&k->now, s)].last < tick) change_remove(k, s);
+        }
     }
 }
 
@@ -501,7 +508,8 @@ static bool enter_tree(froe_kinetic *k, const event_watcher *watcher) {
         froe_event_kind kind = !there                          ? FROE_EVENT_DISAPPEAR
                                : k->now.tick <= (o->first | 1) ? FROE_EVENT_APPEAR
                                                                : FROE_EVENT_PLAN;
-        if (there && !ktree_segment_at(&k->tree, s)->stays && !now_is_surface(&k->now, s)) change_insert(k, s);
+        const bool in = ktree_segment_at(&k->tree, s)->stays || ktree_segment_at(&k->tree, s)->here;
+        if (there && !in) change_insert(k, s);
         ktree_segment_at(&k->tree, s)->stays = false;
         event_summary all = {.event = event_at(&k->now, kind)};
         add_segment(k, &all, s);
@@ -519,17 +527,15 @@ bool event_step(froe_kinetic *k, int64_t tick, const event_watcher *watcher) {
     }
     /* All certificates hold until then. What comes next to each other where a segment leaves must not pass before. */
     if (next - 2 > k->now.tick) k->now.tick = next - 2;
-    let_leave(k, next);
+    const bool all = let_leave(k, next);
     k->now.tick = next;
     renew_apply(k);
-    bool go_on = true;
-    if (now_is_in_space(&k->now) && k->events.leaving.count) {
-        change_enroll_triangles(k);
+    turn_segments(k);
+    flop_triangles(k);
+    bool go_on = settle_tick(k, watcher);
+    if (all && !k->call.stopped) {
+        triangle_enroll_all(k);
         if (!k->call.stopped) surgery_restart(k);
-    } else {
-        turn_segments(k);
-        flop_triangles(k);
-        go_on &= settle_tick(k, watcher);
     }
     go_on &= enter_tree(k, watcher);
     return settle_tick(k, watcher) && go_on;

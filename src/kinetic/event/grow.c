@@ -89,7 +89,7 @@ static bool triangle_meets(froe_kinetic *k, uint32_t surface, const ktree_cell *
     return cell->floor == FROE_NONE || now_above(&k->now, object, k->now.segments.data[cell->floor].origin) > 0;
 }
 
-static bool reaches_into(froe_kinetic *k, uint32_t segment, const ktree_cell *cell) {
+bool surgery_reaches(froe_kinetic *k, uint32_t segment, const ktree_cell *cell) {
     uint32_t end[2];
     if (now_is_surface(&k->now, segment)) return triangle_meets(k, segment, cell);
     return surgery_clip(k, segment, cell, end);
@@ -143,7 +143,7 @@ static void push_task(froe_kinetic *k, surgery_task task) {
     if (!call_reserve(&k->call, &k->tree.list, end - first)) return;
     uint32_t *list = k->tree.list.data;
     for (size_t i = first; i < end; i++)
-        if (reaches_into(k, list[i], &task.cell)) list[k->tree.list.count++] = list[i], task.count++;
+        if (surgery_reaches(k, list[i], &task.cell)) list[k->tree.list.count++] = list[i], task.count++;
     if (task.count) call_push(&k->call, &k->surgery.tasks, task);
 }
 

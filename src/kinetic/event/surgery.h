@@ -46,6 +46,8 @@ typedef enum surgery_way { SURGERY_INSIDE, SURGERY_BESIDE, SURGERY_ABOVE, SURGER
 surgery_way surgery_find(froe_kinetic *k, uint32_t segment, const ktree_cell *cell, uint32_t end[2]);
 /** Where the segment ends in a cell. False: it does not reach into it. */
 bool surgery_clip(froe_kinetic *k, uint32_t segment, const ktree_cell *cell, uint32_t end[2]);
+/** Does it reach into a cell; of a surface: does its triangle meet the cell? */
+bool surgery_reaches(froe_kinetic *k, uint32_t segment, const ktree_cell *cell);
 /** The tree of the segments on the list, those that reach into the cell, made from scratch. Empties the list. */
 void surgery_grow(froe_kinetic *k, const ktree_cell *cell, uint32_t parent, uint8_t slot);
 /** Makes anew what lies between the two lines in the cell of a node. False: segments that were not participants come

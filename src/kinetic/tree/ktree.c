@@ -236,8 +236,12 @@ void ktree_list(ktree *tree, uint32_t segment) {
 /* What the list has for a segment. */
 static void list_objects(ktree *tree, uint32_t segment) {
     const now_state *now = tree->now;
-    if (!now_is_in_space(now) || now_is_surface(now, segment)) {
+    if (!now_is_in_space(now)) {
         ktree_list(tree, segment);
+        return;
+    }
+    if (now_is_surface(now, segment)) {
+        if (ktree_segment_at(tree, segment)->here) ktree_list(tree, segment);
         return;
     }
     for (uint32_t c = now->segments.data[segment].origin; c != FROE_NONE; c = now_next_corner(now, c)) {

@@ -131,6 +131,12 @@ static inline bool ktree_before(const ktree *tree, uint32_t s, uint32_t t) {
 static inline bool ktree_is_end(uint32_t wall) {
     return wall == KTREE_END_0 || wall == KTREE_END_1;
 }
+/** Is a node that of a segment; of a surface: of that, or of an edge that cuts as one of its triangle? */
+static inline bool ktree_is_part(const ktree *tree, uint32_t node, uint32_t segment) {
+    const uint32_t own = tree->nodes.data[node].segment;
+    if (!now_is_surface(tree->now, segment)) return own == segment;
+    return (ktree_segment_at(tree, own)->key | 3) == ktree_segment_at(tree, segment)->key;
+}
 /** The point that a segment ends at in a cell. */
 static inline name_point ktree_wall_name(const ktree *tree, uint32_t segment, uint32_t end) {
     if (end >= KTREE_END_1)
