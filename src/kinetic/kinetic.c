@@ -138,9 +138,24 @@ static uint64_t *key_of(froe_kinetic *k, uint32_t object) {
     return &ktree_segment_at(&k->tree, now_segment_of(&k->now, object))->key;
 }
 
+/* Of the keys of edges that come before that of each surface. */
+static uint64_t edges_before(const froe_kinetic *k) {
+    return now_is_in_space(&k->now) ? 3 : 0;
+}
+
+/* How many of the motion's objects the partition knows. */
+static uint32_t object_count(const froe_kinetic *k) {
+    return (uint32_t)(now_is_in_space(&k->now) ? k->now.faces.count : k->tree.segments.count);
+}
+
+static froe_status refuse_bodies(froe_diagnostic *diag) {
+    return support_fail(diag, FROE_E_UNSUPPORTED,
+                        "The motion has bodies: a partition in space takes triangles whose corners have plans.");
+}
+
 static froe_status take_order(froe_kinetic *k, froe_diagnostic *diag) {
     const size_t n = k->now.motion->objects.count;
-    const uint64_t edges = k->now.motion->dim == 3 ? 3 : 0; /* that come before each surface */
+    const uint64_t edges = edges_before(k);
     const uint32_t *order = k->options.order;
     if (order && k->options.epoch)
         return support_fail(diag, FROE_E_OPTIONS, "A given order cannot be drawn anew in epochs.");
@@ -179,9 +194,7 @@ froe_status froe_kinetic_new(froe_motion *motion, const froe_kinetic_options *op
     if (options->size != sizeof *options) return support_fail_defaults(diag, "froe_kinetic_defaults");
     if (motion->dim == 3 && (options->augmented || options->epoch))
         return support_fail(diag, FROE_E_UNSUPPORTED, "A partition in space is not augmented, and has no epochs.");
-    if (motion->bodies.count)
-        return support_fail(diag, FROE_E_UNSUPPORTED,
-                            "The motion has bodies: a partition in space takes triangles whose corners have plans.");
+    if (motion->bodies.count) return refuse_bodies(diag);
     froe_allocator memory = support_allocator(alloc);
     froe_kinetic *k;
     if (new_at(motion, &memory, options, 1, &k)) return support_fail_memory(diag);
@@ -273,14 +286,15 @@ froe_status froe_kinetic_advance(froe_kinetic *k, double time, froe_event_fn *vi
 froe_status froe_kinetic_update(froe_kinetic *k, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!k) return support_fail_null(diag, __func__);
-    if (k->now.motion->dim == 3) return kinetic_refuse_space(diag);
-    uint32_t first = (uint32_t)k->tree.segments.count;
+    const uint32_t first = object_count(k);
+    if (k->now.motion->bodies.count) return refuse_bodies(diag);
     if (grow_tables(k)) return support_fail_memory(diag);
     froe_status status = kinetic_begin(k, diag);
-    for (uint32_t s = first; s < k->tree.segments.count && !status; s++) {
-        ktree_segment_at(&k->tree, s)->key = random_key(k, s);
+    for (uint32_t o = first; o < object_count(k) && !status; o++) {
+        const uint32_t s = now_segment_of(&k->now, o);
+        *key_of(k, o) = random_key(k, o) | edges_before(k);
         change_schedule(k, s);
-        if (now_is_alive(&k->now, s)) change_insert(k, s);
+        if (now_is_alive(&k->now, o)) change_insert(k, s);
         status = kinetic_settle(k, diag);
     }
     return status;
@@ -288,35 +302,51 @@ froe_status froe_kinetic_update(froe_kinetic *k, froe_diagnostic *diag) {
 
 froe_status froe_kinetic_remove(froe_kinetic *k, uint32_t object, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (k && k->now.motion->dim == 3) return kinetic_refuse_space(diag);
-    if (!k || object >= k->tree.segments.count) return support_fail(diag, FROE_E_ARG, "There is no object %u.", object);
+    if (!k || object >= object_count(k)) return support_fail(diag, FROE_E_ARG, "There is no object %u.", object);
     froe_status status = kinetic_begin(k, diag);
     if (status) return status;
     motion_object *o = k->now.motion->objects.data + object;
-    const uint32_t life = k->certs.segments.data[object].life;
+    const uint32_t segment = now_segment_of(&k->now, object), life = k->certs.segments.data[segment].life;
     if (o->last >= k->now.tick) o->last = k->now.tick - 1;
     if (life != FROE_NONE) cert_set_tick(&k->certs, life, NOW_NEVER);
-    change_remove(k, object);
+    change_remove(k, segment);
     return kinetic_settle(k, diag);
+}
+
+static bool has_vertex(const motion_object *o, uint32_t vertex) {
+    return o->vertices[0] == vertex || o->vertices[1] == vertex || o->vertices[2] == vertex;
+}
+
+/* Lists what is there and has a vertex, as events.leaving. */
+static void find_at_vertex(froe_kinetic *k, uint32_t vertex) {
+    k->events.leaving.count = 0;
+    if (!now_is_in_space(&k->now)) {
+        for (uint32_t e = k->tree.vertices.data[vertex]; e != FROE_NONE; e = ktree_next_end(&k->tree, e))
+            call_push(&k->call, &k->events.leaving, e / 2);
+        return;
+    }
+    for (uint32_t o = 0; o < object_count(k); o++) {
+        const uint32_t surface = now_segment_of(&k->now, o);
+        if (ktree_segment_at(&k->tree, surface)->here && has_vertex(k->now.motion->objects.data + o, vertex))
+            call_push(&k->call, &k->events.leaving, surface);
+    }
 }
 
 froe_status froe_kinetic_replan(froe_kinetic *k, uint32_t vertex, size_t count, const double *times,
                                 const double *coords, const double *controls, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (k && k->now.motion->dim == 3) return kinetic_refuse_space(diag);
     if (!k || vertex >= k->tree.vertices.count) return support_fail(diag, FROE_E_ARG, "There is no vertex %u.", vertex);
     const double now = now_time_of(&k->now, k->now.tick);
     double life[2] = {now, now}; /* to the end of the last life of a segment at the vertex */
     froe_status status = kinetic_begin(k, diag), settled;
     if (status) return status;
-    for (uint32_t s = 0; s < k->tree.segments.count; s++) {
-        const motion_object *o = k->now.motion->objects.data + s;
+    for (uint32_t i = 0; i < object_count(k); i++) {
+        const motion_object *o = k->now.motion->objects.data + i;
         const bool lives = o->first <= o->last && o->last >= k->now.tick;
-        if (lives && now_has_end(&k->now, s, vertex) && o->death > life[1]) life[1] = o->death;
+        if (lives && has_vertex(o, vertex) && o->death > life[1]) life[1] = o->death;
     }
-    k->events.leaving.count = 0;
-    for (uint32_t e = k->tree.vertices.data[vertex]; e != FROE_NONE; e = ktree_next_end(&k->tree, e))
-        if (!array_push(&k->call.alloc, &k->events.leaving, e / 2)) return support_fail_memory(diag);
+    find_at_vertex(k, vertex);
+    if (k->call.stopped) return call_fail(&k->call, diag);
     for (size_t i = 0; i < k->events.leaving.count; i++) change_remove(k, k->events.leaving.data[i]);
     status = motion_replan(k->now.motion, vertex, count, times, coords, controls, life, diag);
     now_catch_up(&k->now);

@@ -33,6 +33,7 @@ typedef struct space_kind {
     bool curved;     /**< on parabolas */
     int legs;        /**< pieces of each plan, there and back again; 0: one */
     bool mortal;     /**< they come and go */
+    bool offbeat;    /**< knots of each vertex at times of its own */
 } space_kind;
 
 typedef struct space_data {
@@ -249,11 +250,12 @@ static inline void space_tilt(const space_kind *kind, int p[3]) {
 
 static inline void space_plan(const space_kind *kind, space_data *d, size_t v) {
     const size_t legs = kind->legs ? (size_t)kind->legs : 1, first = d->starts[v];
+    const int beat = kind->offbeat ? fuzz_int(&d->random, -3, 3) : 0;
     space_tilt(kind, d->at[v]);
     space_tilt(kind, d->to[v]);
     for (size_t i = 0; i <= legs; i++) {
         const int *p = i % 2 ? d->to[v] : d->at[v], *q = i % 2 ? d->at[v] : d->to[v];
-        d->times[first + i] = (double)SPACE_WINDOW * (double)i / (double)legs;
+        d->times[first + i] = (double)SPACE_WINDOW * (double)i / (double)legs + (i && i < legs ? beat : 0);
         for (size_t k = 0; k < 3; k++) {
             const double away = kind->far ? ldexp(1, kind->far) : 0;
             d->coords[3 * (first + i) + k] = ldexp(p[k] + away, kind->scale);
@@ -313,13 +315,13 @@ static inline bool space_count(void *user, const froe_event *event) {
     return true;
 }
 
-/** Is the tree, node for node, that of `cylindrical`, which is built of the triangles where they are? All of them must
- * be where doubles are. */
+/** Is the tree, node for node, that of `cylindrical`, which is built of the triangles where they are, or at the doubles
+ * next to that? */
 static inline bool space_is_alike(froe_kinetic *k, space_counts *counts, froe_diagnostic *why) {
     froe_snapshot s = {0};
     counts->compared++;
     if (froe_kinetic_snapshot(k, NULL, &s, why)) return false;
-    const bool alike = s.alike && !s.rounded;
+    const bool alike = s.alike;
     if (!alike) snprintf(why->message, sizeof why->message, "alike %d, rounded %zu", s.alike, s.rounded);
     froe_tree_free(s.tree);
     return alike;
@@ -358,7 +360,7 @@ static const space_kind space_kinds[] = {
     {.name = "swarm", .form = SPACE_SWARM, .count = 20, .grid = 1000, .reach = 130, .speed = 900, .turning = true},
     {.name = "rigid swarm", .form = SPACE_SWARM, .count = 20, .grid = 1000, .reach = 130, .speed = 900},
     {.name = "tilted boxes", .form = SPACE_BOXES, .count = 36, .grid = 700, .reach = 160, .speed = 500, .tilt = 5},
-    {.name = "boxes", .form = SPACE_BOXES, .count = 36, .grid = 700, .reach = 160, .speed = 480},
+    {.name = "boxes", .form = SPACE_BOXES, .count = 60, .grid = 800, .reach = 120, .speed = 840},
     {.name = "lattice", .form = SPACE_LAYERS, .count = 14, .grid = 12, .reach = 5, .speed = 4, .spin = 2},
     {.name = "rigid lattice", .form = SPACE_LAYERS, .count = 16, .grid = 12, .reach = 4, .speed = 6},
     {.name = "far", .form = SPACE_LAYERS, .count = 14, .grid = 1000, .reach = 250, .speed = 300, .spin = 99, .far = 24},
@@ -410,6 +412,39 @@ static const space_kind space_kinds[] = {
      .reach = 200,
      .speed = 300,
      .spin = 99,
+     .mortal = true},
+    {.name = "offbeat",
+     .form = SPACE_LAYERS,
+     .count = 12,
+     .grid = 1024,
+     .reach = 256,
+     .speed = 320,
+     .spin = 64,
+     .legs = 3,
+     .offbeat = true},
+    {.name = "offbeat sheets",
+     .form = SPACE_SHEETS,
+     .count = 36,
+     .grid = 700,
+     .reach = 160,
+     .speed = 480,
+     .spin = 32,
+     .legs = 2,
+     .offbeat = true},
+    {.name = "mortal solids",
+     .form = SPACE_TETRAHEDRA,
+     .count = 32,
+     .grid = 1000,
+     .reach = 250,
+     .speed = 600,
+     .mortal = true},
+    {.name = "mortal lattice",
+     .form = SPACE_LAYERS,
+     .count = 20,
+     .grid = 12,
+     .reach = 5,
+     .speed = 4,
+     .spin = 2,
      .mortal = true},
 };
 enum { SPACE_KINDS = sizeof space_kinds / sizeof *space_kinds };

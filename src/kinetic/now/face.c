@@ -40,19 +40,21 @@ static void link_sides(now_state *now, face_side *sides) {
     }
 }
 
-/* Edges that are new, in order, and the surface. REQUIRES: room. */
-static void number_face(now_state *now, uint32_t object, uint32_t *count) {
+/* Edges that are new, in order, and the surface. What had a number before has it again, and stays as it is. REQUIRES:
+ * room. */
+static void number_face(now_state *now, uint32_t object, uint32_t *count, uint32_t known) {
     now_face *f = now->faces.data + object;
+    now_segment *all = now->segments.data;
     for (uint32_t i = 0; i < 3; i++) {
         const uint32_t first = f->edge[i], corner = 3 * object + i;
         if (first != corner) {
             f->edge[i] = now->faces.data[first / 3].edge[first % 3];
             continue;
         }
-        now->segments.data[*count] = (now_segment){{f->vertex[i], f->vertex[(i + 1) % 3]}, corner, false, false};
+        if (*count >= known) all[*count] = (now_segment){{f->vertex[i], f->vertex[(i + 1) % 3]}, corner, false, false};
         f->edge[i] = (*count)++;
     }
-    now->segments.data[*count] = (now_segment){{f->vertex[0], f->vertex[1]}, object, false, true};
+    if (*count >= known) all[*count] = (now_segment){{f->vertex[0], f->vertex[1]}, object, false, true};
     f->surface = (*count)++;
 }
 
@@ -69,9 +71,10 @@ froe_status now_grow_faces(now_state *now) {
     }
     if (room) {
         /* the numbers of those before come out as they are, as they depend on what is before alone */
+        const uint32_t known = now->segments.count ? (uint32_t)now->segments.count - 1 : 0;
         uint32_t count = 0;
         link_sides(now, sides);
-        for (uint32_t i = 0; i < all; i++) number_face(now, i, &count);
+        for (uint32_t i = 0; i < all; i++) number_face(now, i, &count, known);
         now->segments.count = count + 1;
     }
     if (sides) support_free(alloc, sides, (3 * all + 1) * sizeof *sides);
