@@ -214,9 +214,9 @@ FROE_API froe_kinetic_options froe_kinetic_defaults(void);
  * cross each other: from the instant on at which two of them meet (froe_motion_contacts() finds it), the partition is
  * not what it should be, and snapshots are refused where triangles cross. In space it is made anew where the plans of
  * more than one triangle in eight take other pieces at a tick, and questions are refused with FROE_E_UNSUPPORTED, as
- * are bodies; a snapshot answers questions. The motion must outlive it. Until it is freed, plans are changed and objects
- * added by the functions below only. FROE_E_ARG: motion, options or out is NULL. FROE_E_OPTIONS: the order is not one,
- * or the options are not from froe_kinetic_defaults(). FROE_E_UNSUPPORTED, FROE_E_MEMORY, FROE_E_CANCELLED.
+ * are bodies; a snapshot answers questions. The motion must outlive it. Until it is freed, plans are changed and
+ * objects added by the functions below only. FROE_E_ARG: motion, options or out is NULL. FROE_E_OPTIONS: the order is
+ * not one, or the options are not from froe_kinetic_defaults(). FROE_E_UNSUPPORTED, FROE_E_MEMORY, FROE_E_CANCELLED.
  * Expected O(n log^2 n + k log n) for n segments with k crossings. */
 FROE_API froe_status froe_kinetic_new(froe_motion *motion, const froe_kinetic_options *options,
                                       const froe_allocator *alloc, froe_kinetic **out, froe_diagnostic *diag);
