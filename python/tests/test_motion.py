@@ -132,3 +132,151 @@ def test_questions_to_motions_in_space():
     motion.add([0] * 3, corners, [0, 1, 2, 3])
     with pytest.raises(UnsupportedError):
         motion.kinetic().locate([[0, 0]])
+
+
+TRIANGLE = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
+
+
+def falling(turns=None, height=8.0):
+    """A triangle of a body that falls onto another one, which stands still at z = 2."""
+    motion = froe.Motion(0, 4, dim=3)
+    body = motion.add_body([0, 4], [[0, 0, height], [0, 0, 0]], turns=turns)
+    motion.add([0] * 3, TRIANGLE, [0, 1, 2, 3], bodies=[body] * 3)
+    motion.add([0] * 3, TRIANGLE + [0, 0, 2], [0, 1, 2, 3])
+    return motion
+
+
+def test_bodies():
+    motion = falling()
+    found = motion.contacts()
+    assert len(motion) == 2 and found.begin.tolist() == [[3.0, 3.0]] and found.instant.tolist() == [True]
+    assert motion.positions(1)[:3, 2].tolist() == [6, 6, 6] and motion.positions(1)[3:].tolist() == (
+        TRIANGLE + [0, 0, 2]
+    ).tolist()
+
+
+def test_bodies_that_turn():
+    """A quarter turn about x brings the corner (0, 1, 0) to (0, 0, 1): it comes down to z = 2 later than the others."""
+    half = np.sqrt(0.5)
+    motion = falling(turns=[[0, 0, 0, 1], [half, 0, 0, half]])
+    assert np.allclose(motion.positions(4)[:3], [[0, 0, 0], [1, 0, 0], [0, 0, 1]], atol=1e-9)
+    found = motion.contacts()
+    assert found.begin[0, 0] <= 3 <= found.begin[0, 1] and not found.instant[0] and 3 < found.end[0, 0] < 4
+    parabola = froe.Motion(0, 4, dim=3)
+    body = parabola.add_body([0, 4], [[0, 0, 0], [0, 0, 0]], controls=[[0, 0, 8], [np.nan] * 3])
+    parabola.add([0] * 3, TRIANGLE, [0, 1, 2, 3], bodies=[body] * 3)
+    assert parabola.positions(2)[0].tolist() == [0, 0, 4]
+
+
+def test_replans_are_as_if_planned_before():
+    """A partition that learns of a plan when it begins is one that knew it."""
+    plans = [[0, 0], [0, 9], [20, 3], [20, 7]]
+    known, told = froe.Motion(0, 10), froe.Motion(0, 10)
+    known.add([0, 2, 10, 0, 2, 10, 0, 0], [plans[0], plans[0], [40, 0], plans[1], plans[1], [40, 9], *plans[2:]],
+              [0, 3, 6, 7, 8])  # fmt: skip
+    told.add([0] * 4, plans, [0, 1, 2, 3, 4])
+    expected, kinetic = known.kinetic(), told.kinetic()
+    expected.advance(2)
+    kinetic.advance(2)
+    now = kinetic.time
+    for vertex in (0, 1):
+        kinetic.replan(vertex, [2, 10], [plans[vertex], [40, plans[vertex][1]]])
+    for time in (4, 6, 9.5):
+        expected.advance(time)
+        kinetic.advance(time)
+        kinetic.audit()
+        points = np.random.default_rng(3).random((100, 2)) * [40, 10]
+        assert np.array_equal(expected.locate(points), kinetic.locate(points))
+        assert np.array_equal(told.positions(time), known.positions(time))
+    assert now >= 2
+    for bad in (lambda: kinetic.replan(9, [2, 10], [[0, 0], [1, 1]]), lambda: kinetic.replan(0, [2], [[0, 0], [1, 1]]),
+                lambda: kinetic.replan(0, [10, 2], [[0, 0], [1, 1]]), lambda: kinetic.replan(-1, [2], [[0, 0]]),
+                lambda: kinetic.replan(0, [2, 10], [[0, np.nan], [1, 1]])):  # fmt: skip
+        with pytest.raises((ArgumentError, ArrayError, InputError)):
+            bad()
+    kinetic.audit()
+
+
+def test_the_order_of_painting():
+    motion, place, speed = movers(40)
+    kinetic = motion.kinetic()
+    kinetic.advance(2)
+    objects, ends = kinetic.order([500, -9000])
+    assert set(objects.tolist()) == set(range(40)) and ends.shape == (len(objects), 4)
+    drawn = np.zeros(40)
+    for thing, (_, y, _, top) in zip(objects, ends):
+        drawn[thing] += abs(top - y)
+    assert np.allclose(drawn, 40)
+    heights = ends[:, [1, 3]].max(axis=1)
+    columns = {}
+    for x, height in zip(np.round(ends[:, 0], 6), heights):  # of what is one above the other, the upper comes first
+        assert height <= columns.get(x, np.inf)
+        columns[x] = height
+
+
+def test_events_in_space_name_edges():
+    """A triangle that passes over another one, as seen from above."""
+    motion = froe.Motion(0, 4, dim=3)
+    moving = np.stack([TRIANGLE + [-3, 0.25, 5], TRIANGLE + [5, 0.25, 5]], axis=1).reshape(-1, 3)
+    motion.add([0, 4] * 3, moving, [0, 2, 4, 6])
+    motion.add([0] * 3, TRIANGLE * 2, [0, 1, 2, 3])
+    kinetic = motion.kinetic()
+    events = kinetic.advance(3.5)
+    assert len(events) > 3 and events.edges.shape == (len(events), 4) and events.edge_counts.max() > 0
+    named = events.edges[events.edges >= 0]
+    assert set((named // 3).tolist()) <= {0, 1}
+    plane = movers(30)[0].kinetic().advance(3)
+    assert plane.edge_counts.max() == 0 and (plane.edges == -1).all()
+
+
+def test_poses(tmp_path):
+    model = froe.Scene(3)
+    for name in ("a", "b"):
+        model.add_triangles([TRIANGLE + [0, 0, 9 * (name == "b")]], group=model.add_group(name))
+    path = tmp_path / "poses.csv"
+    path.write_text("time,body,x,y,z,qx,qy,qz,qw\n0,a,0,0,0,0,0,0,1\n10,a,0,0,10,0,0,0,1\n")
+    motion = froe.read_poses(path, model)
+    begin, end = motion.contacts().begin[0]
+    assert motion.window == (0, 10) and begin <= 9 <= end < 9 + 1e-12
+    assert froe.read_poses(path, model, 2, 5).window == (2, 5)
+    path.write_text("time,body,x,y,z\n0,c,0,0,0\n")
+    with pytest.raises(InputError, match="c"):
+        froe.read_poses(path, model, 0, 1)
+    with pytest.raises(froe.errors.FileError):
+        froe.read_poses("/nonexistent", model)
+    with pytest.raises(ArrayError, match="no scene"):
+        froe._core.read_poses(str(path), motion._core, 0.0, 1.0)
+    with pytest.raises(UnsupportedError):
+        froe.read_poses(path, froe.points([[0, 0]]), 0, 1)
+
+
+@pytest.mark.parametrize("kind, dim", [("moving", 2), ("moving-boxes", 3)])
+def test_made_up_motions(kind, dim):
+    motion = froe.generate_motion(kind, 24, seed=2)
+    assert motion.dim == dim and len(motion) > 0 and motion.window == (0, 60)
+    assert np.array_equal(motion.positions(30), froe.generate_motion(kind, 24, seed=2).positions(30))
+    assert not np.array_equal(motion.positions(30), motion.positions(31))
+
+
+@pytest.mark.parametrize(
+    "call, kind",
+    [
+        (lambda: froe.Motion(0, 1).add_body([0], [[0, 0, 0]]), UnsupportedError),
+        (lambda: froe.Motion(0, 1, dim=3).add_body([0, 0], [[0, 0, 0]] * 2), InputError),
+        (lambda: froe.Motion(0, 1, dim=3).add_body([0], [[0, 0, np.inf]]), InputError),
+        (lambda: froe.Motion(0, 1, dim=3).add_body([0], [[0, 0, 0]], turns=[[1, 1, 1, 1]]), InputError),
+        (lambda: froe.Motion(0, 1, dim=3).add_body([0], [[0, 0, 0]], turns=[[0, 0, 1]]), ArrayError),
+        (lambda: froe.Motion(0, 1, dim=3).add_body([0, 1], [[0, 0, 0]]), ArrayError),
+        (lambda: froe.Motion(0, 1, dim=3).add([0] * 3, TRIANGLE, [0, 1, 2, 3], bodies=[0] * 3), InputError),
+        (lambda: froe.Motion(0, 1, dim=3).add([0] * 3, TRIANGLE, [0, 1, 2, 3], bodies=[0]), ArrayError),
+        (lambda: froe.Motion(0, 1).positions("now"), TypeError),
+        (lambda: movers(3)[0].kinetic().order([0, np.nan]), ArgumentError),
+        (lambda: movers(3)[0].kinetic().order([0, 0, 0]), ArrayError),
+        (lambda: froe.generate_motion("wild", 5), froe.errors.OptionError),
+        (lambda: froe.generate_motion("moving", -5), ArgumentError),
+        (lambda: froe.generate_motion("moving", 0), ArgumentError),
+    ],
+)
+def test_bad_bodies_and_plans(call, kind):
+    with pytest.raises(kind):
+        call()

@@ -30,6 +30,12 @@ def moving():
     return motion
 
 
+def solid():
+    motion = froe.Motion(0, 1, dim=3)
+    body = motion.add_body([0, 1], [[0, 0, 0], [0, 0, 8]], turns=[[0, 0, 0, 1]] * 2)
+    motion.add([0] * 3, np.eye(3), [0, 1, 2, 3], bodies=[body] * 3)
+
+
 MOTION = moving()
 KINETIC = MOTION.kinetic()
 TREE = froe.segments(SEGMENTS).build("autopartition", purpose="pieces")
@@ -75,6 +81,14 @@ CALLS = {
     "render of an option too many": lambda: refused(SPACE._core.render, None, 0, {"tidle": 5}, None),
     "motion": lambda: moving(),
     "motion refused": lambda: refused(froe._core.motion, 2, 1.0, 1.0, 0.0),
+    "bodies": lambda: solid(),
+    "bodies refused": lambda: refused(MOTION.add_body, [0], [[0, 0, 0]]),
+    "positions": lambda: MOTION.positions(2),
+    "replan": lambda: KINETIC.replan(2, [0, 0.5], [[2, 0], [2, 0]]),
+    "replan refused": lambda: refused(KINETIC.replan, 99, [0], [[2, 0]]),
+    "order of a partition": lambda: KINETIC.order([9, 9]),
+    "poses refused": lambda: refused(froe.read_poses, "/nonexistent", TREE.scene),
+    "made-up motions": lambda: froe.generate_motion("moving", 3),
     "contacts": lambda: MOTION._core.contacts(0.0, 4.0, False, False, 1, None),
     "kinetic": lambda: MOTION.kinetic().advance(2),
     "snapshot": lambda: KINETIC.snapshot(),

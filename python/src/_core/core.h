@@ -26,6 +26,7 @@ bool core_add_scene(PyObject *module);
 bool core_add_tree(PyObject *module);
 bool core_add_read(PyObject *module);
 bool core_add_motion(PyObject *module);
+bool core_add_motion_files(PyObject *module);
 bool core_add_kinetic(PyObject *module);
 bool core_add_tree_files(PyObject *module);
 #endif

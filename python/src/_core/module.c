@@ -22,7 +22,8 @@ static struct PyModuleDef definition = {PyModuleDef_HEAD_INIT, "froe._core", NUL
 PyMODINIT_FUNC PyInit__core(void) {
     PyObject *module = PyModule_Create(&definition);
     if (module && core_errors_begin() && core_add_memory(module) && core_add_scene(module) && core_add_tree(module) &&
-        core_add_tree_files(module) && core_add_read(module) && core_add_motion(module) && core_add_kinetic(module) &&
+        core_add_tree_files(module) && core_add_read(module) && core_add_motion(module) &&
+        core_add_motion_files(module) && core_add_kinetic(module) &&
         PyModule_AddStringConstant(module, "version", froe_version()) == 0)
         return module;
     Py_XDECREF(module);

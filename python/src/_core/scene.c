@@ -28,6 +28,11 @@ PyObject *core_scene_object(froe_scene *scene) {
     return (PyObject *)self;
 }
 
+core_scene *core_scene_from(PyObject *object) {
+    if (Py_IS_TYPE(object, scene_type)) return (core_scene *)object;
+    return (core_scene *)core_fail_as("ArrayError", "This is no scene.");
+}
+
 PyObject *core_scene_of_tree(core_tree *tree) {
     const froe_tree *used = core_tree_use(tree);
     PyObject *object = used ? core_scene_object(NULL) : NULL;

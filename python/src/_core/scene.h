@@ -7,6 +7,8 @@ typedef struct core_scene core_scene;
 
 /** A scene that has just been made, which the object takes. NULL: an exception is set, and the scene is freed. */
 PyObject *core_scene_object(froe_scene *scene);
+/** The object as a scene; NULL: it is none, and an exception is set. */
+core_scene *core_scene_from(PyObject *object);
 /** The scene of a tree, which the object keeps, even if it is closed. NULL: an exception is set. */
 PyObject *core_scene_of_tree(core_tree *tree);
 /** The scene, for this call alone until core_scene_give(). NULL: it is in use, and an exception is set. */

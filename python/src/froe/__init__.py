@@ -14,7 +14,7 @@ from .adapters.meshes import from_pyvista, from_trimesh
 from .adapters.shapely import from_shapely, to_shapely
 from .answers import Answers
 from .errors import Error
-from .motion import Contacts, Events, Kinetic, Motion, Snapshot, read_motion
+from .motion import Contacts, Events, Kinetic, Motion, Snapshot, generate_motion, read_motion, read_poses
 from .parts import Cells, Pieces
 from .pictures import Picture, RenderReport
 from .report import Promise, Report
@@ -61,11 +61,13 @@ __all__ = [
     "from_shapely",
     "from_trimesh",
     "generate",
+    "generate_motion",
     "measure",
     "open",
     "points",
     "read",
     "read_motion",
+    "read_poses",
     "segments",
     "to_shapely",
     "triangles",

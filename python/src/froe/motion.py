@@ -12,24 +12,14 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import Doubles, Ids, Progress, doubles, rows, whole
+from ._arrays import Doubles, Ids, Progress, doubles, point, rows, whole
 from .errors import ArrayError
+from .scene import Scene
 from .tree import Tree
 
 Bools = npt.NDArray[np.bool_]
 
-EVENTS = (
-    "vertices",
-    "vertex crossing",
-    "crossings",
-    "contact",
-    "triple",
-    "turn",
-    "batch",
-    "plan",
-    "appear",
-    "disappear",
-)
+EVENTS = _core.event_names()
 _UPDATE, _REMOVE, _AUDIT = range(3)
 
 
@@ -64,6 +54,9 @@ class Events:
     :ivar kinds: numbers of kinds
     :ivar objects: (n, 4): what each is about, -1 where there are fewer
     :ivar counts: how many of these there are
+    :ivar edges: (n, 4): in space the edges that it is about, as seen from above: 3 object + the number of the corner
+        that each goes on from; -1 where there are fewer, as in the plane
+    :ivar edge_counts: how many of these there are
     :ivar ticks: the instant at which the partition was changed, in ticks of the motion
     :ivar early, late: it happened between these times
     """
@@ -71,6 +64,8 @@ class Events:
     kinds: Ids
     objects: Ids
     counts: Ids
+    edges: Ids
+    edge_counts: Ids
     ticks: npt.NDArray[np.int64]
     early: Doubles
     late: Doubles
@@ -162,6 +157,7 @@ class Motion:
         *,
         controls: npt.ArrayLike | None = None,
         vertices: npt.ArrayLike | None = None,
+        bodies: npt.ArrayLike | None = None,
         births: npt.ArrayLike | None = None,
         deaths: npt.ArrayLike | None = None,
         tags: npt.ArrayLike | None = None,
@@ -175,6 +171,8 @@ class Motion:
         :param starts: (vertices + 1,)
         :param controls: (m, dim); where it is not NaN, the vertex follows the parabola with this control point
         :param vertices: (objects, dim) numbers of vertices that each object joins; None: each vertex once, in order
+        :param bodies: (vertices,) the body of each vertex, which then has one time and its place in the body, from the
+            centre; None: of none
         :param births, deaths: (objects,), times at which each appears and disappears; None: it is there all the time
         :param tags: (objects,) whole numbers that name them to the caller
         :param groups: (objects,) the group of each
@@ -187,11 +185,60 @@ class Motion:
             whole(starts, "starts", np.uint64).ravel(),
             None if controls is None else rows(controls, "controls", self.dim, self.dim),
             None if vertices is None else whole(vertices, "vertices", np.uint32).ravel(),
+            None if bodies is None else whole(bodies, "bodies", np.uint32),
             None if births is None else doubles(births, "births"),
             None if deaths is None else doubles(deaths, "deaths"),
             None if tags is None else whole(tags, "tags", np.uint64),
             None if groups is None else whole(groups, "groups", np.uint32),
         )
+
+    def add_body(
+        self,
+        times: npt.ArrayLike,
+        coords: npt.ArrayLike,
+        *,
+        turns: npt.ArrayLike | None = None,
+        controls: npt.ArrayLike | None = None,
+    ) -> int:
+        """A rigid body in space, which vertices may then belong to. Its centre passes ``coords[i]`` at ``times[i]``. In
+        between it turns along the arc that a spherical interpolation takes, at nearly constant speed.
+
+        :param times: (m,), ascending
+        :param coords: (m, 3)
+        :param turns: (m, 4) quaternions x, y, z, w of length 1; None: it does not turn
+        :param controls: (m, 3); where it is not NaN, the centre follows the parabola with this control point
+        :returns: its number
+        :raises UnsupportedError: the motion is of the plane
+        :cost: O(times)
+
+        >>> import froe
+        >>> motion = froe.Motion(0, 2, dim=3)
+        >>> body = motion.add_body([0, 2], [[0, 0, 0], [0, 0, 8]])
+        >>> motion.add([0] * 3, [[0, 0, 0], [1, 0, 0], [0, 1, 0]], [0, 1, 2, 3], bodies=[body] * 3)
+        >>> motion.positions(1).tolist()
+        [[0.0, 0.0, 4.0], [1.0, 0.0, 4.0], [0.0, 1.0, 4.0]]
+        """
+        return self._core.add_body(
+            doubles(times, "times").ravel(),
+            rows(coords, "coords", 3, 3),
+            None if controls is None else rows(controls, "controls", 3, 3),
+            None if turns is None else rows(turns, "turns", 4, 4),
+        )
+
+    def positions(self, time: float) -> Doubles:
+        """Where all vertices are at a time, for pictures: rounded to a few units in the last place.
+
+        :param time: in the window
+        :returns: (vertices, dim); NaN where the plan of a vertex does not cover the time
+        :cost: O(vertices log times)
+
+        >>> import froe
+        >>> motion = froe.Motion(0, 4)
+        >>> motion.add([0, 4, 0], [[0, 0], [4, 0], [9, 9]], [0, 2, 3])
+        >>> motion.positions(1).tolist()
+        [[1.0, 0.0], [9.0, 9.0]]
+        """
+        return np.asarray(self._core.positions(time))
 
     def contacts(
         self,
@@ -295,16 +342,10 @@ class Kinetic:
 
         :param time: from the present to the end of the window
         :param progress: is called with the share done; False from it ends the call, between two events
-        :returns: the events; in space none are told
+        :returns: the events
         :cost: O(log n) expected for each event
         """
-        plane = self.motion.dim == 2
-        found = self._core.advance(time, plane, progress)
-        if found is None:
-            nothing = np.empty(0)
-            ids, ticks = nothing.astype(np.int32), nothing.astype(np.int64)
-            return Events(ids, ids.reshape(0, 4), ids, ticks, nothing, nothing)
-        return Events(*(np.asarray(part) for part in found))
+        return Events(*(np.asarray(part) for part in self._core.advance(time, progress)))
 
     def update(self) -> None:
         """Objects that were added to the motion meanwhile take part from now on.
@@ -320,6 +361,50 @@ class Kinetic:
         :cost: O(log n) expected for each crossing
         """
         self._core.change(_REMOVE, number)
+
+    def replan(
+        self, vertex: int, times: npt.ArrayLike, coords: npt.ArrayLike, *, controls: npt.ArrayLike | None = None
+    ) -> None:
+        """Gives a vertex another plan from the present on. Where it is now may change, too.
+
+        :param vertex: its number
+        :param times: (m,), ascending, from the present or earlier on
+        :param coords: (m, dim)
+        :param controls: (m, dim), as for ``Motion.add``
+        :cost: O(log n) expected for each crossing of its objects
+
+        >>> import froe
+        >>> motion = froe.Motion(0, 10)
+        >>> motion.add([0, 0, 0, 0], [[0, 0], [0, 1], [5, 0], [5, 1]], [0, 1, 2, 3, 4])   # two that stand still
+        >>> kinetic = motion.kinetic()
+        >>> kinetic.replan(1, [0, 10], [[0, 1], [10, 1]])                     # the upper end of the first moves
+        >>> kinetic.advance(8).kinds.size > 0
+        True
+        """
+        dim = self.motion.dim
+        self._core.replan(
+            vertex,
+            doubles(times, "times").ravel(),
+            rows(coords, "coords", dim, dim),
+            None if controls is None else rows(controls, "controls", dim, dim),
+        )
+
+    def order(self, eye: npt.ArrayLike) -> tuple[Ids, Doubles]:
+        """All pieces of segments between the walls of the partition, at the present: what comes later is never hidden,
+        as seen from the eye, by what came before.
+
+        :param eye: (2,)
+        :returns: (n,) objects, and (n, 4) the two ends of each piece, rounded
+        :cost: O(pieces)
+
+        >>> import froe
+        >>> motion = froe.Motion(0, 10)
+        >>> motion.add([0] * 4, [[0, 1], [2, 1], [0, 5], [2, 5]], [0, 1, 2, 3, 4])
+        >>> motion.kinetic().order([1, 0])[0].tolist()
+        [1, 1, 0]
+        """
+        objects, ends = self._core.order(point(eye, "eye", 2))
+        return np.asarray(objects), np.asarray(ends)
 
     def audit(self) -> None:
         """Proves that the partition is right, by comparing it with one that is made anew. It returns nothing when all
@@ -388,3 +473,47 @@ def read_motion(path: str | os.PathLike[str]) -> Motion:
     1
     """
     return Motion._of(_core.read_motion(path))
+
+
+def read_poses(
+    path: str | os.PathLike[str], model: Scene, begin: float = math.nan, end: float = math.nan
+) -> Motion:
+    """A model in motion, from a CSV file with the header ``body,time,x,y,z,qx,qy,qz,qw``. A row is where the group of
+    that name is at an instant: turned about the origin by the quaternion, and then moved. Columns may be in any order,
+    and those of the turn may be missing.
+
+    :param path: the file
+    :param model: polygons in space
+    :param begin, end: the window; NaN: the first and the last instant in the file
+    :raises FileError: the file cannot be opened or read
+    :raises FormatError: a column is missing
+    :raises InputError: the model has no such group, or a row is wrong; the message says which
+    :cost: O(rows + size of the model)
+
+    >>> import froe, tempfile, os
+    >>> model = froe.Scene(3)
+    >>> model.add_triangles([[[0, 0, 0], [1, 0, 0], [0, 1, 0]]], group=model.add_group("door"))
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     with open(os.path.join(folder, "a.csv"), "w") as file:
+    ...         _ = file.write("body,time,x,y,z\\ndoor,0,0,0,0\\ndoor,4,0,0,8\\n")
+    ...     froe.read_poses(os.path.join(folder, "a.csv"), model).positions(2)[0].tolist()
+    [0.0, 0.0, 4.0]
+    """
+    return Motion._of(_core.read_poses(path, model._core, begin, end))
+
+
+def generate_motion(kind: str, count: int, seed: int = 1) -> Motion:
+    """A made-up motion, the same everywhere, in a window from 0 to 60.
+
+    :param kind: ``froe generate --help`` lists them
+    :param count: about so many objects
+    :param seed: of the random numbers
+    :raises OptionError: there is no such kind
+    :raises ArgumentError: the count is 0
+    :cost: O(count)
+
+    >>> import froe
+    >>> froe.generate_motion("moving", 20)
+    <froe.Motion: 20 objects in R^2, from 0 to 60>
+    """
+    return Motion._of(_core.generate_motion(kind, count, seed))

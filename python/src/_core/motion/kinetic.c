@@ -68,10 +68,11 @@ static void free_kinetic(PyObject *object) {
 static bool take_event(void *pile, const froe_event *event) {
     froe_event known = *event;
     for (unsigned i = event->object_count; i < 4; i++) known.objects[i] = FROE_NONE;
+    for (unsigned i = event->edge_count; i < 4; i++) known.edges[i] = FROE_NONE;
     return core_pile_put(pile, &known, sizeof known);
 }
 
-/* (kinds, objects, counts, ticks, early, late): views of one array of events */
+/* (kinds, objects, counts, edges, edge counts, ticks, early, late): views of one array of events */
 static PyObject *events_object(core_pile *pile) {
     const size_t each = sizeof(froe_event), count = pile->count / each;
     PyObject *owner = core_pile_owner(pile);
@@ -80,29 +81,28 @@ static PyObject *events_object(core_pile *pile) {
     PyObject *parts[] = {core_array(owner, at + offsetof(froe_event, kind), "i", count, 0, each),
                          core_array(owner, at + offsetof(froe_event, objects), "i", count, 4, each),
                          core_array(owner, at + offsetof(froe_event, object_count), "i", count, 0, each),
+                         core_array(owner, at + offsetof(froe_event, edges), "i", count, 4, each),
+                         core_array(owner, at + offsetof(froe_event, edge_count), "i", count, 0, each),
                          core_array(owner, at + offsetof(froe_event, tick), "q", count, 0, each),
                          core_array(owner, at + offsetof(froe_event, early), "d", count, 0, each),
                          core_array(owner, at + offsetof(froe_event, late), "d", count, 0, each)};
     Py_DECREF(owner);
-    return core_tuple(6, parts);
+    return core_tuple(8, parts);
 }
 
-/* advance(time, with events, progress): events, or None */
+/* advance(time, progress): events */
 static PyObject *advance(PyObject *object, PyObject *const *args, Py_ssize_t count) {
     core_kinetic *self = (core_kinetic *)object;
-    bool events;
-    if (!core_arguments("advance", count, 3) || !core_flag(args[1], &events)) return NULL;
+    if (!core_arguments("advance", count, 2)) return NULL;
     const double time = PyFloat_AsDouble(args[0]);
     core_pile pile = {0};
     core_call call;
-    if (PyErr_Occurred() || !begin(self, &call, args[2])) return NULL;
+    if (PyErr_Occurred() || !begin(self, &call, args[1])) return NULL;
     call.pile = &pile;
-    const froe_status status =
-        froe_kinetic_advance(self->kinetic, time, events ? take_event : NULL, events ? &pile : NULL, &call.diag);
-    const bool done = end(self, &call, status);
-    if (done && events) return events_object(&pile);
+    const froe_status status = froe_kinetic_advance(self->kinetic, time, take_event, &pile, &call.diag);
+    if (end(self, &call, status)) return events_object(&pile);
     core_pile_free(&pile);
-    return done ? Py_NewRef(Py_None) : NULL;
+    return NULL;
 }
 
 /* now(): (time, time of the next event) */
@@ -127,6 +127,28 @@ static PyObject *change(PyObject *object, PyObject *const *args, Py_ssize_t coun
                                : what == 1 ? froe_kinetic_remove(self->kinetic, which, &call.diag)
                                            : froe_kinetic_audit(self->kinetic, &call.diag);
     return end(self, &call, status) ? Py_NewRef(Py_None) : NULL;
+}
+
+/* replan(vertex, times, coords, controls) */
+static PyObject *replan(PyObject *object, PyObject *const *args, Py_ssize_t count) {
+    core_kinetic *self = (core_kinetic *)object;
+    core_input times = {0}, coords = {0}, controls = {0};
+    const size_t dim = self->motion->dim;
+    uint32_t vertex;
+    core_call call;
+    if (!core_arguments("replan", count, 4) || !core_unsigned(args[0], "vertex", FROE_NONE, &vertex)) return NULL;
+    bool done = core_input_take(&times, args[1], "times", 'd', 1, false) &&
+                core_input_take_count(&coords, args[2], "coords", 'd', dim, times.count, false) &&
+                core_input_take_count(&controls, args[3], "controls", 'd', dim, times.count, true) &&
+                begin(self, &call, Py_None);
+    if (done)
+        done = end(self, &call,
+                   froe_kinetic_replan(self->kinetic, vertex, times.count, times.data, coords.data, controls.data,
+                                       &call.diag));
+    core_input_give(&times);
+    core_input_give(&coords);
+    core_input_give(&controls);
+    return done ? Py_NewRef(Py_None) : NULL;
 }
 
 /* ---------------------------------------------------------------- questions -- */
@@ -184,6 +206,45 @@ static PyObject *ray(PyObject *object, PyObject *const *args, Py_ssize_t count) 
     return ask((core_kinetic *)object, args[0], "ways", 4, 0, shoot_all);
 }
 
+/* What order() finds. */
+typedef struct seen_piece {
+    double ends[4];
+    uint32_t object, filler;
+} seen_piece;
+
+static bool take_piece(void *pile, uint32_t object, const double ends[4]) {
+    const seen_piece piece = {{ends[0], ends[1], ends[2], ends[3]}, object, 0};
+    return core_pile_put(pile, &piece, sizeof piece);
+}
+
+/* order(eye): (objects, ends) of all pieces, those behind first */
+static PyObject *order(PyObject *object, PyObject *const *args, Py_ssize_t count) {
+    core_kinetic *self = (core_kinetic *)object;
+    core_input eye;
+    core_call call;
+    core_pile pile = {0};
+    if (!core_arguments("order", count, 1) || !core_input_take_count(&eye, args[0], "eye", 'd', 2, 1, false))
+        return NULL;
+    bool done = begin(self, &call, Py_None);
+    if (done) {
+        call.pile = &pile;
+        done = end(self, &call, froe_kinetic_order(self->kinetic, eye.data, take_piece, &pile, &call.diag));
+    }
+    core_input_give(&eye);
+    if (!done) {
+        core_pile_free(&pile);
+        return NULL;
+    }
+    const size_t pieces = pile.count / sizeof(seen_piece);
+    PyObject *owner = core_pile_owner(&pile);
+    if (!owner) return NULL;
+    const seen_piece *seen = (const seen_piece *)pile.bytes;
+    PyObject *parts[] = {core_array(owner, &seen->object, "i", pieces, 0, sizeof *seen),
+                         core_array(owner, seen->ends, "d", pieces, 4, sizeof *seen)};
+    Py_DECREF(owner);
+    return core_tuple(2, parts);
+}
+
 /* snapshot(refuse what has to be rounded, progress): (tree, rounded vertices, alike) */
 static PyObject *snapshot(PyObject *object, PyObject *const *args, Py_ssize_t count) {
     core_kinetic *self = (core_kinetic *)object;
@@ -202,16 +263,26 @@ static PyObject *snapshot(PyObject *object, PyObject *const *args, Py_ssize_t co
 /* --------------------------------------------------------------------- type -- */
 
 static PyMethodDef methods[] = {
-    CORE_METHOD("advance", advance), CORE_METHOD("now", now), CORE_METHOD("change", change),
-    CORE_METHOD("locate", locate),   CORE_METHOD("ray", ray), CORE_METHOD("snapshot", snapshot),
-    {NULL, NULL, 0, NULL},
+    CORE_METHOD("advance", advance), CORE_METHOD("now", now),           CORE_METHOD("change", change),
+    CORE_METHOD("replan", replan),   CORE_METHOD("locate", locate),     CORE_METHOD("ray", ray),
+    CORE_METHOD("order", order),     CORE_METHOD("snapshot", snapshot), {NULL, NULL, 0, NULL},
 };
 static PyType_Slot slots[] = {{Py_tp_dealloc, free_kinetic}, {Py_tp_methods, methods}, {0, NULL}};
 static PyType_Spec spec = {"froe._core.Kinetic", sizeof(core_kinetic), 0,
                            Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, slots};
 
+/* event_names(): of all kinds of events, in the order of their numbers */
+static PyObject *event_names(PyObject *module, PyObject *const *args, Py_ssize_t count) {
+    (void)module, (void)args;
+    if (!core_arguments("event_names", count, 0)) return NULL;
+    PyObject *names[FROE_EVENT_KINDS];
+    for (size_t i = 0; i < FROE_EVENT_KINDS; i++) names[i] = PyUnicode_FromString(froe_event_name((froe_event_kind)i));
+    return core_tuple(FROE_EVENT_KINDS, names);
+}
+
 bool core_add_kinetic(PyObject *module) {
-    static PyMethodDef functions[] = {CORE_METHOD("kinetic", new_kinetic), {NULL, NULL, 0, NULL}};
+    static PyMethodDef functions[] = {
+        CORE_METHOD("kinetic", new_kinetic), CORE_METHOD("event_names", event_names), {NULL, NULL, 0, NULL}};
     kinetic_type = core_add_type(module, &spec);
     return kinetic_type && PyModule_AddFunctions(module, functions) == 0;
 }

@@ -21,7 +21,7 @@ core_motion *core_motion_of(PyObject *object) {
 
 /* -------------------------------------------------------------------- life -- */
 
-static PyObject *motion_object(froe_motion *motion) {
+PyObject *core_motion_object(froe_motion *motion) {
     core_motion *self = PyObject_New(core_motion, motion_type);
     if (!self) {
         froe_motion_free(motion);
@@ -52,28 +52,12 @@ static PyObject *new_motion(PyObject *module, PyObject *const *args, Py_ssize_t 
     froe_motion *motion;
     froe_diagnostic diag;
     const froe_status status = froe_motion_new(&options, &core_allocator, &motion, &diag);
-    return status ? core_raise(status, &diag) : motion_object(motion);
-}
-
-/* read_motion(path) */
-static PyObject *read_motion(PyObject *module, PyObject *const *args, Py_ssize_t count) {
-    (void)module;
-    PyObject *path;
-    if (!core_arguments("read_motion", count, 1) || !PyUnicode_FSConverter(args[0], &path)) return NULL;
-    froe_motion_read_options options = froe_motion_read_defaults();
-    options.alloc = &core_allocator;
-    froe_motion *motion;
-    core_call call;
-    core_call_begin(&call, Py_None);
-    const froe_status status = froe_read_motion(PyBytes_AsString(path), &options, &motion, NULL, &call.diag);
-    const bool done = core_call_end(&call, status);
-    Py_DECREF(path);
-    return done ? motion_object(motion) : NULL;
+    return status ? core_raise(status, &diag) : core_motion_object(motion);
 }
 
 /* -------------------------------------------------------------------- batch -- */
 
-enum { TIMES, COORDS, STARTS, CONTROLS, VERTICES, BIRTHS, DEATHS, TAGS, GROUPS, INPUTS };
+enum { TIMES, COORDS, STARTS, CONTROLS, VERTICES, BODIES, BIRTHS, DEATHS, TAGS, GROUPS, INPUTS };
 
 static bool check_starts(const core_input *in) {
     const size_t *starts = in[STARTS].data, last = in[STARTS].count - 1;
@@ -84,7 +68,7 @@ static bool check_starts(const core_input *in) {
     return true;
 }
 
-/* args: times, coords, starts, controls, vertices, births, deaths, tags, groups */
+/* args: times, coords, starts, controls, vertices, bodies, births, deaths, tags, groups */
 static bool take_batch(const core_motion *self, core_input *in, PyObject *const *args, froe_moving *b) {
     const size_t each = self->dim; /* segments of the plane have 2 corners, triangles in space 3 */
     if (!core_input_take(&in[TIMES], args[0], "times", 'd', 1, false) ||
@@ -99,13 +83,14 @@ static bool take_batch(const core_motion *self, core_input *in, PyObject *const 
     if (!in[VERTICES].data && b->vertex_count % each)
         return core_fail_as("ArrayError", "There are %zu vertices, which is no multiple of %zu.", b->vertex_count,
                             each);
-    if (!core_input_take_count(&in[BIRTHS], args[5], "births", 'd', 1, b->count, true) ||
-        !core_input_take_count(&in[DEATHS], args[6], "deaths", 'd', 1, b->count, true) ||
-        !core_input_take_count(&in[TAGS], args[7], "tags", 'Q', 1, b->count, true) ||
-        !core_input_take_count(&in[GROUPS], args[8], "groups", 'I', 1, b->count, true))
+    if (!core_input_take_count(&in[BODIES], args[5], "bodies", 'I', 1, b->vertex_count, true) ||
+        !core_input_take_count(&in[BIRTHS], args[6], "births", 'd', 1, b->count, true) ||
+        !core_input_take_count(&in[DEATHS], args[7], "deaths", 'd', 1, b->count, true) ||
+        !core_input_take_count(&in[TAGS], args[8], "tags", 'Q', 1, b->count, true) ||
+        !core_input_take_count(&in[GROUPS], args[9], "groups", 'I', 1, b->count, true))
         return false;
     b->times = in[TIMES].data, b->coords = in[COORDS].data, b->starts = in[STARTS].data;
-    b->controls = in[CONTROLS].data, b->vertices = in[VERTICES].data;
+    b->controls = in[CONTROLS].data, b->vertices = in[VERTICES].data, b->bodies = in[BODIES].data;
     b->births = in[BIRTHS].data, b->deaths = in[DEATHS].data, b->tags = in[TAGS].data, b->groups = in[GROUPS].data;
     return true;
 }
@@ -114,7 +99,7 @@ static PyObject *add(PyObject *object, PyObject *const *args, Py_ssize_t count) 
     core_motion *self = (core_motion *)object;
     core_input in[INPUTS] = {0};
     froe_moving batch;
-    if (!core_arguments("add", count, 9) || !core_motion_take(self)) return NULL;
+    if (!core_arguments("add", count, 10) || !core_motion_take(self)) return NULL;
     bool done = take_batch(self, in, args, &batch);
     if (done) {
         core_call call;
@@ -124,6 +109,38 @@ static PyObject *add(PyObject *object, PyObject *const *args, Py_ssize_t count) 
     for (size_t i = 0; i < INPUTS; i++) core_input_give(&in[i]);
     core_motion_give(self);
     return done ? Py_NewRef(Py_None) : NULL;
+}
+
+/* args: times, coords, controls, turns */
+static bool take_body(core_input *in, PyObject *const *args, froe_body *body) {
+    enum { AT, PLACES, WAYS, TURNS };
+    if (!core_input_take(&in[AT], args[0], "times", 'd', 1, false) ||
+        !core_input_take_count(&in[PLACES], args[1], "coords", 'd', 3, in[AT].count, false) ||
+        !core_input_take_count(&in[WAYS], args[2], "controls", 'd', 3, in[AT].count, true) ||
+        !core_input_take_count(&in[TURNS], args[3], "turns", 'd', 4, in[AT].count, true))
+        return false;
+    *body = froe_body_defaults();
+    body->count = in[AT].count, body->times = in[AT].data, body->coords = in[PLACES].data;
+    body->controls = in[WAYS].data, body->turns = in[TURNS].data;
+    return true;
+}
+
+/* add_body(times, coords, controls, turns): its number */
+static PyObject *add_body(PyObject *object, PyObject *const *args, Py_ssize_t count) {
+    core_motion *self = (core_motion *)object;
+    core_input in[4] = {0};
+    froe_body body;
+    uint32_t id = 0;
+    if (!core_arguments("add_body", count, 4) || !core_motion_take(self)) return NULL;
+    bool done = take_body(in, args, &body);
+    if (done) {
+        core_call call;
+        core_call_begin(&call, Py_None);
+        done = core_call_end(&call, froe_motion_add_body(self->motion, &body, &id, &call.diag));
+    }
+    for (size_t i = 0; i < 4; i++) core_input_give(&in[i]);
+    core_motion_give(self);
+    return done ? PyLong_FromUnsignedLong(id) : NULL;
 }
 
 /* add_group(name) */
@@ -199,6 +216,21 @@ static PyObject *counts(PyObject *object, PyObject *const *args, Py_ssize_t coun
                          (unsigned long long)froe_motion_group_count(m), window.begin, window.end);
 }
 
+/* positions(time): of every vertex; NaN where its plan does not cover the time */
+static PyObject *positions(PyObject *object, PyObject *const *args, Py_ssize_t count) {
+    core_motion *self = (core_motion *)object;
+    if (!core_arguments("positions", count, 1)) return NULL;
+    const double time = PyFloat_AsDouble(args[0]);
+    if (PyErr_Occurred() || !core_motion_take(self)) return NULL;
+    const size_t vertices = froe_motion_vertex_count(self->motion), dim = self->dim;
+    double *at = core_allocate(vertices, dim * sizeof *at);
+    for (size_t v = 0; at && v < vertices; v++)
+        if (!froe_motion_position(self->motion, (uint32_t)v, time, at + v * dim))
+            for (size_t k = 0; k < dim; k++) at[v * dim + k] = Py_NAN;
+    core_motion_give(self);
+    return at ? core_array_of(at, "d", vertices, dim) : NULL;
+}
+
 /* write(path): MF-JSON */
 static PyObject *write_file(PyObject *object, PyObject *const *args, Py_ssize_t count) {
     core_motion *self = (core_motion *)object;
@@ -216,16 +248,21 @@ static PyObject *write_file(PyObject *object, PyObject *const *args, Py_ssize_t 
 }
 
 static PyMethodDef methods[] = {
-    CORE_METHOD("add", add),       CORE_METHOD("add_group", add_group), CORE_METHOD("contacts", contacts),
-    CORE_METHOD("counts", counts), CORE_METHOD("write", write_file),    {NULL, NULL, 0, NULL},
+    CORE_METHOD("add", add),
+    CORE_METHOD("add_body", add_body),
+    CORE_METHOD("add_group", add_group),
+    CORE_METHOD("contacts", contacts),
+    CORE_METHOD("counts", counts),
+    CORE_METHOD("positions", positions),
+    CORE_METHOD("write", write_file),
+    {NULL, NULL, 0, NULL},
 };
 static PyType_Slot slots[] = {{Py_tp_dealloc, free_motion}, {Py_tp_methods, methods}, {0, NULL}};
 static PyType_Spec spec = {"froe._core.Motion", sizeof(core_motion), 0,
                            Py_TPFLAGS_DEFAULT | Py_TPFLAGS_DISALLOW_INSTANTIATION, slots};
 
 bool core_add_motion(PyObject *module) {
-    static PyMethodDef functions[] = {
-        CORE_METHOD("motion", new_motion), CORE_METHOD("read_motion", read_motion), {NULL, NULL, 0, NULL}};
+    static PyMethodDef functions[] = {CORE_METHOD("motion", new_motion), {NULL, NULL, 0, NULL}};
     motion_type = core_add_type(module, &spec);
     return motion_type && PyModule_AddFunctions(module, functions) == 0;
 }
