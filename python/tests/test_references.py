@@ -84,7 +84,7 @@ CALLS = {
     "bodies": lambda: solid(),
     "bodies refused": lambda: refused(MOTION.add_body, [0], [[0, 0, 0]]),
     "positions": lambda: MOTION.positions(2),
-    "replan": lambda: KINETIC.replan(2, [0, 0.5], [[2, 0], [2, 0]]),
+    "replan": lambda: KINETIC.replan(2, [0, 4], [[2, 0], [2, 0]]),
     "replan refused": lambda: refused(KINETIC.replan, 99, [0], [[2, 0]]),
     "order of a partition": lambda: KINETIC.order([9, 9]),
     "poses refused": lambda: refused(froe.read_poses, "/nonexistent", TREE.scene),
