@@ -13,7 +13,8 @@
 #endif
 #endif
 
-#if defined MADV_HUGEPAGE && defined MREMAP_FIXED && !defined WATCHED
+/* Emscripten has these names, but moves no mapping and gives no part of one back. */
+#if defined __linux__ && defined MADV_HUGEPAGE && defined MREMAP_FIXED && !defined WATCHED
 
 enum { HUGE_FROM = 4 << 20, HUGE_PAGE = 2 << 20 };
 
