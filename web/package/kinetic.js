@@ -5,7 +5,7 @@ import { AT, CORE, Resource } from "./resource.js";
 import { Tree } from "./tree.js";
 
 /** Names of the numbers in `kinds` of events. */
-export const EVENTS = ["vertices", "vertex crossing", "crossings", "contact", "triple", "turn", "batch", "plan", "appear",
+export const EVENTS = ["vertices", "vertex-crossing", "crossings", "contact", "triple", "turn", "batch", "plan", "appear",
     "disappear"];
 const STATISTICS = ["surgeries", "batches", "crowds", "restarts", "nodesTouched", "certificatesMade", "nodes", "certificates"];
 const EVENT = 64, FRAGMENT = 40, PLACE = 12, SNAPSHOT = 16; // bytes of web_event, web_fragment, froe_kinetic_place, ...
@@ -13,9 +13,12 @@ const VISIT = { none: 0, all: 1, instants: 2, first: 3 }; // as in web/core/moti
 
 /** A partition of moving objects, exact at every instant that it stands at. It keeps the motion in use. */
 export class Kinetic extends Resource {
+    #window;
+
     constructor(motion, handle) {
         super(motion[CORE], "partition", handle);
         this.motion = motion;
+        this.#window = motion.window;
     }
 
     /** The time that it has reached. */
@@ -42,11 +45,11 @@ export class Kinetic extends Resource {
      * between early and late: the ticks around, or with `instants` two doubles next to one another. In space events are
      * not told. */
     advance(time, { instants = false } = {}) {
-        const told = this.motion.dim === 2;
+        const told = this.#window.dim === 2;
         return this.#advance(time, told ? (instants ? VISIT.instants : VISIT.all) : VISIT.none);
     }
     /** Lets time go on to the next event, at most to a time: the events of that tick, with their instants. */
-    step(until = this.motion.window.end) { return this.#advance(until, VISIT.first); }
+    step(until = this.#window.end) { return this.#advance(until, VISIT.first); }
 
     /** Objects that were added to the motion meanwhile take part from now on. */
     update() { this[CORE].call("froe_kinetic_update", this[AT]); }

@@ -63,13 +63,7 @@ export class Scene extends Resource {
     }
 
     /** { lo, hi }, or null where there are no objects. */
-    bounds() {
-        return this[CORE].within((arena) => {
-            const core = this[CORE], dim = this.dim, lo = arena.room(8 * dim), hi = arena.room(8 * dim);
-            if (!core.get("froe_scene_bounds", this[AT], lo, hi)) return null;
-            return { lo: core.copy(Float64Array, lo, dim), hi: core.copy(Float64Array, hi, dim) };
-        });
-    }
+    bounds() { return boundsOf(this[CORE], this[AT]); }
 
     /** Everything as arrays: coords of the vertices; kinds, forms, starts, radii, tags, faces and groups of the objects;
      * corners, which are numbers of vertices. */
@@ -139,6 +133,15 @@ export class Scene extends Resource {
         const core = tree[CORE], address = core.get("froe_tree_scene", tree[AT]) >>> 0;
         return new Scene(core, new Handle(core, null, address, tree[HANDLE]));
     }
+}
+
+/** Bounds of the scene at an address. */
+export function boundsOf(core, scene) {
+    return core.within((arena) => {
+        const dim = core.get("froe_scene_dim", scene), lo = arena.room(8 * dim), hi = arena.room(8 * dim);
+        if (!core.get("froe_scene_bounds", scene, lo, hi)) return null;
+        return { lo: core.copy(Float64Array, lo, dim), hi: core.copy(Float64Array, hi, dim) };
+    });
 }
 
 function optionsAt(core, at) {

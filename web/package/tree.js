@@ -2,7 +2,7 @@
 import { arraysOf, checkLengths, typed } from "./arrays.js";
 import { AT, CORE, Handle } from "./resource.js";
 import { Questions } from "./questions.js";
-import { Scene } from "./scene.js";
+import { Scene, boundsOf } from "./scene.js";
 
 const REPORT = ["dim", "leaf", "seed", "objects", "nodes", "leaves", "fragments", "inCut", "covers", "size", "height",
     "meanDepth", "maxLeaf", "inseparable", "crowded", "bytes", "exact"]; // as in web/core/tree.c
@@ -18,10 +18,11 @@ const PIECES = 44, CELLS = 44, CUTS_ROOM = 64, NODE = 48; // bytes of froe_piece
 export class Tree extends Questions {
     static made(core, address) { return new Tree(core, new Handle(core, "froe_tree_free", address)); }
 
-    /** The scene that it was built of, which cannot grow any more. */
+    /** The scene that it was built of, which cannot grow any more. It keeps the tree in use. */
     get scene() { return Scene.of(this); }
+    get #scene() { return this[CORE].get("froe_tree_scene", this[AT]); }
     /** { lo, hi } of the scene, or null where there are no objects. */
-    bounds() { return this.scene.bounds(); }
+    bounds() { return boundsOf(this[CORE], this.#scene); }
 
     /** What was built: method, settings, counts as froe_report has them, and promises: { name, promised, measured }. */
     get report() {
@@ -119,7 +120,7 @@ export class Tree extends Questions {
         }
         if (given.lineStyles) given.lineStyleCount = given.lineStyles.length;
         if (!given.lineStyleCount) delete given.lineStyles;
-        checkLengths(given, ["opacity", "priorities"], this.scene.groupCount, "groups");
+        checkLengths(given, ["opacity", "priorities"], core.get("froe_scene_group_count", this.#scene), "groups");
         return core.within((arena) => {
             const numbers = arena.room(8 * (PICTURE.length + 1));
             const bytes = body(arena, core.options(arena, "render", given), numbers);

@@ -1,18 +1,8 @@
-// The npm package under Node: answers, errors, and the same bytes as the program's. FROE_PACKAGE: its folder;
-// FROE_PROGRAM: the program froe.
+// The npm package under Node: answers, errors, and the same trees and pictures as the program's.
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
-import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join } from "node:path";
-import { after, test } from "node:test";
-import { pathToFileURL } from "node:url";
-
-const { FroeError, NONE, load } = await import(pathToFileURL(join(process.env.FROE_PACKAGE, "index.js")).href);
-const folder = mkdtempSync(join(tmpdir(), "froe-"));
-after(() => rmSync(folder, { recursive: true }));
-const program = (...args) => execFileSync(process.env.FROE_PROGRAM, [...args, "--quiet"], { cwd: folder });
-const lists = (answers) => [...answers].map((ids) => [...ids].sort((a, b) => a - b));
+import { readFileSync, writeFileSync } from "node:fs";
+import { test } from "node:test";
+import { FroeError, NONE, fresh as load, lists, program, scratch } from "./support.mjs";
 
 // Both are loaded before the first test: the runner takes a pause between two tests for the end.
 const kinds = [["simd", await load()], ["plain", await load({ plain: true })]];
@@ -60,14 +50,14 @@ for (const [kind, froe] of kinds) {
 
     test(name("trees and pictures are those of the program, byte for byte"), () => {
         const scene = froe.generate("terrain", 1500), tree = scene.build({ method: "grain" });
-        writeFileSync(join(folder, "page.froe"), tree.save());
-        writeFileSync(join(folder, "own.svg"), tree.render({ shading: "cel", title: "Hills", hidden: true }).bytes);
+        writeFileSync(scratch("page.froe"), tree.save());
+        writeFileSync(scratch("own.svg"), tree.render({ shading: "cel", title: "Hills", hidden: true }).bytes);
         program("generate", "terrain", "-n", "1500", "-o", "terrain.obj");
         program("build", "terrain.obj", "--method", "grain", "-o", "program.froe");
         const pieces = (file) => JSON.parse(program("check", file, "--json")).tree ?? JSON.parse(program("info", file, "--json"));
         assert.deepEqual(pieces("page.froe").fragments, pieces("program.froe").fragments);
         program("render", "page.froe", "-o", "program.svg", "--style", "cel", "--title", "Hills", "--hidden", "dashed");
-        assert.ok(readFileSync(join(folder, "own.svg")).equals(readFileSync(join(folder, "program.svg"))));
+        assert.ok(readFileSync(scratch("own.svg")).equals(readFileSync(scratch("program.svg"))));
     });
 
     test(name("what is wrong is told, and nothing is lost"), () => {
@@ -102,18 +92,5 @@ for (const [kind, froe] of kinds) {
         assert.deepEqual(lists(tree.groups([3, 3, 1.5, 1.5, 1, 1, 9, 9])), [[0], [], [0], []]);
         assert.equal(tree.cells().nodes.length, tree.report.leaves);
         assert.equal(tree.pieces().objects.length, tree.report.fragments);
-    });
-
-    test(name("a hundred trees take no more memory than ten"), () => {
-        const once = () => {
-            const scene = froe.generate("segments", 20000), tree = scene.build({ purpose: "query" });
-            tree.query([0, 0, 1, 1]);
-            tree.free();
-            scene.free();
-        };
-        for (let i = 0; i < 10; i++) once();
-        const before = froe.memory;
-        for (let i = 0; i < 90; i++) once();
-        assert.equal(froe.memory, before);
     });
 }

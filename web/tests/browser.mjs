@@ -1,0 +1,81 @@
+// browser.mjs: the page in Chromium, for tests. FROE_PAGE: its folder; FROE_MODULES: the node_modules of
+// web/package-lock.json; CHROMIUM: the browser, where it is not the one of Debian.
+import { createServer } from "node:http";
+import { readFile } from "node:fs/promises";
+import { createRequire } from "node:module";
+import { mkdtempSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { extname, join, normalize } from "node:path";
+
+export const modules = createRequire(join(process.env.FROE_MODULES, "of-the-page.js"));
+const puppeteer = modules("puppeteer-core");
+const TYPES = { ".html": "text/html", ".js": "text/javascript", ".mjs": "text/javascript", ".css": "text/css", ".wasm": "application/wasm", ".svg": "image/svg+xml" };
+
+/** Serves the page: { url, stop }, and `asked`, the paths that were asked for. */
+export function serve(folder = process.env.FROE_PAGE) {
+    const asked = [];
+    const server = createServer(async (request, answer) => {
+        const path = decodeURIComponent(new URL(request.url, "http://page").pathname);
+        asked.push(path);
+        try {
+            const bytes = await readFile(join(folder, normalize(path.endsWith("/") ? `${path}index.html` : path)));
+            answer.writeHead(200, { "content-type": TYPES[extname(path)] ?? (path.endsWith("/") ? "text/html" : "application/octet-stream") });
+            answer.end(bytes);
+        } catch {
+            answer.writeHead(404);
+            answer.end();
+        }
+    });
+    return new Promise((ready) => server.listen(0, "127.0.0.1", () => ready({
+        url: `http://127.0.0.1:${server.address().port}/`, asked,
+        stop: () => { server.closeAllConnections(); server.close(); },
+    })));
+}
+
+/** Chromium without a window: { browser, stop }. */
+export async function launch() {
+    const folder = mkdtempSync(join(tmpdir(), "froe-chromium-"));
+    const browser = await puppeteer.launch({
+        executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", headless: true, userDataDir: folder, protocolTimeout: 120000,
+        args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist", "--disable-dev-shm-usage"],
+    });
+    return { browser, stop: async () => { await browser.close(); rmSync(folder, { recursive: true, force: true, maxRetries: 5 }); } };
+}
+
+/** A page at an address; what its console says wrong is collected in `page.wrong`. */
+export async function open(browser, url, { width = 1280, height = 800, dark = false, still = false } = {}) {
+    const page = await browser.newPage();
+    page.wrong = [];
+    page.on("console", (message) => { if (message.type() === "error") page.wrong.push(message.text()); });
+    page.on("pageerror", (error) => page.wrong.push(error.message));
+    await page.setViewport({ width, height });
+    await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: dark ? "dark" : "light" },
+        ...(still ? [{ name: "prefers-reduced-motion", value: "reduce" }] : [])]);
+    await page.goto(url);
+    return page;
+}
+
+/** Waits until the room Draw shows the drawing, or says what is wrong, which it throws. */
+export async function drawn(page) {
+    await page.waitForFunction(() => document.querySelector(".sheet.drawn, .status.wrong"));
+    const wrong = await page.$(".status.wrong");
+    if (wrong) throw new Error(await wrong.evaluate((status) => status.textContent));
+}
+
+/** Presses keys on an element. */
+export async function press(page, selector, keys) {
+    await page.focus(selector);
+    for (const key of keys) await page.keyboard.press(key);
+}
+
+/** The path of the file `name` in `folder` that a button saves. */
+export async function saved(page, folder, label, name) {
+    const session = await page.createCDPSession();
+    await session.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: folder, eventsEnabled: true });
+    const done = new Promise((accept) => session.on("Browser.downloadProgress", ({ state }) => { if (state === "completed") accept(); }));
+    await page.evaluate((text) => [...document.querySelectorAll("button")]
+        .find((button) => (button.getAttribute("aria-label") ?? button.textContent) === text).click(), label);
+    await done;
+    await session.detach();
+    return join(folder, name);
+}
