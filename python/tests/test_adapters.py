@@ -2,6 +2,8 @@
 
 import json
 import random as randoms
+import re
+from types import SimpleNamespace
 
 import geometries
 import geopandas
@@ -10,6 +12,7 @@ import pytest
 from shapely.geometry import GeometryCollection, Point, box, mapping
 
 import froe
+import froe.compat.pyvista
 from froe.adapters.features import of_mappings
 from froe.adapters.shapely import features
 
@@ -101,3 +104,39 @@ def test_meshes_need_triangles():
 
     with pytest.raises(ValueError, match=r"\(1, 4\)"):
         froe.from_trimesh(Quads())
+
+
+def plotter(**about):
+    """Two triangles, of which the left one is behind the right one, as pyvista describes what it shows."""
+    meshes = [
+        SimpleNamespace(points=[[-3, 5, -1], [1, 5, -1], [-1, 5, 1]], faces=[3, 0, 1, 2]),
+        SimpleNamespace(extract_surface=lambda: SimpleNamespace(points=np.eye(3) * 2, faces=[3, 0, 1, 2])),
+    ]
+    camera = {"position": (0, -10, 0), "focal_point": (0, 0, 0), "up": (0, 0, 1), "view_angle": 30.0,
+              "parallel_projection": False, "parallel_scale": 4.0}  # fmt: skip
+    color = SimpleNamespace(hex_rgb="#102030")
+    return SimpleNamespace(
+        meshes=meshes, camera=SimpleNamespace(**{**camera, **about}), window_size=[400, 200], background_color=color
+    )
+
+
+def starts(picture):
+    """Where the outlines begin, on the page: at their upper corners. The file has hundredths."""
+    return {(round(float(x) / 100, 1), round(float(y) / 100, 1)) for x, y in re.findall(r"m(\d+) (\d+)", picture.svg)}
+
+
+def test_pictures_of_a_plotter_have_its_camera(tmp_path):
+    picture = froe.compat.pyvista.picture(plotter(), lines=[])
+    assert picture.report.visible_faces == 2 and "#102030" in picture.svg and 'viewBox="0 0 400 200"' in picture.svg
+    # 30 degrees over 200 pixels; the upper corner of the left triangle is 15 away, 1 to the left, and 1 up
+    off = 1 / 15 * 100 / np.tan(np.pi / 12)
+    assert (round(200 - off, 1), round(100 - off, 1)) in starts(picture)
+    flat = froe.compat.pyvista.picture(plotter(parallel_projection=True), lines=[])
+    assert (175, 75) in starts(flat)  # 200 pixels show 2 times 4
+    close = froe.compat.pyvista.picture(plotter(parallel_projection=True, parallel_scale=2.0), lines=[], title="Close")
+    assert (150, 50) in starts(close) and "Close" in close.svg
+    for name, head in {"a.svg": b"<svg", "a.pdf": b"%PDF", "a.eps": b"%!PS"}.items():
+        froe.compat.pyvista.save_graphic(plotter(), tmp_path / name, title="Two")
+        assert head in (tmp_path / name).read_bytes()[:200]
+    with pytest.raises(froe.errors.OptionError, match="tex"):
+        froe.compat.pyvista.save_graphic(plotter(), tmp_path / "a.tex")

@@ -15,7 +15,8 @@ import froe
 
 ROOT = Path(__file__).resolve().parents[2]
 SCRIPT = ROOT / "scripts/site/python_reference.py"
-MODULES = ["froe.compat.shapely", "froe.compat.trimesh", "froe.errors", "froe.measure", "froe.mpl"]
+COMPATIBLE = ["froe.compat.pyvista", "froe.compat.shapely", "froe.compat.trimesh"]
+MODULES = [*COMPATIBLE, "froe.errors", "froe.measure", "froe.mpl"]
 FOR_THE_EXTENSION = {"froe.errors.of_status", "froe.errors.of_name"}
 PLAIN = (int, float, str, tuple, dict)
 

@@ -25,7 +25,7 @@ PAGES = {
     "motion": ("Motion", ["motion"]),
     "adapters": ("Geometries and meshes of other libraries",
                  ["adapters.shapely", "adapters.geopandas", "adapters.geojson", "adapters.meshes"]),
-    "replacements": ("In place of shapely and trimesh", ["compat.shapely", "compat.trimesh"]),
+    "replacements": ("In place of shapely, trimesh and pyvista", ["compat.shapely", "compat.trimesh", "compat.pyvista"]),
     "measures": ("Measures", ["measure"]),
     "errors": ("Exceptions", ["errors"]),
 }
@@ -236,7 +236,8 @@ Every public name of the package, as its own documents describe it; `help(froe.T
 at the beginning.
 
 `ArrayLike` is everything that `numpy.asarray` takes: arrays, lists, columns of tables. `Doubles` is an array of float64,
-`Ids` one of int32, in which -1 stands for none. Every array that comes out is C-contiguous. What calls raise beside built-in
+`Ids` one of int32, in which -1 stands for none. Some arrays that come out are columns of a table, with gaps between their
+items; `numpy.ascontiguousarray` copies them. What calls raise beside built-in
 exceptions is on the page of [exceptions](errors.md).
 """
 

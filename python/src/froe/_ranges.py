@@ -63,8 +63,8 @@ def convex(corners: Doubles) -> Doubles:
     rounds = sum(a != b for a, b in zip(ups, ups[1:] + ups[:1]))
     if back or rounds > 2 or (min(turns, default=0) < 0 < max(turns, default=0)):
         raise UnsupportedError(
-            "The polygon is not convex. What lies in other polygons is answered by join_groups(), where they are groups "
-            "of a tree, and by froe.compat.shapely.STRtree."
+            "The polygon is not convex. What lies in other polygons is answered by join_groups(), where they are "
+            "groups of a tree, and by froe.compat.shapely.STRtree."
         )
     return corners
 

@@ -334,7 +334,14 @@ class Kinetic:
 
     @property
     def next(self) -> float:
-        """The time of the next event at the earliest; infinity where nothing happens in the rest of the window."""
+        """The time of the next event at the earliest; infinity where nothing happens in the rest of the window.
+
+        >>> import froe
+        >>> motion = froe.Motion(0, 4)
+        >>> motion.add([0, 0], [[2, 0], [2, 1]], [0, 1, 2])   # it stands still
+        >>> motion.kinetic().next
+        inf
+        """
         return self._core.now()[1]
 
     def advance(self, time: float, *, progress: Progress | None = None) -> Events:

@@ -174,7 +174,12 @@ class Scene:
 
     @property
     def group_count(self) -> int:
-        """How many groups there are."""
+        """How many groups there are.
+
+        >>> import froe
+        >>> froe.segments([[0, 0, 2, 2]]).group_count
+        0
+        """
         return self._core.counts()[3]
 
     def group(self, group: int) -> Group:

@@ -56,10 +56,18 @@ def from_pyvista(mesh: Any) -> Scene:
     """
     from froe.scene import Scene
 
-    triangles, polygon = _fans(np.asarray(mesh.faces, np.int64).ravel())
     scene = Scene(3)
-    scene.add_triangles(np.asarray(mesh.points, np.float64), triangles, tags=polygon, faces=polygon)
+    add_polygons(scene, mesh)
     return scene
+
+
+def add_polygons(scene: Scene, mesh: Any, first_face: int = 0, group: int | None = None) -> int:
+    """Adds the polygons of a mesh as pyvista has them to a scene. Returns the number of the face after them."""
+    triangles, polygon = _fans(np.asarray(mesh.faces, np.int64).ravel())
+    scene.add_triangles(
+        np.asarray(mesh.points, np.float64), triangles, tags=polygon, faces=first_face + polygon, group=group
+    )
+    return first_face + int(polygon.max(initial=-1)) + 1
 
 
 def _fans(faces: npt.NDArray[np.int64]) -> tuple[npt.NDArray[np.int64], npt.NDArray[np.int64]]:

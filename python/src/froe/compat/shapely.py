@@ -55,7 +55,13 @@ class STRtree:
 
     @property
     def geometries(self) -> npt.NDArray[np.object_]:
-        """The geometries of the tree, in the order of their indices."""
+        """The geometries of the tree, in the order of their indices.
+
+        >>> from froe.compat.shapely import STRtree
+        >>> from shapely.geometry import Point
+        >>> STRtree([Point(0, 3)]).geometries[0].y
+        3.0
+        """
         return self._geometries
 
     @cached_property
@@ -81,6 +87,16 @@ class STRtree:
         :raises ValueError: there is no such predicate, or ``"dwithin"`` has no distance
         :raises UnsupportedError: the interior of a collection of several dimensions would decide
         :cost: that of ``Tree.query`` for bounding boxes, of ``Tree.join_groups`` for predicates
+
+        >>> from froe.compat.shapely import STRtree
+        >>> from shapely.geometry import LineString, box
+        >>> tree = STRtree([box(0, 0, 4, 4), box(4, 0, 8, 4), LineString([(0, 0), (8, 4)])])
+        >>> tree.query(box(0, 0, 4, 4), predicate="touches").tolist()
+        [1]
+        >>> tree.query([box(0, 0, 4, 4), LineString([(1, 0), (1, 4)])], predicate="crosses").tolist()
+        [[0, 1], [2, 2]]
+        >>> tree.query(box(9, 3, 9, 4), predicate="dwithin", distance=1).tolist()
+        [1, 2]
         """
         single, asked = _asked(geometry)
         if predicate == "dwithin":
@@ -134,6 +150,14 @@ class STRtree:
             nearest to the exact ones
         :raises ValueError: ``max_distance`` is not above 0
         :cost: that of ``Tree.nearest`` for the corners of each geometry
+
+        >>> from froe.compat.shapely import STRtree
+        >>> from shapely.geometry import LineString, Point
+        >>> points = [Point(0, 0), Point(0, 3), Point(9, 9)]
+        >>> STRtree(points).query_nearest(points, exclusive=True, max_distance=5).tolist()
+        [[0, 1], [1, 0]]
+        >>> STRtree(points).query_nearest(LineString([(5, 0), (9, 4)]), return_distance=True)
+        (array([0, 2]), array([5., 5.]))
         """
         if max_distance is not None and not max_distance > 0:
             raise ValueError("max_distance must be greater than 0.")
