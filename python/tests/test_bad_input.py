@@ -40,7 +40,7 @@ def tree():
         (np.zeros((2, 3, 3)), r"\(2, 3, 3\)"),
         (np.zeros((1, 1, 4)), r"\(1, 1, 4\)"),
         (5, r"\(\)"),
-        ([[0, 0, 1], [0]], "no array"),
+        ([[0, 0, 1], [0]], "cannot become an array"),
         ([[2**60 + 1, 0, 0, 0]], "1152921504606846977"),
         ([[2**80, 0, 0, 0]], "object"),
         (np.ma.masked_array(np.zeros((1, 4)), mask=[[1, 0, 0, 0]]), "masked"),
@@ -104,7 +104,7 @@ def test_empty_arrays(tree):
         (lambda t: t.query(balls=[[0, 0, 1]]), ArrayError, "tuple"),
         (lambda t: t.query(hulls=[[[0, 0]], []]), InputError, "no points"),
         (lambda t: t.query([[0, 0, 1, 1]], eps=-1), InputError, "eps"),
-        (lambda t: t.query_one([0, 0, 1]), ArrayError, "multiple"),
+        (lambda t: t.query_one([0, 0, 1]), ArrayError, "do not make rows"),
         (lambda t: t.query_one(np.zeros((2, 4))), ArrayError, "4 numbers"),
         (lambda t: t.query_one(np.zeros(4, "f4")), ArrayError, "float64"),
         (lambda t: t.query_one(np.zeros(8)[::2]), ArrayError, "contiguous"),
@@ -307,3 +307,25 @@ def test_calls_of_the_extension_with_any_arguments(tree):
                     except (froe.Error, TypeError, ValueError, OSError):
                         pass
     assert tree.query([[0, 0, 9, 9]]).counts().tolist() == [3]
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda tree: tree.query([[0, 0, 1, 1], [0, 0, 1, np.nan]]), "question 1: A coordinate of a box is nan, "),
+        (lambda tree: tree.nearest([[0, 0], [0, 0], [0, np.inf]]), "question 2: Coordinate 1 of a point is inf, "),
+        (lambda tree: tree.nearest_points([0, 7], [[0, 0], [1, 1]]), "question 1: There is no object 7 in a scene of 1."),
+        (lambda tree: tree.ray([[0, 0]], [[0, 1], [1, 0]]), "directions has 2 rows, and must have 1."),
+        (lambda tree: froe.points([[0, 2**53 + 1]]), "points has the number 9007199254740993 at (0, 1), which float64 "),
+        (lambda tree: tree.render(fov=50, zoom=3), "There is no option 'zoom' of pictures."),
+        (lambda tree: tree.render(size=800), "size is 800, and must be two lengths, like (800, 600)."),
+        (lambda tree: tree.render(eye=(0, 1)), "eye has 2 items, which do not make rows of 3."),
+        (lambda tree: froe.from_shapely([{"type": "Point", "coordinates": [0, 0]}, 3]), "Object 1 is not a geometry: it is 3."),
+        (lambda tree: froe.Motion(0, 1).add([0], [[0, 0]], [0, 1]), "There are 1 vertices, and each object takes 2."),
+    ],
+)
+def test_messages_name_what_is_to_blame(call, message):
+    tree = froe.segments([[0, 0, 1, 1]]).build()
+    with pytest.raises((froe.Error, ValueError)) as caught:
+        call(tree)
+    assert str(caught.value).startswith(message)

@@ -24,7 +24,7 @@ static bool check(const Py_buffer *view, const char *name, char format, size_t w
     if ((uintptr_t)view->buf % item)
         return core_fail_as("ArrayError", "The items of %s do not lie at multiples of %zu bytes.", name, item);
     if (items % width)
-        return core_fail_as("ArrayError", "%s has %zu items, which is no multiple of %zu.", name, items, width);
+        return core_fail_as("ArrayError", "%s has %zu items, which do not make rows of %zu.", name, items, width);
     *count = items / width;
     return true;
 }
@@ -54,7 +54,7 @@ bool core_input_take_count(core_input *in, PyObject *object, const char *name, c
                            bool optional) {
     if (!core_input_take(in, object, name, format, width, optional)) return false;
     if (!in->data || in->count == count) return true;
-    core_fail_as("ArrayError", "%s has %zu rows, and there are %zu objects.", name, in->count, count);
+    core_fail_as("ArrayError", "%s has %zu rows, and must have %zu.", name, in->count, count);
     core_input_give(in);
     return false;
 }

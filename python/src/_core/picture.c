@@ -61,17 +61,25 @@ static bool set_field(froe_render_options *options, const field *f, PyObject *va
     }
 }
 
+static const field *field_of(const char *name) {
+    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++)
+        if (!strcmp(fields[i].name, name)) return &fields[i];
+    return NULL;
+}
+
 static bool set_options(froe_render_options *options, PyObject *dict) {
     *options = froe_render_defaults();
     options->alloc = &core_allocator;
     if (!PyDict_Check(dict)) return core_fail_as("ArrayError", "Options must be a dict.");
-    Py_ssize_t known = 0;
-    for (size_t i = 0; i < sizeof fields / sizeof *fields; i++) {
-        PyObject *value = PyDict_GetItemString(dict, fields[i].name);
-        if (value && !set_field(options, &fields[i], value)) return false;
-        known += value != NULL;
+    PyObject *name, *value;
+    Py_ssize_t at = 0;
+    while (PyDict_Next(dict, &at, &name, &value)) {
+        const char *text = core_text(name, "The name of an option");
+        const field *found = text ? field_of(text) : NULL;
+        if (text && !found) return core_fail(FROE_E_OPTIONS, "There is no option %R of pictures.", name);
+        if (!found || !set_field(options, found, value)) return false;
     }
-    return known == PyDict_Size(dict) || core_fail(FROE_E_OPTIONS, "There is no such option among %R.", dict);
+    return true;
 }
 
 /* --------------------------------------------------------------- to memory -- */

@@ -116,7 +116,7 @@ static bool count_objects(batch *b, froe_kind kind, size_t *count) {
     const size_t each = corners_of[kind];
     if (!each) return core_fail_as("ArrayError", "Hulls need starts.");
     if (corners % each)
-        return core_fail_as("ArrayError", "There are %zu corners, which is no multiple of %zu.", corners, each);
+        return core_fail_as("ArrayError", "There are %zu corners, and each object takes %zu.", corners, each);
     *count = corners / each;
     return true;
 }

@@ -24,7 +24,7 @@ def plain(values: npt.ArrayLike, name: str) -> npt.NDArray[Any]:
     try:
         return np.asarray(values)
     except ValueError as error:
-        raise ArrayError(f"{name} is no array: {error}.") from None
+        raise ArrayError(f"{name} cannot become an array: {error}.") from None
 
 
 def doubles(values: npt.ArrayLike, name: str) -> Doubles:
@@ -35,7 +35,7 @@ def doubles(values: npt.ArrayLike, name: str) -> Doubles:
     >>> doubles([2**53 + 1], "values")
     Traceback (most recent call last):
         ...
-    froe.errors.ArrayError: values has numbers that are no doubles, the first of them 9007199254740993 at (0,).
+    froe.errors.ArrayError: values has the number 9007199254740993 at (0,), which float64 cannot hold.
     """
     array = plain(values, name)
     if array.dtype != np.float64:
@@ -53,7 +53,7 @@ def _converted(array: npt.NDArray[Any], name: str) -> Doubles:
     lost &= array == array
     if lost.any():
         where = tuple(int(i) for i in np.argwhere(lost)[0])
-        raise ArrayError(f"{name} has numbers that are no doubles, the first of them {array[where]} at {where}.")
+        raise ArrayError(f"{name} has the number {array[where]} at {where}, which float64 cannot hold.")
     converted.flags.writeable = False
     return converted
 
@@ -81,7 +81,7 @@ def whole(values: npt.ArrayLike, name: str, kind: type[np.unsignedinteger[Any]])
     >>> whole([1, -2], "groups", np.uint32)
     Traceback (most recent call last):
         ...
-    froe.errors.ArrayError: groups has numbers that are not between 0 and 4294967295, the first of them -2 at (1,).
+    froe.errors.ArrayError: groups has the number -2 at (1,), which is not between 0 and 4294967295.
     """
     array = plain(values, name)
     if array.size == 0:
@@ -92,9 +92,7 @@ def whole(values: npt.ArrayLike, name: str, kind: type[np.unsignedinteger[Any]])
     bad = (array < 0) | (array > most)
     if bad.any():
         where = tuple(int(i) for i in np.argwhere(bad)[0])
-        raise ArrayError(
-            f"{name} has numbers that are not between 0 and {most}, the first of them {array[where]} at {where}."
-        )
+        raise ArrayError(f"{name} has the number {array[where]} at {where}, which is not between 0 and {most}.")
     return np.ascontiguousarray(array, kind)
 
 

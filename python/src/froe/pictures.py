@@ -134,7 +134,9 @@ def _numbers(options: Mapping[str, Any]) -> dict[str, Any]:
         elif name == "background":
             found[name] = _colour(value)
         elif name == "size":
-            found["width"], found["height"] = (float(length) for length in value)
+            if len(lengths := np.atleast_1d(value)) != 2:
+                raise OptionError(f"size is {value!r}, and must be two lengths, like (800, 600).")
+            found["width"], found["height"] = (float(length) for length in lengths)
         else:
             found[name] = value
     return found

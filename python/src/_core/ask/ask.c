@@ -1,4 +1,5 @@
 #include "ask/ask.h"
+#include <stdio.h>
 
 bool core_ask_begin(core_ask *ask, PyObject *self, const char *name, PyObject *const *args, Py_ssize_t given,
                     Py_ssize_t wanted) {
@@ -24,7 +25,17 @@ void core_ask_run(core_ask *ask) {
     ask->options.user = &ask->call;
 }
 
+/* A batch tells which question is to blame by its position, and its message is that of a single question. */
+static void name_question(froe_diagnostic *diag) {
+    char sentence[sizeof diag->message];
+    memcpy(sentence, diag->message, sizeof sentence);
+    const int length = snprintf(diag->message, sizeof diag->message, "question %u: ", diag->object);
+    snprintf(diag->message + length, sizeof diag->message - (size_t)length, "%s", sentence);
+}
+
 bool core_ask_ran(core_ask *ask, froe_status status) {
+    if ((status == FROE_E_INPUT || status == FROE_E_ARG) && ask->call.diag.object != FROE_NONE)
+        name_question(&ask->call.diag);
     return core_call_end(&ask->call, status);
 }
 

@@ -6,6 +6,7 @@ of their rings. A third coordinate is left out, as the predicates of GEOS leave 
 
 from __future__ import annotations
 
+import reprlib
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -233,7 +234,8 @@ def of_mappings(geometries: Iterable[Any]) -> Features:
                 else:
                     raise ValueError(f"its type is {kind!r}")
             except (KeyError, TypeError, ValueError, IndexError) as why:
-                raise ValueError(f"Object {number} is not a geometry: {why}.") from why
+                reason = why if isinstance(why, ValueError) else f"it is {reprlib.repr(part)}"
+                raise ValueError(f"Object {number} is not a geometry: {reason}.") from why
     corners, _, owners = points.arrays()
     return Features.of_chains(
         count, (corners, owners), lines.arrays(), (*rings.arrays(), np.array(polygons, np.int64))
