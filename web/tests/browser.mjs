@@ -3,7 +3,7 @@
 import { createServer } from "node:http";
 import { readFile } from "node:fs/promises";
 import { createRequire } from "node:module";
-import { mkdtempSync, rmSync } from "node:fs";
+import { existsSync, mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { extname, join, normalize } from "node:path";
 
@@ -62,6 +62,12 @@ export async function drawn(page) {
     if (wrong) throw new Error(await wrong.evaluate((status) => status.textContent));
 }
 
+/** Waits until nothing is built any more, too: the tree that draws stays. */
+export async function settled(page) {
+    await drawn(page);
+    await page.waitForFunction(() => document.querySelector(".sheet.drawn") && document.querySelector(".work").hidden, { timeout: 60000 });
+}
+
 /** Presses keys on an element. */
 export async function press(page, selector, keys) {
     await page.focus(selector);
@@ -70,12 +76,14 @@ export async function press(page, selector, keys) {
 
 /** The path of the file `name` in `folder` that a button saves. */
 export async function saved(page, folder, label, name) {
-    const session = await page.createCDPSession();
-    await session.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: folder, eventsEnabled: true });
-    const done = new Promise((accept) => session.on("Browser.downloadProgress", ({ state }) => { if (state === "completed") accept(); }));
+    const session = await page.browser().target().createCDPSession(), path = join(folder, name);
+    await session.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: folder });
     await page.evaluate((text) => [...document.querySelectorAll("button")]
         .find((button) => (button.getAttribute("aria-label") ?? button.textContent) === text).click(), label);
-    await done;
+    for (let tries = 0; !existsSync(path); tries++) {
+        if (tries > 200) throw new Error(`${name} has not been saved.`);
+        await new Promise((resume) => setTimeout(resume, 50));
+    }
     await session.detach();
-    return join(folder, name);
+    return path;
 }

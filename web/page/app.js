@@ -1,0 +1,115 @@
+/* app.js: enters the room that the address names, keeps its state there, and hands it the files that are dropped */
+import { readAddress, readState, writeState } from "./address.js";
+import { h } from "./dom.js";
+
+const ROOMS = {
+    draw: () => import("./rooms/draw.js"),
+    partition: () => import("./rooms/partition.js"),
+    ask: () => import("./rooms/ask.js"),
+    move: () => import("./rooms/move.js"),
+};
+const SETTLED = 300; // milliseconds without a change, after which the address takes the state
+
+const main = document.getElementById("room");
+let here = null;      // the room that is open: name, state, and what room.enter() gave
+let written = null;   // what this page wrote to the address itself
+let entering = 0;
+
+/** What a room is given. `stage` and `panel` are its elements; set() changes the state, and with it the address. */
+function host(name, module) {
+    const stage = h("section", { class: "stage", "aria-label": `${module.title}: picture` });
+    const panel = h("aside", { class: "panel", "aria-label": `${module.title}: settings` });
+    const status = h("output", { class: "status" });
+    stage.append(status);
+    main.replaceChildren(h("h1", { class: "unseen" }, `${module.title}: ${module.lead}`), stage, panel);
+    let timer = 0;
+    const it = {
+        stage, panel, state: null,
+        /** Changes the state, tells the room, and writes the address once it rests. */
+        set(patch) {
+            const changed = Object.keys(patch).filter((key) => it.state[key] !== patch[key]);
+            if (!changed.length) return;
+            Object.assign(it.state, patch);
+            clearTimeout(timer);
+            timer = setTimeout(() => it.write(), SETTLED);
+            here?.room?.change(changed);
+        },
+        write() {
+            clearTimeout(timer);
+            const hash = writeState(name, it.state, module.defaults);
+            if (hash === location.hash) return;
+            written = hash;
+            history.replaceState(null, "", hash);
+        },
+        /** Says a sentence below the picture, or puts elements there. */
+        say(...content) {
+            status.classList.remove("wrong");
+            status.replaceChildren(...content);
+        },
+        /** Says what could not be done. */
+        fail(error) {
+            console.warn(error);
+            status.classList.add("wrong");
+            status.replaceChildren(sentence(error));
+        },
+        leave() { clearTimeout(timer); },
+    };
+    return it;
+}
+
+/** The message of an error as a sentence. */
+function sentence(error) {
+    const text = String(error?.message ?? error).trim();
+    return text[0].toUpperCase() + text.slice(1) + (/[.!?]$/.test(text) ? "" : ".");
+}
+
+async function enter() {
+    const { room: named, query } = readAddress();
+    const name = Object.hasOwn(ROOMS, named) ? named : "draw";
+    if (here?.name === name && here.room) {
+        const state = readState(query, here.module.defaults);
+        const changed = Object.keys(state).filter((key) => state[key] !== here.host.state[key]);
+        Object.assign(here.host.state, state);
+        if (changed.length) here.room.change(changed);
+        return;
+    }
+    const turn = ++entering;
+    if (here) {
+        here.host.leave();
+        here.room?.leave();
+        here = null;
+    }
+    for (const link of document.querySelectorAll("nav a"))
+        if (link.hash === `#${name}`) link.setAttribute("aria-current", "page");
+        else link.removeAttribute("aria-current");
+    const module = await ROOMS[name]();
+    if (turn !== entering) return;
+    document.title = `${module.title} · froe`;
+    here = { name, module, host: host(name, module) };
+    here.host.state = readState(query, module.defaults);
+    const room = await module.enter(here.host);
+    if (turn === entering) here.room = room;
+    else room.leave();
+}
+
+addEventListener("hashchange", () => { if (location.hash !== written) enter(); });
+enter();
+
+/* -- files ------------------------------------------------------------------- */
+
+const carries = (event) => [...event.dataTransfer?.types ?? []].includes("Files");
+let over = 0;
+addEventListener("dragenter", (event) => { if (carries(event)) document.body.classList.toggle("over", ++over > 0); });
+addEventListener("dragleave", (event) => { if (carries(event)) document.body.classList.toggle("over", --over > 0); });
+addEventListener("dragover", (event) => { if (carries(event)) event.preventDefault(); });
+addEventListener("drop", (event) => {
+    if (!carries(event)) return;
+    event.preventDefault();
+    over = 0;
+    document.body.classList.remove("over");
+    here?.room?.files?.([...event.dataTransfer.files]);
+});
+
+/* -- offline ----------------------------------------------------------------- */
+
+if ("serviceWorker" in navigator && location.protocol !== "file:") navigator.serviceWorker.register("offline.js");

@@ -1,0 +1,162 @@
+/* artist.js: a scene, its trees, and the newest picture that was asked for.
+ *
+ * A worker builds a tree that is made for one picture, and draws. Another one then builds the tree with the fewest
+ * pieces; when it is ready it takes over, and the first ends. Each is ended to cancel it. */
+import { sceneFrom } from "../open.js";
+import { isCancelled, startFroe } from "../link.js";
+
+export class Artist {
+    #tell;
+    #source = null;
+    #drawer = null;     // { worker, tree, sections } that draws
+    #builder = null;    // the worker that builds the better tree
+    #wanted = null;     // options of the picture to come
+    #busy = false;
+    #calls = 0;         // to the tree that draws: it is not given up while one runs
+    #age = 0;           // counts scenes: what belongs to an older one is dropped
+
+    /** `tell` hears of: scene(model), tree(report, best), progress(what, share), picture(picture, options), rest(). */
+    constructor(tell) { this.#tell = tell; }
+
+    get best() { return this.#drawer?.best ?? false; }
+    get building() { return this.#builder !== null; }
+
+    /** Reads a source and draws it. `allow(objects)` may refuse before anything is built. Fails with what went wrong. */
+    async open(source, allow) {
+        this.close();
+        const age = this.#age;
+        this.#source = source;
+        try {
+            const worker = await this.#start("Reading", age);
+            const scene = await sceneFrom(worker.froe, source);
+            const model = await modelOf(scene);
+            if (age !== this.#age) return;
+            this.#tell.scene(model);
+            if (!await allow(model.objects) || age !== this.#age) return;
+            worker.what = "Building a tree";
+            const tree = await scene.build({ purpose: "draw" });
+            if (age !== this.#age) return;
+            this.#take(worker, tree, await tree.report(), false);
+        } catch (error) {
+            if (age === this.#age || !isCancelled(error)) throw error;
+        }
+    }
+
+    async #start(what, age) {
+        const worker = await startFroe((share) => { if (age === this.#age) this.#tell.progress(worker.what, share, worker === this.#builder); });
+        worker.what = what;
+        if (age !== this.#age) worker.end();
+        else if (!this.#drawer) this.#drawer = { worker, tree: null, sections: new Map(), best: false };
+        return worker;
+    }
+    #take(worker, tree, report, best) {
+        if (this.#drawer.worker !== worker) this.#drawer.worker.end();
+        this.#drawer = { worker, tree, sections: new Map(), best, objects: report.objects };
+        this.#builder = null;
+        this.#tell.tree(report, best);
+        this.#pump();
+    }
+
+    /** Builds the tree with the fewest pieces; until it is there, pictures come from the first. */
+    async improve() {
+        if (this.#builder || this.best || !this.#drawer?.tree) return;
+        const age = this.#age;
+        try {
+            const worker = await this.#start("Building the tree with the fewest pieces", age);
+            if (age !== this.#age) return;
+            this.#builder = worker;
+            const scene = await sceneFrom(worker.froe, this.#source);
+            const tree = await scene.build({ purpose: "pieces" }), report = await tree.report();
+            while (this.#calls) await new Promise((resume) => setTimeout(resume, 20));
+            if (age !== this.#age || this.#builder !== worker) return;
+            this.#wanted ??= this.#drawer.drawn;
+            this.#take(worker, tree, report, true);
+        } catch (error) {
+            if (!isCancelled(error)) throw error;
+        }
+    }
+    /** Ends the better tree; the first is kept. */
+    stay() {
+        this.#builder?.end();
+        this.#builder = null;
+    }
+
+    /** Asks for a picture; of several that are asked for while one is drawn, the last is. */
+    draw(options) {
+        this.#wanted = options;
+        this.#pump();
+    }
+    async #pump() {
+        if (this.#busy || !this.#wanted || !this.#drawer?.tree) return;
+        const age = this.#age, options = this.#wanted, drawer = this.#drawer, began = performance.now();
+        this.#wanted = null;
+        this.#busy = true;
+        drawer.worker.what = "Drawing";
+        try {
+            const picture = await this.render(options);
+            if (age !== this.#age) return;
+            drawer.drawn = options;
+            this.#tell.picture(picture, options, performance.now() - began);
+        } catch (error) {
+            if (age === this.#age) this.#tell.failed(error);
+        } finally {
+            if (age === this.#age) {
+                this.#busy = false;
+                if (this.#wanted) this.#pump();
+                else this.#tell.rest();
+            }
+        }
+    }
+
+    /** A picture of the tree as it is: options of froe.render() with `plane`, what a section leaves. */
+    render(options) { return this.#call(() => this.#render(options)); }
+    /** The tree as froe build saves it. */
+    saved() { return this.#call(() => this.#drawer.tree.save()); }
+
+    async #call(work) {
+        this.#calls++;
+        try {
+            return await work();
+        } finally {
+            this.#calls--;
+        }
+    }
+    async #render({ plane = null, ...options }) {
+        const { tree, sections } = this.#drawer;
+        if (!plane) return tree.render(options);
+        const key = plane.join();
+        if (!sections.has(key)) {
+            for (const [old, cut] of sections) {
+                cut.then((it) => it.free(), () => {});
+                sections.delete(old);
+            }
+            sections.set(key, tree.section(plane));
+        }
+        return (await sections.get(key)).render({ ...options, section: -1 });
+    }
+
+    /** Ends all work. What was drawn stays; to go on, the source is opened anew. */
+    close() {
+        this.#age++;
+        this.#drawer?.worker.end();
+        this.#builder?.end();
+        this.#drawer = this.#builder = this.#wanted = null;
+        this.#busy = false;
+    }
+}
+
+/* What a preview and a camera need of a scene. */
+async function modelOf(scene) {
+    const dim = await scene.dim();
+    if (dim !== 3) throw new Error("This file is a map. The rooms Partition and Ask take maps; a drawing needs a model in space");
+    const [arrays, groups, bounds, up, objects] = await Promise.all([scene.arrays(), groupsOf(scene), scene.bounds(), scene.up(), scene.objectCount()]);
+    if (!bounds) throw new Error("There is nothing in this file that can be drawn");
+    const materials = new Map();
+    for (const { material } of groups) if (!materials.has(material)) materials.set(material, materials.size);
+    return { arrays, groups, materials: groups.map(({ material }) => materials.get(material)), lo: [...bounds.lo], hi: [...bounds.hi],
+        points: arrays.coords, up, objects };
+}
+async function groupsOf(scene) {
+    const count = await scene.groupCount();
+    return Promise.all(Array.from({ length: count }, (_, i) => scene.group(i)));
+}

@@ -1,0 +1,86 @@
+/* open.js: files become scenes.
+ *
+ * froe reads OBJ, OFF, PLY, GeoJSON and CSV itself, with all digits; three.js reads glTF and STL. What comes out is a
+ * source, from which a scene can be made in any worker, several times:
+ *
+ *     { name, made: [kind, n] }                      froe makes it up
+ *     { name, bytes, files }                         froe reads it
+ *     { name, groups, coords, groupOf }          triangles: 9 numbers each, and the number of a group each
+ *
+ * Each may have `up`, the axis that points up. */
+
+const LARGEST = 600e6; // bytes of a file; it is in memory several times while it is read
+const OWN = ["obj", "off", "ply", "geojson", "json", "csv"];
+const BESIDE = ["mtl", "bin", "png", "jpg", "jpeg", "webp"];
+/** For inputs of files. */
+export const MODEL_FILES = ".glb,.gltf,.obj,.stl,.ply,.off,.mtl,.bin";
+export const MAP_FILES = ".geojson,.json,.csv";
+
+const ending = (name) => name.slice(name.lastIndexOf(".") + 1).toLowerCase();
+
+/** The source that files are: one of them is the scene, the others are what it names. */
+export async function openFiles(files) {
+    const main = files.find((file) => !BESIDE.includes(ending(file.name)));
+    if (!main) throw new Error("There is no scene among these files.");
+    for (const file of files) {
+        if (file.size > LARGEST)
+            throw new Error(`${file.name} has ${Math.round(file.size / 1e6)} MB, and a page can read ${LARGEST / 1e6} MB at most: ` +
+                "the program froe has no such limit");
+        if (!file.size) throw new Error(`${file.name} is empty.`);
+    }
+    const read = READERS[ending(main.name)];
+    if (!read) throw new Error(`${main.name} is not of a format that this page reads: glTF, OBJ, STL, PLY, OFF, GeoJSON or CSV.`);
+    return read(main, files.filter((file) => file !== main));
+}
+
+const bytesOf = async (file) => new Uint8Array(await file.arrayBuffer());
+
+async function readOwn(file, others) {
+    const beside = {};
+    for (const other of others) beside[other.name] = await bytesOf(other);
+    return { name: file.name, bytes: await bytesOf(file), files: beside };
+}
+
+async function readStl(file) {
+    const [{ STLLoader }, { triangles }] = [await import("three/loaders/STLLoader.js"), await import("./triangles.js")];
+    const bytes = await file.arrayBuffer();
+    const geometry = named(file, "STL", () => new STLLoader().parse(bytes));
+    return triangles(file.name, 2, [{ geometry, name: "", material: "", colour: 0 }]);
+}
+
+async function readGltf(file, others) {
+    const { readScene } = await import("./gltf.js");
+    const bytes = await file.arrayBuffer();
+    return named(file, "glTF", () => readScene(file.name, bytes, others));
+}
+
+/* What a library cannot read, with the name of the file. */
+function named(file, format, read) {
+    const tell = (error) => {
+        throw new Error(`${file.name} could not be read as ${format}: ${String(error?.message ?? error).replace(/^THREE\.\w+: /, "")}`);
+    };
+    try {
+        const result = read();
+        return result instanceof Promise ? result.catch(tell) : result;
+    } catch (error) {
+        return tell(error);
+    }
+}
+
+const READERS = { glb: readGltf, gltf: readGltf, stl: readStl, ...Object.fromEntries(OWN.map((format) => [format, readOwn])) };
+
+/** The scene of a source, in a worker. */
+export async function sceneFrom(froe, source) {
+    const scene = await bareScene(froe, source);
+    if (source.up !== undefined) await scene.up(source.up);
+    return scene;
+}
+async function bareScene(froe, source) {
+    if (source.made) return froe.generate(...source.made);
+    if (source.bytes) return froe.read(source.name, source.bytes, source.files);
+    const scene = await froe.scene(3);
+    const added = source.groups.map((group) => scene.addGroup(group));
+    await scene.add({ kind: "polygon", coords: source.coords, groups: source.groupOf });
+    await Promise.all(added);
+    return scene;
+}

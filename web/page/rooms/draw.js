@@ -1,0 +1,298 @@
+/* draw.js: the room Draw: a model, turned; its exact drawing, as soon as it rests */
+import { button, Controls, group, opener } from "../controls.js";
+import { count, h, save, size } from "../dom.js";
+import { Artist } from "../draw/artist.js";
+import { zoomOf } from "../draw/camera.js";
+import { cameraOfState, commandOf, optionsOf, planeOf } from "../draw/options.js";
+import { PAPERS, pageOf, SCALES } from "../draw/papers.js";
+import { Preview } from "../draw/preview.js";
+import { turnable } from "../draw/turn.js";
+import { MODEL_FILES, openFiles } from "../open.js";
+import { MODELS, sampleSource } from "../samples.js";
+import { isCancelled } from "../link.js";
+
+export const title = "Draw";
+export const lead = "an exact vector drawing of a model.";
+export const defaults = {
+    scene: "house", turn: 31, tilt: 19, zoom: 0, x: 0, y: 0, up: "file", parallel: false, fov: 35,
+    shading: "flat", colours: "file", lines: "all", width: 1, hidden: false, crease: 30,
+    section: "none", at: 0.5, flip: false, paper: "wide", scale: "fit",
+};
+
+const RESTS = 250;            // milliseconds without a turn, after which the drawing is made
+const LARGE = 300000;         // triangles from which on the page asks before it builds
+const QUICK_ENOUGH = 60000;   // triangles up to which the better tree is built unasked
+const VIEWS = { Corner: [31, 19], Front: [0, 0], Right: [90, 0], Back: [180, 0], Left: [-90, 0], Top: [0, 90], Bottom: [0, -90] };
+
+export async function enter(host) {
+    const room = new DrawRoom(host);
+    room.load();
+    return room;
+}
+
+class DrawRoom {
+    #host;
+    #artist = new Artist({
+        scene: (model) => this.#showModel(model),
+        tree: (report, best) => this.#showTree(report, best),
+        progress: (what, share, behind) => this.#showProgress(what, share, behind),
+        picture: (picture, options, time) => this.#showPicture(picture, options, time),
+        failed: (error) => this.#fail(error),
+        rest: () => this.#rest(),
+    });
+    #model = null;
+    #tree = null;
+    #picture = null;
+    #file = "model";
+    #frame = 0;
+    #timer = 0;
+    #preview;
+    #stopTurning;
+    #resized;
+    #controls;
+    #parts = {};
+
+    constructor(host) {
+        this.#host = host;
+        this.#furnish();
+        this.#preview = new Preview(this.#parts.canvas);
+        this.#stopTurning = turnable(this.#parts.canvas, () => host.state, (patch) => host.set(patch),
+            () => (this.#model ? zoomOf(cameraOfState(host.state, this.#model), host.state, this.#model, pageOf(host.state.paper)) : 1));
+        this.#resized = new ResizeObserver(() => this.#layOut());
+        this.#resized.observe(this.#parts.desk);
+    }
+
+    /* -- furniture ------------------------------------------------------------ */
+
+    #furnish() {
+        const { stage, panel } = this.#host, p = this.#parts;
+        p.canvas = h("canvas", { tabindex: 0, role: "img", "aria-label": "The model. Arrow keys turn it, plus and minus zoom, 0 fits it to the page." });
+        p.drawing = h("img", { class: "drawing", alt: "" });
+        p.sheet = h("div", { class: "sheet" }, p.canvas, p.drawing);
+        p.bar = h("progress", { max: 1, value: 0, "aria-label": "Progress" });
+        p.what = h("span", {});
+        p.stop = button("Cancel", () => this.cancel());
+        p.work = h("div", { class: "work", hidden: true }, p.what, p.bar, p.stop);
+        p.desk = h("div", { class: "desk" }, p.sheet);
+        stage.prepend(p.desk, p.work);
+        this.#controls = new Controls(this.#host);
+        panel.append(...this.#settings(this.#controls));
+    }
+    #settings(c) {
+        const p = this.#parts, { set } = this.#host, percent = (x) => `${Math.round(100 * x)} %`;
+        p.credit = h("p", { class: "soft" });
+        p.section = h("div", { class: "stack" }, c.slider("at", "Where", { min: 0, max: 1, step: 0.01, show: percent }), c.toggle("flip", "Keep the other side"));
+        p.fov = c.slider("fov", "Angle of view", { min: 10, max: 100, show: (x) => `${x}°` });
+        p.scale = c.choice("scale", "Scale, for models in metres", [["fit", "As fits"], ...SCALES.map((s) => [String(s), `1 : ${s}`])]);
+        p.command = h("code", {});
+        p.downloads = h("div", { class: "buttons" }, ["SVG", "PDF", "PNG", "EPS"].map((format) =>
+            button(format, () => this.#download(format.toLowerCase()), { "aria-label": `Save as ${format}` })));
+        return [
+            group("Model",
+                c.choice("scene", "Model", [...Object.entries(MODELS).map(([id, { title }]) => [id, title]), ["file", "Own file"]]),
+                opener("Open a file …", MODEL_FILES, (files) => this.files(files)), p.credit),
+            group("View",
+                h("div", { class: "buttons" }, Object.entries(VIEWS).map(([name, [turn, tilt]]) =>
+                    button(name, () => set({ turn, tilt, zoom: 0, x: 0, y: 0 })))),
+                c.switch("parallel", "Projection", [[false, "Perspective"], [true, "Parallel"]]), p.fov,
+                c.switch("up", "Points up", [["file", "As the file says"], ["x", "x"], ["y", "y"], ["z", "z"]])),
+            group("Faces",
+                c.choice("shading", "Shading", [["flat", "Light"], ["cel", "Light in four steps"], ["plain", "Colours alone"], ["white", "White"], ["none", "None: lines alone"]]),
+                c.switch("colours", "Colours", [["file", "Of the file"], ["own", "froe's"]])),
+            group("Lines",
+                c.choice("lines", "Kinds", [["all", "Outlines and creases"], ["outlines", "Outlines"], ["mesh", "All edges"], ["none", "None"]]),
+                c.slider("width", "Width", { min: 0.25, max: 4, step: 0.25, show: (x) => `${x}` }),
+                c.slider("crease", "Creases from", { min: 5, max: 90, step: 5, show: (x) => `${x}°` }),
+                c.toggle("hidden", "Hidden lines, dashed")),
+            group("Section",
+                c.switch("section", "Across", [["none", "None"], ["x", "x"], ["y", "y"], ["z", "z"]]), p.section),
+            group("Paper",
+                c.choice("paper", "Size", Object.entries(PAPERS).map(([id, { title }]) => [id, title])), p.scale),
+            group("Take away", p.downloads,
+                button("Tree, for the program froe", () => this.#download("froe")),
+                h("details", {}, h("summary", {}, "The same from a terminal"), h("p", { class: "soft" }, "With the saved tree, this line draws the same bytes."), p.command)),
+        ];
+    }
+
+    /* -- scenes --------------------------------------------------------------- */
+
+    /** Loads the sample that the state names. */
+    async load() {
+        const sample = MODELS[this.#host.state.scene] ?? MODELS.house;
+        this.#parts.credit.textContent = `${sample.title}: ${sample.credit}.`;
+        this.#file = this.#host.state.scene;
+        await this.#open(() => sampleSource(sample), sample.title);
+    }
+    /** Opens files that were dropped or chosen. */
+    async files(files) {
+        const name = files[0].name;
+        this.#host.set({ scene: "file", zoom: 0, x: 0, y: 0, section: "none" });
+        this.#parts.credit.textContent = `${name} stays in this browser; nothing is sent.`;
+        this.#file = name.replace(/\.\w+$/, "");
+        await this.#open(() => openFiles(files), this.#file);
+    }
+    async #open(source, title) {
+        this.#artist.close();
+        this.#showProgress("Reading", 0, false);
+        this.#hideDrawing();
+        try {
+            const opened = await source();
+            this.#title = title;
+            this.#opened = opened;
+            await this.#artist.open(opened, (objects) => this.#allow(objects));
+        } catch (error) {
+            if (!isCancelled(error)) this.#fail(error);
+        }
+    }
+    #title = "";
+    #opened = null;
+
+    /* What building takes is told before it is begun. */
+    #allow(objects) {
+        if (objects < LARGE) return true;
+        this.#rest();
+        return new Promise((answer) => {
+            const seconds = Math.round(objects * 1e-4), memory = size(objects * 1000);
+            this.#host.say(h("span", {}, `${count(objects)} polygons: the first drawing takes about ${seconds} seconds and ${memory} of memory.`),
+                button("Draw it", () => { this.#host.say(); answer(true); }), button("Leave it", () => { this.#host.say("Not drawn."); answer(false); }));
+        });
+    }
+
+    /** Ends the better tree; where there is no picture yet, everything. */
+    cancel() {
+        if (this.#artist.building) {
+            this.#artist.stay();
+            this.#rest();
+            return;
+        }
+        this.#artist.close();
+        this.#rest();
+        this.#host.say(h("span", {}, "Cancelled."), button("Draw again", () => this.#open(async () => this.#opened, this.#title)));
+    }
+
+    /* -- what the artist tells -------------------------------------------------- */
+
+    #showModel(model) {
+        this.#model = { ...model, title: this.#title };
+        this.#preview.show(this.#model);
+        this.change([]);
+    }
+    #showTree(report, best) {
+        this.#tree = report;
+        if (!best) this.#ask();
+    }
+    #showPicture(picture, options, time) {
+        this.#picture = picture;
+        const p = this.#parts, url = URL.createObjectURL(new Blob([picture.bytes], { type: "image/svg+xml" }));
+        const old = p.drawing.src;
+        p.drawing.onload = () => {
+            if (this.#frame === 0 && this.#timer === 0) p.sheet.classList.add("drawn");
+            if (old.startsWith("blob:")) URL.revokeObjectURL(old);
+        };
+        p.drawing.src = url;
+        p.drawing.alt = `${this.#title}: ${count(picture.shapes)} shapes and ${count(picture.lines)} lines`;
+        p.command.textContent = commandOf(options, this.#host.state, this.#model, this.#file);
+        this.#host.say(h("span", {}, h("b", {}, "Exact. "), `${count(picture.shapes)} shapes, ${count(picture.lines)} lines, ${size(picture.bytes.length)}`),
+            h("span", { class: "soft" }, `${(time / 1000).toFixed(2)} s, from ${count(this.#tree.fragments)} pieces of ${count(this.#tree.objects)} polygons`));
+        if (!this.#artist.best && this.#tree.objects <= QUICK_ENOUGH) this.#artist.improve().catch((error) => this.#fail(error));
+    }
+    #showProgress(what, share, behind) {
+        const p = this.#parts;
+        p.work.hidden = false;
+        p.work.classList.toggle("behind", !!behind);
+        p.what.textContent = what;
+        p.bar.value = share;
+    }
+    #rest() { if (!this.#artist.building) this.#parts.work.hidden = true; }
+    #fail(error) {
+        this.#rest();
+        this.#parts.work.hidden = true;
+        this.#host.fail(error);
+    }
+
+    /* -- the view ---------------------------------------------------------------- */
+
+    change(changed) {
+        this.#controls.update();
+        const { state } = this.#host, p = this.#parts;
+        p.section.hidden = state.section === "none";
+        p.fov.hidden = state.parallel;
+        p.scale.hidden = !(state.parallel && pageOf(state.paper).millimetres);
+        if (changed.includes("scene") && state.scene !== "file") {
+            this.#host.set({ zoom: 0, x: 0, y: 0 });
+            this.load();
+            return;
+        }
+        this.#layOut();
+        if (changed.every((name) => name === "scene")) { this.#ask(); return; }
+        this.#hideDrawing();
+        clearTimeout(this.#timer);
+        this.#timer = setTimeout(() => { this.#timer = 0; this.#ask(); }, RESTS);
+    }
+    #ask() {
+        if (this.#model && this.#timer === 0) this.#artist.draw(optionsOf(this.#host.state, this.#model));
+    }
+    #hideDrawing() { this.#parts.sheet.classList.remove("drawn"); }
+
+    /* The sheet fills the desk; the preview is drawn once a frame at most. */
+    #layOut() {
+        const { desk, sheet } = this.#parts, page = pageOf(this.#host.state.paper), style = getComputedStyle(desk);
+        const room = [desk.clientWidth - 2 * parseFloat(style.paddingLeft), desk.clientHeight - 2 * parseFloat(style.paddingTop)];
+        const scale = Math.max(0, Math.min(room[0] / page.width, room[1] / page.height));
+        const width = Math.floor(page.width * scale), height = Math.floor(page.height * scale);
+        sheet.style.width = `${width}px`;
+        sheet.style.height = `${height}px`;
+        if (!this.#model || this.#frame || !width) return;
+        this.#frame = requestAnimationFrame(() => {
+            this.#frame = 0;
+            const { state } = this.#host;
+            this.#preview.style({ shading: state.shading, ownColours: state.colours === "own", lines: state.lines !== "none", section: planeOf(state, this.#model) });
+            this.#preview.draw(cameraOfState(state, this.#model), width, height, this.#model);
+        });
+    }
+
+    /* -- files ------------------------------------------------------------------- */
+
+    async #download(format) {
+        if (!this.#picture) return;
+        const options = optionsOf(this.#host.state, this.#model), name = `${this.#file}.${format}`;
+        try {
+            if (format === "froe") save(name, await this.#artist.saved(), "application/octet-stream");
+            else if (format === "png") save(name, await pixels(this.#picture, options), "image/png");
+            else save(name, (await this.#artist.render({ ...options, format })).bytes, TYPES[format]);
+        } catch (error) {
+            if (!isCancelled(error)) this.#fail(error);
+        }
+    }
+
+    leave() {
+        cancelAnimationFrame(this.#frame);
+        clearTimeout(this.#timer);
+        this.#resized.disconnect();
+        this.#stopTurning();
+        this.#artist.close();
+        this.#preview.close();
+        if (this.#parts.drawing.src.startsWith("blob:")) URL.revokeObjectURL(this.#parts.drawing.src);
+    }
+}
+
+const TYPES = { svg: "image/svg+xml", pdf: "application/pdf", eps: "application/postscript" };
+const FINE = 2, DOTS = 300 / 25.4; // pixels of a PNG for each pixel of the page, and for each millimetre
+
+/* An SVG as pixels, on white. */
+async function pixels({ bytes }, { width, height, millimetres }) {
+    const scale = millimetres ? DOTS : FINE, image = new Image();
+    const url = URL.createObjectURL(new Blob([bytes], { type: "image/svg+xml" }));
+    image.src = url;
+    try {
+        await image.decode();
+        const canvas = h("canvas", { width: Math.round(width * scale), height: Math.round(height * scale) }), paint = canvas.getContext("2d");
+        paint.fillStyle = "#fff";
+        paint.fillRect(0, 0, canvas.width, canvas.height);
+        paint.drawImage(image, 0, 0, canvas.width, canvas.height);
+        return await new Promise((accept, refuse) =>
+            canvas.toBlob((blob) => (blob ? accept(blob) : refuse(new Error("The browser cannot make a picture of this size"))), "image/png"));
+    } finally {
+        URL.revokeObjectURL(url);
+    }
+}
