@@ -8,15 +8,15 @@ import { dirname, join } from "node:path";
 import { after, before, test as register } from "node:test";
 import { drawn, launch, open, press, saved, serve, settled } from "./browser.mjs";
 
-const folder = mkdtempSync(join(tmpdir(), "froe-page-"));
+const folders = mkdtempSync(join(tmpdir(), "froe-page-"));
 const test = (name, body) => register(name, { timeout: 60000 }, body);
 let site, chromium;
 before(async () => { site = await serve(); chromium = await launch(); });
-after(async () => { await chromium?.stop(); site?.stop(); rmSync(folder, { recursive: true }); });
+after(async () => { await chromium?.stop(); site?.stop(); rmSync(folders, { recursive: true }); });
 const at = (hash, options) => open(chromium.browser, site.url + hash, options);
 
 /* What the line of the page that draws the same from a terminal draws. */
-function drawnByProgram(line) {
+function drawnByProgram(line, folder) {
     const path = `${dirname(process.env.FROE_PROGRAM)}:${process.env.PATH}`;
     execFileSync("bash", ["-c", `${line} --quiet`], { cwd: folder, env: { ...process.env, PATH: path } });
 }
@@ -32,17 +32,18 @@ test("each room has an address, and nothing goes wrong in it", async () => {
     await page.close();
 });
 
-const STATES = ["scene=teapot", "scene=bracket&parallel=yes&paper=a4&scale=10&shading=cel&hidden=yes&width=2&crease=10",
+const STATES = ["scene=teapot", "scene=bracket&parallel=yes&paper=a4&shading=cel&hidden=yes&width=2&crease=10",
     "scene=hills&turn=-120&tilt=40&section=x&at=0.3&lines=mesh&zoom=1.5&x=0.1&y=-0.05", "scene=city&shading=none&lines=outlines&fov=60&up=y",
     "scene=teapot&tilt=90&turn=0&section=z&flip=yes&shading=white&colours=own&parallel=yes&lines=none&paper=square"];
 for (const state of STATES)
     test(`the program draws the same bytes: ${state}`, async () => {
         const page = await at(`#draw?${state}`), name = /scene=(\w+)/.exec(state)[1];
+        const folder = mkdtempSync(join(folders, "state-"));
         await settled(page);
         const line = await page.$eval("details code", (code) => code.textContent);
         await saved(page, folder, "Tree, for the program froe", `${name}.froe`);
         const own = readFileSync(await saved(page, folder, "Save as SVG", `${name}.svg`));
-        drawnByProgram(line);
+        drawnByProgram(line, folder);
         assert.ok(own.length > 1000 && own.equals(readFileSync(join(folder, `${name}.svg`))));
         assert.deepEqual(page.wrong, []);
         await page.close();
