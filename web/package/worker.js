@@ -46,7 +46,7 @@ export class FroeWorker {
 
     /** Starts a worker and loads froe there. Options: those of load(); `progress` is told the share done of the call
      * that runs, 20 times a second at most. */
-    static async start({ plain = false, progress = null } = {}) {
+    static async start({ plain, progress = null } = {}) {
         const worker = new FroeWorker();
         worker.#progress = progress;
         worker.#port = await open(new URL("./served.js", import.meta.url));

@@ -77,7 +77,7 @@ export async function sceneFrom(froe, source) {
 }
 async function bareScene(froe, source) {
     if (source.made) return froe.generate(...source.made);
-    if (source.bytes) return froe.read(source.name, source.bytes, source.files);
+    if (source.bytes) return froe.read(source.name, source.bytes, { files: source.files });
     const scene = await froe.scene(3);
     const added = source.groups.map((group) => scene.addGroup(group));
     await scene.add({ kind: "polygon", coords: source.coords, groups: source.groupOf });

@@ -4,7 +4,6 @@ import { pageOf } from "./papers.js";
 
 const LINES = { all: null, outlines: ["border", "silhouette", "object", "section"],
     mesh: ["border", "silhouette", "object", "material", "crease", "mesh", "crossing", "section"], none: [] };
-const BITS = { border: 1, silhouette: 2, object: 4, material: 8, crease: 16, mesh: 32, crossing: 64, section: 128 };
 const PAPER_LINE = 0.25; // millimetres of a line that has 1 pixel on the screen
 
 /** The axis that points up: that of the file, or the one that was chosen. */
@@ -32,8 +31,8 @@ export function optionsOf(state, model) {
         eye, target, up, fit, width, height, margin, parallel, ...(parallel ? { scale } : { fov }),
         millimetres: page.millimetres, decimals: page.millimetres ? 3 : 2,
         shading: state.shading, ownColours: state.colours === "own",
-        ...(kinds ? { lines: kinds.reduce((bits, kind) => bits | BITS[kind], 0) } : {}),
-        lineWidth: round(state.width * unit), hidden: state.hidden, crease: state.crease,
+        ...(kinds ? { lines: kinds } : {}),
+        lineWidth: round(state.width * unit), seamWidth: unit, hidden: state.hidden, crease: state.crease,
         title: model.title, plane: planeOf(state, model),
     };
 }
@@ -46,7 +45,7 @@ export function commandOf(options, state, model, file) {
         options.parallel ? `--parallel --scale ${options.scale}` : `--fov ${options.fov}`,
         `--size ${page}${options.millimetres ? "mm" : ""}`, `--margin ${options.margin}`,
         `--style ${options.shading}`, options.ownColours ? "--colours own" : "", kinds ? `--line-kinds ${kinds.join() || "none"}` : "",
-        `--line-width ${options.lineWidth}`, `--decimals ${options.decimals}`,
+        `--line-width ${options.lineWidth} --seam-width ${options.seamWidth}`, `--decimals ${options.decimals}`,
         options.hidden ? "--hidden dashed" : "", `--crease ${options.crease}`, options.plane ? `--section=${options.plane}` : "",
         `--title ${quote(options.title)}`].filter(Boolean).join(" ");
 }
