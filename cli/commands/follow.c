@@ -75,6 +75,9 @@ int cli_follow_motion(const cli_common *common, const cli_follow *asked, const c
     walk w = {.asked = asked, .file = file, .bar = cli_progress_begin(common, "following")};
     *report = json_null();
     if (!asked->events && !asked->tree.name) return 0;
+    if (asked->places && froe_motion_window(motion).dim == 3)
+        return cli_fail(CLI_USE, NULL, "--places: Exact places are told of motions in the plane, and '%s' is in space.",
+                        file);
     froe_status status = asked->events ? froe_event_writer_new(asked->events, NULL, &w.writer, &diag) : FROE_OK;
     if (status) return cli_fail_status(CLI_WRITING, asked->events, status, &diag);
     *report = json_object();

@@ -32,7 +32,7 @@ static const cli_option options[] = {
      .help = "only the first contact of all, and those that begin with it"},
     {"apart", 0, CLI_FLAG, offsetof(simulate_args, apart), .help = "leave out contacts within one feature"},
     {"events", 0, CLI_TEXT, offsetof(simulate_args, follow.events), "FILE", .file = CLI_WRITTEN,
-     .help = "follow the partition of the segments, and write what changes it, with the times, as .csv"},
+     .help = "follow the partition, and write what changes it, with the times, as .csv"},
     {"at", 0, CLI_REAL, offsetof(simulate_args, follow.at), "T", .help = "with --output: the time of the tree"},
     {"output", 'o', CLI_OUTPUT, offsetof(simulate_args, follow.tree), "TREE", .file = CLI_WRITTEN,
      .help = "save the partition as it is at the time of --at, as a tree for all other commands", .ending = "froe"},
@@ -198,12 +198,11 @@ const cli_command cli_command_simulate = {
         "when they begin and end is known to lie between two doubles that are neighbours or nearly so. Segments that "
         "share a vertex are not said to meet. Features with triangles move in space, corner by corner or as bodies "
         "that "
-        "fly and turn, and contacts are those of their triangles; pictures, pages and the partition are of the "
-        "plane.\n\n"
-        "With --events or --at, a partition of the plane (that of the method cylindrical) is kept right while they "
-        "move: "
+        "fly and turn, and contacts are those of their triangles; pictures and pages are of the plane.\n\n"
+        "With --events or --at, a partition (that of the method cylindrical) is kept right while they move: "
         "vertices and crossings that pass over one another, contacts, turns, pieces of flight plans and the like are "
-        "its events. A tree is taken at the next odd tick; its coordinates are doubles, and --json tells how many "
+        "its events. In space these are events of the triangles as seen along z; triangles must move corner by corner, "
+        "and must not cross. A tree is taken at the next odd tick; its coordinates are doubles, and --json tells how many "
         "vertices had to be rounded, and whether the cuts are those of the exact places all the same. --places writes "
         "these.\n\n"
         "With --poses, MOVING is a model in space of any format, and each part that the table names moves.\n\n"

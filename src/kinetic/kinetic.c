@@ -192,8 +192,8 @@ froe_status froe_kinetic_new(froe_motion *motion, const froe_kinetic_options *op
     BASE_FLOATS_OWN;
     if (!motion || !options || !out) return support_fail_null(diag, __func__);
     if (options->size != sizeof *options) return support_fail_defaults(diag, "froe_kinetic_defaults");
-    if (motion->dim == 3 && (options->augmented || options->epoch))
-        return support_fail(diag, FROE_E_UNSUPPORTED, "A partition in space is not augmented, and has no epochs.");
+    if (motion->dim == 3 && options->augmented)
+        return support_fail(diag, FROE_E_UNSUPPORTED, "A partition in space is not augmented.");
     if (motion->bodies.count) return refuse_bodies(diag);
     froe_allocator memory = support_allocator(alloc);
     froe_kinetic *k;
@@ -255,8 +255,9 @@ static void end_epoch(froe_kinetic *k) {
     for (int i = 0; i < FROE_EVENT_KINDS; i++) events += k->counts.events[i];
     if (!k->options.epoch || events - k->epoch_events < k->options.epoch) return;
     k->epoch++;
-    for (uint32_t s = 0; s < k->tree.segments.count; s++) ktree_segment_at(&k->tree, s)->key = random_key(k, s);
-    surgery_restart(k);
+    for (uint32_t o = 0; o < object_count(k); o++) *key_of(k, o) = random_key(k, o) | edges_before(k);
+    if (now_is_in_space(&k->now)) triangle_enroll_all(k);
+    if (!k->call.stopped) surgery_restart(k);
     k->epoch_events = events;
 }
 

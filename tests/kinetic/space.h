@@ -26,6 +26,7 @@ typedef struct space_kind {
     int count, grid, reach;
     int speed, spin; /**< of a whole, and of each vertex beside it */
     int tilt;        /**< seen from aside: so many 64ths */
+    int lean;        /**< heights grow so much by x and fall by y */
     int far;         /**< moved away by 2^far */
     int scale;       /**< times 2^scale */
     int still;       /**< one in so many stands still */
@@ -242,6 +243,7 @@ static inline void space_swarm(const space_kind *kind, space_data *d) {
 /* x + a z + b y, y + c z - d x, times 64, with odd a, b, c, d. */
 static inline void space_tilt(const space_kind *kind, int p[3]) {
     const int x = p[0], y = p[1], z = p[2], a = kind->tilt;
+    p[2] += kind->lean * (x - y);
     if (!a) return;
     p[0] = 64 * x + (a + 8) * z + a * y;
     p[1] = 64 * y + (a + 2) * z - (a - 2) * x;
