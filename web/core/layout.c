@@ -152,10 +152,12 @@ SIZE(froe_contact, 48);
 AT(froe_event, kind, 0);
 AT(froe_event, objects, 4);
 AT(froe_event, object_count, 20);
-AT(froe_event, tick, 24);
-AT(froe_event, early, 32);
-AT(froe_event, late, 40);
-SIZE(froe_event, 48);
+AT(froe_event, edges, 24);
+AT(froe_event, edge_count, 40);
+AT(froe_event, tick, 48);
+AT(froe_event, early, 56);
+AT(froe_event, late, 64);
+SIZE(froe_event, 72);
 
 AT(froe_kinetic_place, on, 0);
 AT(froe_kinetic_place, above, 4);

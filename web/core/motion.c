@@ -121,9 +121,9 @@ typedef struct web_event {
     froe_event event;
     double instant[2];
 } web_event;
-_Static_assert(sizeof(web_event) == 64, "package/motion.js reads it");
+_Static_assert(sizeof(web_event) == 88, "package/motion.js reads it");
 
-typedef enum web_visit { VISIT_NONE, VISIT_ALL, VISIT_ALL_INSTANTS, VISIT_FIRST } web_visit;
+typedef enum web_visit { VISIT_ALL, VISIT_ALL_INSTANTS, VISIT_FIRST } web_visit;
 typedef struct event_taker {
     froe_kinetic *kinetic;
     web_bytes *out;
@@ -140,14 +140,13 @@ static bool take_event(void *user, const froe_event *event) {
     return !taker->stopped;
 }
 
-/** Lets time go on, or with VISIT_FIRST up to the next event, if there is one; events as an array of web_event. Without
- * VISIT_*_INSTANTS or VISIT_FIRST the instants are those of the ticks around. */
+/** Lets time go on, or with VISIT_FIRST up to the next event, if there is one; events as an array of web_event. With
+ * VISIT_ALL the instants are those of the ticks around. */
 WEB_EXPORT froe_status web_advance(froe_kinetic *kinetic, double time, web_visit visit, web_bytes *out,
                                    froe_diagnostic *diag) {
     event_taker taker = {kinetic, out, visit, false};
     *out = (web_bytes){NULL, 0, 0, false};
-    const froe_status status =
-        froe_kinetic_advance(kinetic, time, visit == VISIT_NONE ? NULL : take_event, &taker, diag);
+    const froe_status status = froe_kinetic_advance(kinetic, time, take_event, &taker, diag);
     return web_bytes_end(out, status == FROE_E_CANCELLED && taker.stopped ? FROE_OK : status, diag);
 }
 

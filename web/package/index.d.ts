@@ -33,7 +33,7 @@ export const CUTS: readonly ("none" | "axis" | "object" | "vertices" | "edge" | 
 /** Names of the numbers in `kinds` of events. */
 export const EVENTS: readonly EventKind[];
 export type EventKind = "vertices" | "vertex-crossing" | "crossings" | "contact" | "triple" | "turn" | "batch" | "plan"
-    | "appear" | "disappear";
+    | "appear" | "disappear" | "flop";
 
 /** Told the share done, 0 to 1, now and then while a call runs. If it returns false, the call ends with
  * FROE_E_CANCELLED; if it throws, with what it has thrown. */
@@ -557,6 +557,9 @@ export interface Events {
     kinds: Uint8Array;
     objects: Uint32Array;
     counts: Uint32Array;
+    /** In space, as seen from above: edge 3 o + c goes on from corner c of object o. */
+    edges: Uint32Array;
+    edgeCounts: Uint32Array;
     ticks: Float64Array;
     early: Float64Array;
     late: Float64Array;

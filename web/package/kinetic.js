@@ -6,19 +6,19 @@ import { Tree } from "./tree.js";
 
 /** Names of the numbers in `kinds` of events. */
 export const EVENTS = ["vertices", "vertex-crossing", "crossings", "contact", "triple", "turn", "batch", "plan", "appear",
-    "disappear"];
+    "disappear", "flop"];
 const STATISTICS = ["surgeries", "batches", "crowds", "restarts", "nodesTouched", "certificatesMade", "nodes", "certificates"];
-const EVENT = 64, FRAGMENT = 40, PLACE = 12, SNAPSHOT = 16; // bytes of web_event, web_fragment, froe_kinetic_place, ...
-const VISIT = { none: 0, all: 1, instants: 2, first: 3 }; // as in web/core/motion.c
+const EVENT = 88, FRAGMENT = 40, PLACE = 12, SNAPSHOT = 16; // bytes of web_event, web_fragment, froe_kinetic_place, ...
+const VISIT = { all: 0, instants: 1, first: 2 }; // as in web/core/motion.c
 
 /** A partition of moving objects, exact at every instant that it stands at. It keeps the motion in use. */
 export class Kinetic extends Resource {
-    #window;
+    #end;
 
     constructor(motion, handle) {
         super(motion[CORE], "partition", handle);
         this.motion = motion;
-        this.#window = motion.window;
+        this.#end = motion.window.end;
     }
 
     /** The time that it has reached. */
@@ -28,28 +28,26 @@ export class Kinetic extends Resource {
 
     #advance(time, visit) {
         const core = this[CORE], take = (at, count) => {
-            const counts = core.column(Uint32Array, at, count, EVENT, 20);
+            const named = (offset, counts) => core.column(Uint32Array, at, count, EVENT, offset, 4)
+                .map((id, i) => (i % 4 < counts[i >> 2] ? id : NONE));
+            const counts = core.column(Uint32Array, at, count, EVENT, 20), edgeCounts = core.column(Uint32Array, at, count, EVENT, 40);
             return {
                 kinds: Uint8Array.from(core.column(Uint32Array, at, count, EVENT, 0)),
-                objects: core.column(Uint32Array, at, count, EVENT, 4, 4).map((id, i) => (i % 4 < counts[i >> 2] ? id : NONE)),
-                counts,
-                ticks: Float64Array.from(core.column(BigInt64Array, at, count, EVENT, 24), Number),
-                early: core.column(Float64Array, at, count, EVENT, 48),
-                late: core.column(Float64Array, at, count, EVENT, 56),
+                objects: named(4, counts), counts, edges: named(24, edgeCounts), edgeCounts,
+                ticks: Float64Array.from(core.column(BigInt64Array, at, count, EVENT, 48), Number),
+                early: core.column(Float64Array, at, count, EVENT, 72),
+                late: core.column(Float64Array, at, count, EVENT, 80),
             };
         };
         return core.records("web_advance", [this[AT], time, visit], EVENT, take);
     }
-    /** Lets time go on, and returns what happened: { kinds, objects, counts, ticks, early, late }. Event i is of the kind
-     * EVENTS[kinds[i]], about the objects 4 i .. 4 i + 3 (0xffffffff where there are fewer than counts[i]), and happened
-     * between early and late: the ticks around, or with `instants` two doubles next to one another. In space events are
-     * not told. */
-    advance(time, { instants = false } = {}) {
-        const told = this.#window.dim === 2;
-        return this.#advance(time, told ? (instants ? VISIT.instants : VISIT.all) : VISIT.none);
-    }
+    /** Lets time go on, and returns what happened: { kinds, objects, counts, edges, edgeCounts, ticks, early, late }.
+     * Event i is of the kind EVENTS[kinds[i]], about the objects 4 i .. 4 i + 3 (0xffffffff where there are fewer than
+     * counts[i]), and happened between early and late: the ticks around, or with `instants` two doubles next to one
+     * another. In space it is about edges, too, as seen from above: edge 3 o + c goes on from corner c of object o. */
+    advance(time, { instants = false } = {}) { return this.#advance(time, instants ? VISIT.instants : VISIT.all); }
     /** Lets time go on to the next event, at most to a time: the events of that tick, with their instants. */
-    step(until = this.#window.end) { return this.#advance(until, VISIT.first); }
+    step(until = this.#end) { return this.#advance(until, VISIT.first); }
 
     /** Objects that were added to the motion meanwhile take part from now on. */
     update() { this[CORE].call("froe_kinetic_update", this[AT]); }

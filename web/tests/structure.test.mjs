@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { froe as module } from "./support.mjs";
 
-const { CUTS, KINDS, NONE, load } = module;
+const { CUTS, EVENTS, KINDS, NONE, load } = module;
 const froe = await load();
 const scenes = { "plane": froe.generate("rooms", 60), "space": froe.generate("rooms-3d", 60) };
 
@@ -122,5 +122,28 @@ test("objects that move, their places, and a partition that is asked and changed
     space.add({ starts: [0, 1, 2, 3], times: [0, 0, 0], coords: [0, 0, 0, 1, 0, 0, 0, 1, 0], bodies: [body, body, body] });
     assert.deepEqual([...space.positions(0)], [0, 0, 0, 1, 0, 0, 0, 1, 0]);
     assert.equal(space.positions(1)[0], 1);
-    assert.equal(space.partition().advance(1).kinds.length, 0);
+    assert.throws(() => space.partition(), (error) => error.status === "FROE_E_UNSUPPORTED");
+});
+
+test("events in space are about edges of triangles, as seen from above", () => {
+    const motion = froe.motion({ dim: 3, begin: 0, end: 8 });
+    motion.add({ starts: [0, 1, 2, 3], times: [0, 0, 0], coords: [0, 0, 0, 4, 0, 0, 0, 4, 0] });
+    motion.add({ starts: [0, 2, 4, 6], times: [0, 8, 0, 8, 0, 8], coords: [-9, 0.5, 2, 7, 0.5, 2, -8, 0.5, 2, 8, 0.5, 2, -9, 1.5, 3, 7, 1.5, 3] });
+    const partition = motion.partition(), events = partition.advance(8);
+    assert.ok(events.kinds.length > 3);
+    assert.equal(events.edges.length, 4 * events.kinds.length);
+    const of = (list, counts, i) => [...list.subarray(4 * i, 4 * i + Math.min(4, counts[i]))];
+    let about = 0;
+    for (let i = 0; i < events.kinds.length; i++) {
+        const objects = of(events.objects, events.counts, i), edges = of(events.edges, events.edgeCounts, i);
+        assert.ok(objects.every((object) => object < 2) && edges.every((edge) => objects.includes(Math.floor(edge / 3))), EVENTS[events.kinds[i]]);
+        assert.ok(events.early[i] < events.late[i] && (i === 0 || events.late[i - 1] <= events.late[i]));
+        about += edges.length;
+    }
+    assert.ok(about > 0);
+    assert.equal(Object.values(partition.statistics().events).reduce((sum, count) => sum + count), events.kinds.length);
+    const steps = motion.partition();
+    let count = 0;
+    for (let told; (told = steps.step()).kinds.length;) count += told.kinds.length;
+    assert.equal(count, events.kinds.length);
 });
