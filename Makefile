@@ -7,7 +7,7 @@ PREFIX ?= /usr/local
 export CMAKE_GENERATOR = $(if $(shell command -v ninja 2>/dev/null),Ninja,Unix Makefiles)
 
 .DEFAULT_GOAL := build
-.PHONY: help build demo test install uninstall bench build-bench bench-peers claims oracle mutations coverage bare docs python web single site format lint clean
+.PHONY: help build demo test install uninstall bench build-bench bench-peers claims oracle mutations coverage bare docs python web single dist site format lint clean
 
 deps-%:
 	@scripts/deps $*
@@ -82,6 +82,9 @@ web: build deps-web ## froe as WebAssembly and its npm package, tested: build/we
 
 site: build deps-site ## the documents with search, and the functions: build/site/index.html
 	@scripts/site/build $(BUILD)
+
+dist: deps-dist ## all that a release consists of, with checksums: build/dist
+	@scripts/dist $(BUILD)
 
 single: deps-test deps-lint ## froe as one source and one header, tested: build/single/froe.c, froe.h
 	@scripts/single $(BUILD)

@@ -179,6 +179,7 @@ if(FROE_LOCALIZE)
   endif()
   froe_test(project objects ${scripts}/check-objects ${products})
   if(FROE_HAS_IO AND FROE_HAS_DRAW)
+    froe_test(project symbols ${scripts}/check-symbols $<TARGET_FILE:froe> $<TARGET_FILE:froe_io> $<TARGET_FILE:froe_draw>)
     file(GLOB tests CONFIGURE_DEPENDS tests/*/test_floats.c)
     froe_test(project floats ${scripts}/check-floats $<TARGET_FILE:froe> $<TARGET_FILE:froe_io> $<TARGET_FILE:froe_draw>
       ${tests})
