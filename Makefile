@@ -7,7 +7,7 @@ PREFIX ?= /usr/local
 export CMAKE_GENERATOR = $(if $(shell command -v ninja 2>/dev/null),Ninja,Unix Makefiles)
 
 .DEFAULT_GOAL := build
-.PHONY: help build demo test install uninstall bench build-bench bench-peers claims oracle mutations coverage bare docs python web single dist site format lint clean
+.PHONY: help build demo test install uninstall bench build-bench bench-peers claims oracle mutations coverage bare docs python web single dist release-check site format lint clean
 
 deps-%:
 	@scripts/deps $*
@@ -85,6 +85,9 @@ site: build deps-site ## the documents with search, and the functions: build/sit
 
 dist: deps-dist ## all that a release consists of, with checksums: build/dist
 	@scripts/dist $(BUILD)
+
+release-check: deps-bare dist ## may this commit be released? What was packed, tried on a bare machine; as root
+	@scripts/release-check $(BUILD)
 
 single: deps-test deps-lint ## froe as one source and one header, tested: build/single/froe.c, froe.h
 	@scripts/single $(BUILD)
