@@ -403,12 +403,13 @@ static froe_status explain_crossing(const grow *g) {
     for (size_t i = g->tasks.count; i-- > 0;)
         if (g->tasks.data[i].crossing[0] != FROE_NONE) ids = g->tasks.data[i].crossing;
     return support_fail_at(g->job->diag, FROE_E_INPUT, ids[0], FROE_NONE, FROE_NONE,
-                           "It crosses object %u. The option crossing=split cuts such objects.", ids[1]);
+                           "object %u: It crosses object %u. The option crossing=split cuts such objects.", ids[0],
+                           ids[1]);
 }
 
 froe_status split_explain(froe_diagnostic *diag, uint64_t max_fragments, froe_status status) {
     if (status == FROE_E_BUDGET)
-        return support_fail(diag, status, "More than max_fragments = %llu pieces are needed.",
+        return support_fail(diag, status, "More than %llu pieces are needed, and no more are allowed.",
                             (unsigned long long)max_fragments);
     if (status == FROE_E_LIMIT) return support_fail(diag, status, "More than 2^31 nodes or pieces are needed.");
     if (status == FROE_E_CANCELLED) return support_fail_cancelled(diag);
