@@ -204,6 +204,10 @@ def test_a_closed_tree(tree):
     for ask in (
         lambda: tree.query([[0, 0, 1, 1]]),
         lambda: tree.query_one([0, 0, 1, 1]),
+        lambda: tree.query_groups([[0, 0, 1, 1]]),
+        lambda: tree.join_groups(tree),
+        lambda: tree.cells(),
+        lambda: tree.pairs(),
         lambda: tree.report,
         lambda: tree.scene,
         lambda: pickle.dumps(tree),
@@ -251,6 +255,11 @@ def test_files_that_are_no_trees(tree, tmp_path):
             froe.open(tmp_path / "bad.froe")
         with pytest.raises(FormatError):
             froe.tree._from_bytes(bad)
+    with pytest.raises(FormatError, match="version 2147483647"):
+        froe.tree._from_bytes(bytes(version))
+    (tmp_path / "bad.froe").write_bytes(version)
+    with pytest.raises(FormatError, match="bad.froe.*version 2147483647"):
+        froe.open(tmp_path / "bad.froe")
     with pytest.raises(FileError) as caught:
         froe.open(tmp_path / "none.froe")
     assert isinstance(caught.value, OSError) and "none.froe" in str(caught.value)

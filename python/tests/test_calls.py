@@ -208,6 +208,89 @@ def test_processes(tree, how):
         assert child.exitcode == 0
 
 
+@pytest.mark.parametrize("how", ["fork", "spawn", "forkserver"])
+def test_processes_while_another_thread_asks(tree, how):
+    ranges, stop = windows(3000, 0.02), threading.Event()
+    expected = int(tree.count(ranges).sum())
+
+    def ask():
+        while not stop.is_set():
+            tree.count(ranges, threads=4)
+
+    thread = threading.Thread(target=ask)
+    thread.start()
+    try:
+        context = multiprocessing.get_context(how)
+        queue = context.Queue()
+        children = [context.Process(target=ask_in_child, args=(tree, ranges, queue)) for _ in range(4)]
+        for child in children:
+            child.start()
+        assert [queue.get(timeout=60) for _ in children] == [expected] * 4
+        for child in children:
+            child.join()
+            assert child.exitcode == 0
+    finally:
+        stop.set()
+        thread.join()
+
+
+def test_fork_while_a_scene_is_in_use():
+    """The child finds it in use, for good: the thread that would end the call is not there."""
+    scene, statuses = froe.segments(short_segments(50000)), []
+
+    def fork_once(done):
+        if not statuses:
+            child = os.fork()
+            if child == 0:
+                try:
+                    scene.build()
+                except froe.errors.BusyError:
+                    os._exit(7)
+                os._exit(1)
+            statuses.append(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))
+
+    assert len(scene.build("autopartition", progress=fork_once).scene) == 50000
+    assert statuses == [7]
+
+
+def squares(count):
+    """Of a chequered map, each a group."""
+    scene = froe.Scene(2)
+    for i in range(count):
+        for j in range(count):
+            ring = np.array([[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1], [i, j]], float)
+            group = scene.add_group(f"{i}, {j}")
+            scene.add_segments(np.hstack([ring[:-1], ring[1:]]), group=group, faces=[group] * 4)
+    return scene.build()
+
+
+def test_threads_ask_for_groups_at_once():
+    """What is prepared at the first question about groups is prepared by all of them at a time."""
+    places = np.random.default_rng(5).random((200, 2)) * 12
+    boxes = np.hstack([places, places + 1.5])
+
+    def all_of(tree):
+        answers = [tree.groups(places, threads=2)]
+        for relation in ("meets", "within", "covers"):
+            answers.append(tree.query_groups(boxes, relation=relation))
+            answers.append(tree.join_groups(tree, relation=relation, threads=2))
+        return [answer.pairs().tolist() for answer in answers]
+
+    expected, tree, found = all_of(squares(12)), squares(12), []
+    barrier = threading.Barrier(8)
+
+    def ask():
+        barrier.wait()
+        found.append(all_of(tree))
+
+    threads = [threading.Thread(target=ask) for _ in range(8)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert found == [expected] * 8 and len(expected[0][0]) >= 200
+
+
 def test_fork_while_another_thread_asks(tree):
     ranges, stop = windows(20000, 0.03), threading.Event()
 
