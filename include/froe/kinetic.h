@@ -228,15 +228,18 @@ FROE_API void froe_kinetic_free(froe_kinetic *kinetic);
  * which therefore may take longer and fail in the same way. */
 FROE_API void froe_kinetic_watch(froe_kinetic *kinetic, froe_progress_fn *progress, void *user);
 
-/** What happens at an instant. */
+/** What happens at an instant. In the plane, wherever two segments begin or cease to meet and something passes, a
+ * contact or a batch says so. Where plans go on or lives begin or end at that very instant, these changes may be all
+ * that is told. Nothing is told of segments that touch and go back, and of segments in one line behind a third. */
 typedef enum froe_event_kind {
     FROE_EVENT_VERTICES,        /**< a vertex passes over or under another; in space all is as seen from above */
     FROE_EVENT_VERTEX_CROSSING, /**< a vertex passes over or under a crossing */
     FROE_EVENT_CROSSINGS,       /**< a crossing passes over or under another */
-    FROE_EVENT_CONTACT,         /**< an end of a segment meets another segment */
+    FROE_EVENT_CONTACT,         /**< an end of a segment meets another segment, or one in its line */
     FROE_EVENT_TRIPLE,          /**< three segments meet in one point */
     FROE_EVENT_TURN,            /**< the ends of a segment change sides */
-    FROE_EVENT_BATCH,           /**< several of these at once, at the same place or one above the other */
+    FROE_EVENT_BATCH,           /**< several of these at once, at the same place or one above the other; or points
+                                     that pass so closely, within two ticks, that they may meet */
     FROE_EVENT_PLAN,            /**< the flight of a segment takes another piece */
     FROE_EVENT_APPEAR,
     FROE_EVENT_DISAPPEAR,

@@ -227,6 +227,7 @@ void froe_kinetic_free(froe_kinetic *k) {
     array_free(&alloc, &k->events.roots);
     array_free(&alloc, &k->events.leaving);
     array_free(&alloc, &k->events.staying);
+    array_free(&alloc, &k->events.meeting);
     array_free(&alloc, &k->events.renewed);
     array_free(&alloc, &k->events.turning);
     array_free(&alloc, &k->events.flopping);

@@ -218,6 +218,8 @@ static froe_event event_at(const now_state *now, froe_event_kind kind) {
         .kind = kind, .tick = now->tick, .early = now_time_of(now, now->tick - 2), .late = now_time_of(now, now->tick)};
 }
 
+static const now_claim no_points = {{0, NAME_NONE}, {0, NAME_NONE}, 0};
+
 static bool tell_event(froe_kinetic *k, const event_watcher *watcher, const froe_event *event, const now_claim *claim) {
     k->counts.events[event->kind]++;
     if (!watcher->visit) return true;
@@ -260,6 +262,16 @@ static event_summary describe(const froe_kinetic *k, const event_group *g) {
     if ((e->kind == FROE_EVENT_TRIPLE && all.count > 3) || (e->kind == FROE_EVENT_TURN && all.count > 1) ||
         all.count > 4)
         e->kind = FROE_EVENT_BATCH;
+    return all;
+}
+
+/* The same of a group that was repaired with all that may be in the same place: what passes there may meet. */
+static event_summary describe_crowd(const froe_kinetic *k, const event_group *g) {
+    event_summary all = describe(k, g);
+    const froe_event_kind kind = all.event.kind;
+    if (kind == FROE_EVENT_CONTACT || kind == FROE_EVENT_TURN || kind == FROE_EVENT_FLOP) return all;
+    all.event.kind = FROE_EVENT_BATCH;
+    for (size_t i = 0; i < k->participants.list.count; i++) add_segment(k, &all, k->participants.list.data[i]);
     return all;
 }
 
@@ -347,8 +359,9 @@ static bool is_one_event(const froe_kinetic *k, const event_group *g, const even
     }
 }
 
-/* Repairs the tree where the certificates of a group fail, described by the event. The group may grow. */
-static void repair(froe_kinetic *k, event_group *g, const event_summary *event, unsigned round) {
+/* Repairs the tree where the certificates of a group fail, described by the event. The group may grow. True: others
+ * may be in the same place that have no certificates. */
+static bool repair(froe_kinetic *k, event_group *g, const event_summary *event, unsigned round) {
     bool usual = true; /* unrelated points are not in one place */
     participants_clear(&k->participants);
     for (size_t i = 0; i < g->count; i++) usual &= participants_add_item(k, item_of(k, g, i));
@@ -361,11 +374,13 @@ static void repair(froe_kinetic *k, event_group *g, const event_summary *event, 
         const slab_item *item = item_of(k, g, i);
         if (is_current(k, item)) outcome = slab_is_one_place(&k->tree, item) ? PASS_REFUSED : pass_wall(k, item);
     }
-    if (outcome && !operate(k, g, simple && outcome == PASS_REFUSED)) {
+    const bool crowd = outcome && !operate(k, g, simple && outcome == PASS_REFUSED);
+    if (crowd) {
         k->counts.crowds++;
         operate_carefully(k, g);
     }
     if (!k->call.stopped && !is_sound(k)) surgery_restart(k);
+    return crowd;
 }
 
 /* Until nothing is due any more. */
@@ -388,14 +403,12 @@ static bool settle_tick(froe_kinetic *k, const event_watcher *watcher) {
             for (size_t j = i + 1; j < count && items[j].slab[0] <= g.slab[1]; j++, g.count++)
                 if (items[j].slab[1] > g.slab[1]) g.slab[1] = items[j].slab[1];
             event_summary event = describe(k, &g);
-            const size_t described = g.count;
             /* a turn and nothing else may leave the tree as it is */
             if (g.count == 1 && items[i].kind == CERT_TURN && turn_is_free(&k->tree, items[i].cert))
                 k->counts.free_turns++;
-            else
-                repair(k, &g, &event, round);
+            else if (repair(k, &g, &event, round))
+                event = describe_crowd(k, &g);
             if (k->call.stopped) break;
-            if (g.count > described) event = describe(k, &g);
             k->counts.batches += event.event.kind == FROE_EVENT_BATCH;
             if (!round) go_on &= tell_event(k, watcher, &event.event, &item_of(k, &g, 0)->claim);
         }
@@ -432,13 +445,17 @@ static bool let_leave(froe_kinetic *k, int64_t tick) {
     const bool space = now_is_in_space(&k->now);
     void (*leave)(froe_kinetic *, uint32_t, uint32_t) = space ? leave_with_edge : leave_tree;
     size_t gone = 0;
-    k->events.leaving.count = k->events.staying.count = 0;
+    k->events.leaving.count = k->events.staying.count = k->events.meeting.count = 0;
     for (bool first = true;; first = false) {
         cert_find_due(&k->certs, tick);
         for (size_t i = 0; i < k->certs.queue.due.count; i++) {
             const cert_record *c = k->certs.all.data + k->certs.queue.due.data[i];
             if (c->kind == CERT_LIFE) leave_tree(k, c->owner, 1);
-            if (c->kind == CERT_COLLINEAR) leave(k, k->collinear.pairs.data[c->owner].segment[1], 0);
+            if (c->kind == CERT_COLLINEAR) {
+                const uint32_t *pair = k->collinear.pairs.data[c->owner].segment;
+                for (int j = 0; j < 2; j++) call_push(&k->call, &k->events.meeting, pair[j]);
+                leave(k, pair[1], 0);
+            }
             uint32_t e = c->kind == CERT_COURSE ? k->tree.vertices.data[c->owner] : FROE_NONE;
             for (; e != FROE_NONE; e = ktree_next_end(&k->tree, e)) leave(k, e / 2, 1);
         }
@@ -498,7 +515,6 @@ static void flop_triangles(froe_kinetic *k) {
 /* Puts those that have left back into the tree, if they are there, and tells what has changed, in the order of the
  * segments. */
 static bool enter_tree(froe_kinetic *k, const event_watcher *watcher) {
-    static const now_claim nothing = {{0, NAME_NONE}, {0, NAME_NONE}, 0};
     bool go_on = true;
     for (size_t i = 0; i < k->events.leaving.count && !k->call.stopped; i++) {
         const uint32_t s = k->events.leaving.data[i] / 2, object = now_object_of(&k->now, s);
@@ -513,9 +529,22 @@ static bool enter_tree(froe_kinetic *k, const event_watcher *watcher) {
         ktree_segment_at(&k->tree, s)->stays = false;
         event_summary all = {.event = event_at(&k->now, kind)};
         add_segment(k, &all, s);
-        if (k->events.leaving.data[i] % 2) go_on &= tell_event(k, watcher, &all.event, &nothing);
+        if (k->events.leaving.data[i] % 2) go_on &= tell_event(k, watcher, &all.event, &no_points);
     }
     k->events.leaving.count = 0;
+    return go_on;
+}
+
+/* Tells which segments in one line meet. No certificate of the tree says so: it has one of them where they overlap. */
+static bool tell_meetings(froe_kinetic *k, const event_watcher *watcher) {
+    const uint32_t *pair = k->events.meeting.data;
+    bool go_on = true;
+    for (size_t i = 0; i < k->events.meeting.count && !k->call.stopped; i += 2) {
+        event_summary all = {.event = event_at(&k->now, FROE_EVENT_CONTACT)};
+        for (size_t j = i; j < i + 2; j++) add_segment(k, &all, pair[j]);
+        go_on &= tell_event(k, watcher, &all.event, &no_points);
+    }
+    k->events.meeting.count = 0;
     return go_on;
 }
 
@@ -538,5 +567,6 @@ bool event_step(froe_kinetic *k, int64_t tick, const event_watcher *watcher) {
         if (!k->call.stopped) surgery_restart(k);
     }
     go_on &= enter_tree(k, watcher);
-    return settle_tick(k, watcher) && go_on;
+    go_on &= settle_tick(k, watcher);
+    return tell_meetings(k, watcher) && go_on;
 }

@@ -29,6 +29,7 @@ typedef struct event_state {
     ARRAY(uint32_t) order;   /**< of the items, while they are sorted */
     ARRAY(uint32_t) roots;   /**< places in the tree where surgery is needed: 4 parent + slot */
     ARRAY(uint32_t) leaving; /**< 2 segment + 1: its plan or life changes now; 2 segment: it may come into the tree */
+    ARRAY(uint32_t) meeting; /**< segments in one line of which ends meet now, two and two */
     ARRAY(uint32_t) staying; /**< segments whose plans change now, and that stay in the tree */
     ARRAY(event_renewal) renewed;
     ARRAY(uint32_t) turning;  /**< segments whose ends change sides now */

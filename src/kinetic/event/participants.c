@@ -129,8 +129,16 @@ bool participants_add_near(froe_kinetic *k, const uint32_t *segments, size_t cou
 
 /* ------------------------------------------------------------------- items -- */
 
-/* Do the points of a certificate lie in different places, and do the segments of each keep away from the other? */
+/* Is the other end of a segment, as good as, above or below a place at which it ends? */
+static bool is_upright(const line *s, const participants_place *place) {
+    const double width = fabs(s->at[1][0] - s->at[0][0]);
+    return !(width > margin(s->speed, place->speed) + 2 * s->error + (place->high[0] - place->low[0]));
+}
+
+/* Do the points of a certificate lie in different places, and do the segments of each keep away from the other? Those
+ * of both may meet in between if they are upright. */
 static bool are_apart(ktree *tree, const name_point name[2], const participants_place place[2]) {
+    bool upright[2] = {false, false};
     if (places_meet(place, place + 1)) return false;
     for (int i = 0; i < 2; i++) {
         const participants_place *other = place + (1 - i);
@@ -138,13 +146,15 @@ static bool are_apart(ktree *tree, const name_point name[2], const participants_
         for (; e != FROE_NONE; e = ktree_next_end(tree, e)) {
             const line s = line_of_segment(tree->now, e / 2);
             if (comes_near(&s, other)) return false;
+            upright[i] = upright[i] || is_upright(&s, place + i);
         }
         for (int j = 0; j < 2 && name_is_crossing(name[i]); j++) {
             const line s = line_of_segment(tree->now, j ? (uint32_t)name[i].b : name[i].a);
             if (comes_near(&s, other)) return false;
+            upright[i] = upright[i] || is_upright(&s, place + i);
         }
     }
-    return true;
+    return !upright[0] || !upright[1];
 }
 
 static void add_segments_at(froe_kinetic *k, uint32_t vertex) {
