@@ -4,7 +4,7 @@
 #include "base/random.h"
 #include "split/cell.h"
 #include "split/fallback.h"
-#include "split/finish.h"
+#include "split/finish/finish.h"
 #include "split/score/contest.h"
 #include <math.h>
 #include <string.h>

@@ -457,6 +457,17 @@ split_tally split_view_count(split_view *v, const split_view_plane *plane) {
 
 /* ------------------------------------------------------------ axis extents -- */
 
+/** Ends of a few fragments from all over the cell, sorted: as good as all of them for choosing among. */
+static void take_ends(split_view *view) {
+    const uint32_t count = view->count, few = count < SPLIT_VIEW_ENDS ? count : SPLIT_VIEW_ENDS;
+    for (uint32_t i = 0; i < few; i++) {
+        const uint32_t at = (uint32_t)((2 * (uint64_t)i + 1) * count / (2 * few));
+        view->values.data[view->values.count++] = view->low.data[at];
+        view->values.data[view->values.count++] = view->high.data[at];
+    }
+    base_sort(view->values.data, view->values.count, sizeof(double), base_compare_doubles);
+}
+
 bool split_view_extents(split_view *view, const split_set *set, const split_cell *cell, int axis) {
     const froe_allocator *alloc = &set->alloc;
     uint32_t step = view->count < cell->count ? cell->count / view->count : 1;
@@ -469,21 +480,20 @@ bool split_view_extents(split_view *view, const split_set *set, const split_cell
         split_extent(set, set->items.data + cell->first + (size_t)i * step, axis, &low, &high);
         view->low.data[view->low.count++] = low;
         view->high.data[view->high.count++] = high;
-        view->values.data[view->values.count++] = low;
-        view->values.data[view->values.count++] = high;
     }
-    base_sort(view->values.data, view->values.count, sizeof(double), base_compare_doubles);
+    take_ends(view);
     return true;
 }
 
 split_tally split_view_count_axis(const split_view *view, double value) {
-    split_tally t = {0};
-    for (uint32_t i = 0; i < view->count; i++) {
-        bool negative = view->low.data[i]<value, positive = view->high.data[i]> value;
-        t.negative += negative & !positive;
-        t.positive += positive & !negative;
-        t.both += positive & negative;
-        t.on += !positive & !negative;
+    const double *low = view->low.data, *high = view->high.data;
+    const uint32_t n = view->count;
+    uint32_t negative = 0, positive = 0, both = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        const uint32_t below = low[i] < value, above = high[i] > value;
+        negative += below;
+        positive += above;
+        both += below & above;
     }
-    return t;
+    return (split_tally){negative - both, positive - both, n + both - negative - positive, both};
 }

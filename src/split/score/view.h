@@ -19,7 +19,7 @@
 #include "split/grow.h"
 #include "split/score/price.h"
 
-enum { SPLIT_VIEW_FEW = 256, SPLIT_CHECKS = 64, SPLIT_CHECKED = 256 };
+enum { SPLIT_VIEW_FEW = 256, SPLIT_VIEW_ENDS = 32, SPLIT_CHECKS = 64, SPLIT_CHECKED = 256 };
 
 /** A plane, by its vertices in ascending order, or its object. */
 typedef struct split_checked {
@@ -102,7 +102,7 @@ split_view_plane split_view_axis(const split_view *view, int axis, double value)
 bool split_view_cut(const split_view *view, const froe_scene *scene, const froe_cut *cut, split_view_plane *out);
 /** Deals the fragments shown to sides; those of their corners stay in `side`. */
 split_tally split_view_count(split_view *view, const split_view_plane *plane);
-/** Computes the extents on an axis, and their ends, sorted, as `values`. Any dimension. */
+/** Computes the extents on an axis, and the ends of a few of them, sorted, as `values`. Any dimension. */
 bool split_view_extents(split_view *view, const split_set *set, const split_cell *cell, int axis);
 /** Counts for the plane x[axis] = value from the extents on that axis. */
 split_tally split_view_count_axis(const split_view *view, double value);
