@@ -21,7 +21,7 @@
 #include "build/bar/zone_guard.h"
 #include "build/method.h"
 #include "split/axial.h"
-#include "split/finish.h"
+#include "split/finish/finish.h"
 #include "split/guard/guard_grid.h"
 #include "support/fail.h"
 #include <math.h>

@@ -21,7 +21,7 @@
  * (guard/trial.h). That makes the size linear; docs/design/density.md has the proof. */
 #include "base/log2.h"
 #include "build/method.h"
-#include "split/finish.h"
+#include "split/finish/finish.h"
 #include "split/guard/shapes.h"
 #include "split/guard/trial.h"
 #include "split/refine.h"
@@ -75,7 +75,7 @@ static const froe_option_info options[] = {
                true},
     [WEIGHT] = {"weight", "bits of information that outweigh one split", 0.1, 0, 100, NULL, false},
     [FREE] = {"free", "cut first with fragments that cross their cell", 1, 0, 1, no_yes, true},
-    [SMALL] = {"small", "cells of at most so many segments in the plane are finished from a table of sides", 48, 0, 48,
+    [SMALL] = {"small", "cells of at most so many segments or polygons are finished from a table of sides", 48, 0, 48,
                NULL, true},
     [SAMPLE] = {"sample", "fragments scored per candidate, at most", 512, 8, 1e6, NULL, true},
     [CHECKS] = {"checks", "planes per cell that are checked for what only seems to lie in them", 64, 0, 64, NULL, true},

@@ -103,7 +103,7 @@ static int corner_side(split_set *set, const split_plane *plane, uint32_t object
     if (k->type == SPLIT_CROSSING) {
         const double *from = scene_vertex(set->scene, k->a), *to = scene_vertex(set->scene, k->b);
         int u = vertex_side(set, plane, from), v = vertex_side(set, plane, to);
-        if (u == v) return u;
+        if (u * v >= 0) return u ? u : v; /* it lies strictly between them */
         const geom_plane cut = split_plane_at(set, k->c);
         return geom_side_crossing(&set->context, &plane->plane, from, to, &cut);
     }

@@ -25,7 +25,7 @@ typedef struct split_refine {
     double weight;      /**< of information against splits, in split_price_of() */
     double copy;        /**< what one more entry of a solid costs, in comparisons with all of its cell; 0: nothing */
     double height;      /**< cells deeper than this minus log_{4/3} m must be cut with balance; 0: no rule */
-    uint32_t small;     /**< cells of at most so many segments in the plane are finished at once (finish.h); <= 32 */
+    uint32_t small;     /**< cells of at most so many segments or polygons are finished at once (finish/finish.h) */
     bool free_cuts;
     bool facets; /**< solids: planes of `supports` facets, drawn at random, in place of all others */
 } split_refine;

@@ -53,6 +53,15 @@ static const froe_promise *promise_of(const froe_report *report, const char *nam
     return NULL;
 }
 
+/* A small cell is finished at once. So refinement may be complete when it is found to exceed its allowance, and where
+ * guard cuts exceed theirs it has to be judged again, as no cell of it is pending. */
+static void refinement_that_is_complete_when_it_exceeds_its_allowance_is_judged_again(void **state) {
+    static const char *const kinds[] = {"slats-3d", "grid-3d", "border-3d", "mixed-3d"};
+    (void)state;
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
+        for (size_t n = 24; n <= 96; n += 24) pieces_each(generate(kinds[i], n), "k=4 stop=1", 1);
+}
+
 /* ------------------------------------------------- scenes of low density -- */
 
 enum { DEEP = 20, MOST = 4096 };
@@ -386,6 +395,7 @@ static void trials_survive_every_failing_allocation(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(refinement_that_is_complete_when_it_exceeds_its_allowance_is_judged_again),
         cmocka_unit_test(scenes_of_low_density_have_few_pieces),
         cmocka_unit_test(nested_cubes_have_few_pieces_whatever_their_number),
         cmocka_unit_test(nested_squares_have_few_pieces),

@@ -23,19 +23,25 @@ static void load_piece(finish *f, uint32_t column, const split_fragment *piece) 
     in_space(f) ? table_load_plane(f, column, piece) : table_load_line(f, column, piece);
 }
 
-/** Fills a piece's row for all columns, or for those of a set. */
+/** Fills a row for the pieces of a set: all columns at once where that is quicker. */
 static void fill_row(finish *f, uint32_t row, table_mask set) {
     split_table *t = f->t;
-    table_row *r = t->rows + row;
-    if (4 * table_size(set) >= t->columns) {
-        in_space(f) ? table_fill_plane(t, t->planes.plane + row, r) : table_fill_line(t, t->lines.line + row, r);
-        return;
+    const bool space = in_space(f);
+    table_row *r = t->rows + row, all;
+    if (4 * table_size(set) < t->columns) {
+        for (table_mask left = set; left;) {
+            const uint32_t column = table_take(&left);
+            space ? table_place_plane(t, t->planes.plane + row, r, column)
+                  : table_place_line(t, t->lines.line + row, r, column);
+        }
+    } else {
+        space ? table_fill_plane(t, t->planes.plane + row, &all) : table_fill_line(t, t->lines.line + row, &all);
+        r->below = (r->below & ~set) | (all.below & set);
+        r->above = (r->above & ~set) | (all.above & set);
+        r->sure = (r->sure & ~set) | (all.sure & set);
     }
-    while (set) {
-        const uint32_t column = table_take(&set);
-        in_space(f) ? table_place_plane(t, t->planes.plane + row, r, column)
-                    : table_place_line(t, t->lines.line + row, r, column);
-    }
+    if (f->set->context.first != NUM_FILTER) r->sure &= ~set;
+    r->known |= set;
 }
 
 /** The row of a piece's own line or plane, filled for all pieces of a set. */
@@ -44,8 +50,6 @@ static table_row *row_of(finish *f, uint32_t piece, table_mask set) {
     const table_mask missing = set & ~r->known;
     if (!missing) return r;
     fill_row(f, f->t->line[piece], missing);
-    if (f->set->context.first != NUM_FILTER) r->sure = 0;
-    r->known |= set;
     r->below &= ~table_bit(piece);
     r->above &= ~table_bit(piece);
     r->sure |= table_bit(piece);
@@ -81,28 +85,36 @@ static uint32_t choose_piece(finish *f, const table_part *p, const table_prices 
     return best;
 }
 
-/** Makes a row the exact answer for the pieces of a set, and marks those that only seemed to lie in its plane. */
-static froe_status make_sure(finish *f, table_row *r, const froe_cut *by, table_mask set) {
-    num_context *context = &f->set->context;
-    const uint32_t known = (uint32_t)f->set->scene->dim * table_size(set & r->sure);
-    table_mask left = set & ~r->sure;
-    context->stats.calls += known;
-    context->stats.filtered += known;
-    if (!left) return FROE_OK;
-    const split_plane plane = split_plane_of(f->set->scene, by);
-    while (left) {
-        const uint32_t i = table_take(&left);
+/** Classes of pieces beside a plane, exactly; axes need no table. */
+static froe_status classify(finish *f, table_row *r, const froe_cut *by, table_mask set) {
+    const bool planes = in_space(f) && by->kind != FROE_CUT_AXIS;
+    const split_plane plane = planes ? (split_plane){0} : split_plane_of(f->set->scene, by);
+    table_exact exact;
+    if (planes) exact = table_exact_of(f, by);
+    while (set) {
+        const uint32_t i = table_take(&set);
         const table_mask bit = table_bit(i), flat = bit & ~(r->below | r->above);
         f->set->sides.count = 0;
         if (!array_reserve(&f->set->alloc, &f->set->sides, split_corner_count(f->set, f->t->piece + i)))
             return FROE_E_MEMORY;
-        const int class = split_class(f->set, &plane, f->t->piece + i);
+        const int class = planes ? table_class(f, &exact, i) : split_class(f->set, &plane, f->t->piece + i);
         table_put(&r->below, bit, class == SPLIT_NEG || class == SPLIT_BOTH);
         table_put(&r->above, bit, class == SPLIT_POS || class == SPLIT_BOTH);
-        table_put(&r->sure, bit, true);
-        if (in_space(f) && class != SPLIT_ON) f->t->marked |= flat & f->t->planes.wide;
+        if (planes && class != SPLIT_ON && f->config->checks) f->t->marked |= flat & f->t->planes.wide;
     }
     return FROE_OK;
+}
+
+/** Makes a row the exact answer for the pieces of a set, and marks those that only seemed to lie in its plane. */
+static froe_status make_sure(finish *f, table_row *r, const froe_cut *by, table_mask set) {
+    num_context *context = &f->set->context;
+    const uint32_t known = (uint32_t)f->set->scene->dim * table_size(set & r->sure);
+    const table_mask left = set & ~r->sure;
+    context->stats.calls += known;
+    context->stats.filtered += known;
+    const froe_status status = left ? classify(f, r, by, left) : FROE_OK;
+    r->sure |= left;
+    return status;
 }
 
 /** Makes the row of a piece exact for a part, and names the cut along it, or along its lowest equal, with its row. */
@@ -139,12 +151,13 @@ static froe_status confirm_other(finish *f, const table_part *p, const table_pri
     return status;
 }
 
-/** The best cut of a part: what seems to be the best is made exact, until it is no worse for that. In the plane the
- * first one serves. */
+/** The best cut of a part: what seems to be the best is made exact, until it is no worse for that. In the plane, and
+ * without checks, the first one serves. */
 static froe_status choose_cut(finish *f, const table_part *p, froe_cut *by, table_row *row) {
     const table_prices prices = prices_of(f, p);
     table_other other = {.cost = INFINITY};
     froe_status status = FROE_OK;
+    const bool doubt = in_space(f) && f->config->checks;
     bool search = in_space(f);
     for (uint32_t searches = 0; !status;) {
         double cost = INFINITY;
@@ -162,12 +175,12 @@ static froe_status choose_cut(finish *f, const table_part *p, froe_cut *by, tabl
             status = confirm_other(f, p, &prices, &other);
             *by = other.cut;
             *row = other.row;
-            if (other.cost <= seemed) break;
+            if (other.cost <= seemed || (!doubt && other.cost < INFINITY)) break;
             search = searches < SEARCHES && f->t->marked != marked;
             continue;
         }
         status = confirm_piece(f, p, piece, by, row);
-        if (!in_space(f) || status) break;
+        if (!doubt || status) break;
         const table_tally tally = table_count(f->t, p->set, row_of(f, piece, p->set));
         if (table_cost(&prices, &tally) <= cost) break;
     }
@@ -279,8 +292,8 @@ static froe_status do_part(finish *f, const table_part *p, bool *full) {
 
 static bool fits_table(const split_refine *config, const split_set *set, const split_cell *cell) {
     const int dim = set->scene->dim;
-    if (dim > 3 || cell->count > config->small || !cell->count || cell->count <= config->leaf) return false;
-    if (dim == 3 && (cell->plain || cell->attempt)) return false;
+    if (dim > 3 || cell->count > config->small || !cell->count) return false;
+    if (dim == 3 && (cell->plain || cell->attempt || cell->count <= config->leaf)) return false;
     for (uint32_t i = 0; i < cell->count; i++) {
         const split_fragment *piece = set->items.data + cell->first + i;
         if (scene_form(set->scene, piece->object) != (dim == 2 ? FROE_SEGMENT : FROE_POLYGON)) return false;
@@ -299,7 +312,7 @@ static void begin(finish *f, const split_cell *cell) {
     for (uint32_t i = 0; i < cell->count; i++) {
         const uint32_t object = t->piece[i].object;
         t->line[i] = (uint8_t)i;
-        t->rows[i].known = 0;
+        t->rows[i] = (table_row){0};
         in_space(f) ? table_begin_plane(f, i, object) : table_begin_line(f, i, object);
     }
     t->parts = 1;

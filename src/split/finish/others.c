@@ -48,7 +48,7 @@ static table_row row_at(const search *s, int axis, double value) {
     for (table_mask left = s->part->set; left;) {
         const uint32_t i = table_take(&left);
         const double lo = p->lo[axis][i], hi = p->hi[axis][i], e = p->all.error[i] / p->scale;
-        const bool exact = e == 0 || lo - e > value || hi + e < value;
+        const bool vague = p->vague & table_bit(i), exact = !vague && (e == 0 || lo - e > value || hi + e < value);
         table_put(&row.below, table_bit(i), lo < value - e);
         table_put(&row.above, table_bit(i), hi > value + e);
         table_put(&row.sure, table_bit(i), exact);
@@ -142,11 +142,12 @@ static void enter_edges(search *s) {
 
 /** Planes through an edge and an outermost vertex of the scene, as in refine.c: they run across walls that are flat
  * only up to a rounding. */
-static void enter_across(search *s) {
+static void enter_across(search *s, table_mask marked) {
     finish *f = s->f;
+    const uint32_t m = s->prices->m, tries = f->config->supports * (m + table_size(marked)) / m;
     split_view *view = &((split_scratch *)f->work->scratch)->view;
     split_view_find_outermost(view, f->set->scene);
-    for (uint32_t i = 0; i < f->config->supports; i++) {
+    for (uint32_t i = 0; i < tries; i++) {
         const uint64_t draw = base_hash(f->config->seed, s->part->path, 400000 + i);
         const uint32_t vertex = view->outermost[base_below(base_mix(draw + 2), view->outermost_count)];
         enter_vertices(s, draw, drawn_object(s, draw), vertex);
@@ -156,8 +157,8 @@ static void enter_across(search *s) {
 void table_find_other(finish *f, const table_part *part, const table_prices *prices, table_other *out) {
     search s = {f, part, prices, out};
     for (int axis = 0; axis < 3 && f->config->quantiles; axis++) enter_axis(&s, axis);
-    const bool across = f->t->marked & part->set;
-    if (prices->strict || across) table_pack_part(f->t, part->set);
+    const table_mask marked = f->t->marked & part->set;
+    if (prices->strict || marked) table_pack_part(f->t, part->set);
     if (prices->strict) enter_edges(&s);
-    if (across) enter_across(&s);
+    if (marked) enter_across(&s, marked);
 }

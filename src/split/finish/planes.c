@@ -2,7 +2,8 @@
 #include "split/fallback.h"
 #include "split/finish/table.h"
 
-#define WIDE 0x1p-14 /* of the table: as in score/mark.c */
+#define WIDE 0x1p-14  /* of the table: as in score/mark.c */
+#define VAGUE 0x1p-40 /* the same: images that are wrong by more are taken as they are, but nothing is sure of them */
 
 /** Is there a finite image of the i-th corner? */
 static bool finite_image(const finish *f, const split_fragment *piece, uint32_t i) {
@@ -10,7 +11,7 @@ static bool finite_image(const finish *f, const split_fragment *piece, uint32_t 
     return isfinite(x[0]) && isfinite(x[1]) && isfinite(x[2]);
 }
 
-/* Local coordinates of all images are at most 1, and if halves go beyond that, their error is infinite. */
+/* Local coordinates of all images are at most 1/2. Halves that go beyond 1 have an infinite error. */
 void table_begin_planes(finish *f, const split_cell *cell) {
     table_planes *p = &f->t->planes;
     double lo[3], hi[3], width = 0;
@@ -38,7 +39,8 @@ void table_begin_planes(finish *f, const split_cell *cell) {
     p->packed = 0;
 }
 
-/** Its corners and extents; returns the greatest error. What is not finite becomes the centre, and its error infinite. */
+/** Its corners and extents; returns the greatest error. What is not finite becomes the centre, and its error infinite.
+ */
 static double load_corners(finish *f, uint32_t column, const split_fragment *piece, uint32_t n) {
     table_planes *p = &f->t->planes;
     double error = 0;
@@ -65,7 +67,9 @@ void table_load_plane(finish *f, uint32_t column, const split_fragment *piece) {
     const uint32_t n = split_corner_count(f->set, piece);
     const table_mask bit = table_bit(column);
     double width = 0;
-    p->all.error[column] = load_corners(f, column, piece, n) * p->scale;
+    const double error = load_corners(f, column, piece, n) * p->scale;
+    p->all.error[column] = error <= VAGUE ? error : VAGUE;
+    table_put(&p->vague, bit, !(error <= VAGUE));
     p->all.bits[column] = bit;
     for (int k = 0; k < 3; k++) width = filter_greater(width, p->hi[k][column] - p->lo[k][column]);
     p->corners[column] = (uint8_t)n;
@@ -158,6 +162,7 @@ static void fill(const table_planes *p, const table_pack *pack, uint32_t n, tabl
     row->sure = ~(table_mask)0;
     for (uint32_t j = 0; j < TABLE_FEW; j += 2) fill_corners(pack, n, plane, j, row);
     for (table_mask many = p->many & set; many;) place_corners(p, plane, row, table_take(&many), TABLE_FEW);
+    row->sure &= ~p->vague;
 }
 
 void table_fill_plane(const split_table *t, const table_plane *plane, table_row *row) {
@@ -170,6 +175,7 @@ void table_place_plane(const split_table *t, const table_plane *plane, table_row
     row->above &= ~bit;
     row->sure |= bit;
     place_corners(&t->planes, plane, row, column, 0);
+    row->sure &= ~t->planes.vague;
 }
 
 void table_pack_part(split_table *t, table_mask set) {
@@ -188,4 +194,57 @@ void table_pack_part(split_table *t, table_mask set) {
 
 void table_fill_part(const split_table *t, const table_plane *plane, table_row *row) {
     fill(&t->planes, &t->planes.part, t->planes.packed, row->known, plane, row);
+}
+
+/* ----------------------------------------------------------- exact classes -- */
+
+table_exact table_exact_of(const finish *f, const froe_cut *cut) {
+    const froe_scene *scene = f->set->scene;
+    table_exact out = {.plane = split_plane_of(scene, cut), .filter = table_plane_of(f, cut)};
+    const uint32_t n = cut->kind == FROE_CUT_OBJECT ? scene_corners(scene, cut->id[0]) : 3;
+    for (; out.count < n && out.count < TABLE_MET; out.count++)
+        out.vertex[out.count] =
+            cut->kind == FROE_CUT_OBJECT ? scene_corner(scene, cut->id[0], out.count) : cut->id[out.count];
+    if (f->set->context.first != NUM_FILTER) out.filter.bound = INFINITY;
+    return out;
+}
+
+static int side_of_vertex(finish *f, table_exact *e, uint32_t vertex) {
+    for (uint32_t i = 0; i < e->count; i++)
+        if (e->vertex[i] == vertex) return e->side[i];
+    const int side = split_vertex_side(f->set, &e->plane, scene_vertex(f->set->scene, vertex));
+    if (e->count < TABLE_MET) {
+        e->vertex[e->count] = vertex;
+        e->side[e->count++] = (int8_t)side;
+    }
+    return side;
+}
+
+/* Corners far from the plane come first, then vertices, and corners that cuts made only if these do not tell. */
+int table_class(finish *f, table_exact *e, uint32_t column) {
+    split_set *set = f->set;
+    const split_fragment *piece = f->t->piece + column;
+    const split_corner *ring = piece->count ? set->corners.data + piece->first : NULL;
+    const uint32_t n = split_corner_count(set, piece);
+    bool seen[3] = {false, false, false};
+    const bool vague = f->t->planes.vague & table_bit(column);
+    uint32_t near[TABLE_CORNERS], count = 0, made = 0;
+    for (uint32_t j = 0; j < n; j++) {
+        const int side = vague ? NUM_UNSURE : side_of_corner(&f->t->planes, &e->filter, column, j);
+        if (side == NUM_UNSURE)
+            near[count++] = j;
+        else
+            seen[1 + side] = true;
+    }
+    for (uint32_t k = 0; k < count && !(seen[0] && seen[2]); k++) {
+        const split_corner *corner = ring ? ring + near[k] : NULL;
+        if (corner && corner->type != SPLIT_VERTEX)
+            near[made++] = near[k];
+        else
+            seen[1 + side_of_vertex(f, e, corner ? corner->a : scene_corner(set->scene, piece->object, near[k]))] =
+                true;
+    }
+    for (uint32_t k = 0; k < made && !(seen[0] && seen[2]); k++)
+        seen[1 + split_corner_side(set, &e->plane, piece->object, ring + near[k])] = true;
+    return seen[0] ? (seen[2] ? SPLIT_BOTH : SPLIT_NEG) : seen[2] ? SPLIT_POS : SPLIT_ON;
 }

@@ -58,17 +58,18 @@ typedef struct table_planes {
     double lo[3][TABLE_ROOM], hi[3][TABLE_ROOM]; /* extents, absolute */
     double centre[3], scale;
     uint8_t corners[TABLE_ROOM];
-    table_mask many; /* pieces with more than four corners */
-    table_mask most; /* with as many as there may be */
-    table_mask wide; /* wide enough beside the table to be a wall (score/mark.h) */
+    table_mask many;  /* pieces with more than four corners */
+    table_mask vague; /* whose images may be wrong by more than they are said to be: no filter is sure of them */
+    table_mask most;  /* with as many as there may be */
+    table_mask wide;  /* wide enough beside the table to be a wall (score/mark.h) */
     table_plane plane[FINISH_MOST];
 } table_planes;
 
 struct split_table {
     split_fragment piece[TABLE_ROOM];
-    table_mask free;             /* pieces that cross their cell from border to border */
-    table_mask marked;           /* that seemed to lie in a plane and do not (score/mark.h) */
-    uint8_t line[TABLE_ROOM];    /* the row of the piece's own line or plane */
+    table_mask free;          /* pieces that cross their cell from border to border */
+    table_mask marked;        /* that seemed to lie in a plane and do not (score/mark.h) */
+    uint8_t line[TABLE_ROOM]; /* the row of the piece's own line or plane */
     uint32_t columns;
     table_row rows[FINISH_MOST];
     table_part stack[TABLE_ROOM + 2]; /* a cut takes a piece out, or leaves less on both sides: no path is longer */
@@ -172,6 +173,20 @@ void table_pack_part(split_table *t, table_mask set);
 void table_fill_part(const split_table *t, const table_plane *plane, table_row *row);
 /** A plane through three vertices or along an object, for filters. */
 table_plane table_plane_of(const finish *f, const froe_cut *cut);
+
+/** Such a plane for exact answers, and the vertices that it was compared with last: in a mesh six triangles have a
+ * vertex in common. */
+enum { TABLE_MET = 32 };
+typedef struct table_exact {
+    split_plane plane;
+    table_plane filter;
+    uint32_t count, vertex[TABLE_MET];
+    int8_t side[TABLE_MET];
+} table_exact;
+
+table_exact table_exact_of(const finish *f, const froe_cut *cut);
+/** Exact class of a piece. */
+int table_class(finish *f, table_exact *exact, uint32_t column);
 
 /** The best of the cuts of a part in space that are no supporting planes. */
 void table_find_other(finish *f, const table_part *part, const table_prices *prices, table_other *out);

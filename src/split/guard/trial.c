@@ -219,18 +219,20 @@ static void stay_by_guard(split_work *work, split_trial *t) {
 }
 
 /** Refinement of the first cell, and guard cuts in its place. A limit on all pieces changes no decision: it ends the
- * build once both ways are known to exceed it. */
+ * build once both ways are known to exceed it. What waited may be complete, if its cell was finished at once: then it is judged again. */
 static froe_status judge_first(const split_job *job, split_work *work, split_trial *t) {
     const double most = job->max_fragments ? (double)job->max_fragments : (double)INFINITY;
-    const double pieces = pieces_of(work, t);
-    if (pieces > most && t->other > most) return FROE_E_BUDGET;
-    if (!t->by_guard) {
-        if (refinement_exceeds(work, t)) return go_by_guard(work, t);
-        if (is_done(work, t)) close_trial(work, t);
-    } else if (pieces > most_by_guard(t)) {
+    if (pieces_of(work, t) > most && t->other > most) return FROE_E_BUDGET;
+    if (t->by_guard && pieces_of(work, t) > most_by_guard(t)) {
         go_on(work, t);
+        if (!is_done(work, t)) return FROE_OK;
+    }
+    if (t->by_guard) {
+        if (is_done(work, t)) stay_by_guard(work, t);
+    } else if (refinement_exceeds(work, t)) {
+        return go_by_guard(work, t);
     } else if (is_done(work, t)) {
-        stay_by_guard(work, t);
+        close_trial(work, t);
     }
     return FROE_OK;
 }

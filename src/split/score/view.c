@@ -490,7 +490,7 @@ split_tally split_view_count_axis(const split_view *view, double value) {
     const uint32_t n = view->count;
     uint32_t negative = 0, positive = 0, both = 0;
     for (uint32_t i = 0; i < n; i++) {
-        const uint32_t below = low[i] < value, above = high[i] > value;
+        const uint32_t below = low[i]<value, above = high[i]> value;
         negative += below;
         positive += above;
         both += below & above;
