@@ -219,7 +219,8 @@ static void stay_by_guard(split_work *work, split_trial *t) {
 }
 
 /** Refinement of the first cell, and guard cuts in its place. A limit on all pieces changes no decision: it ends the
- * build once both ways are known to exceed it. What waited may be complete, if its cell was finished at once: then it is judged again. */
+ * build once both ways are known to exceed it. What waited may be complete, if its cell was finished at once: then it
+ * is judged again. */
 static froe_status judge_first(const split_job *job, split_work *work, split_trial *t) {
     const double most = job->max_fragments ? (double)job->max_fragments : (double)INFINITY;
     if (pieces_of(work, t) > most && t->other > most) return FROE_E_BUDGET;
