@@ -153,7 +153,7 @@ static froe_status confirm_other(finish *f, const table_part *p, const table_pri
 
 /** The best cut of a part: what seems to be the best is made exact, until it is no worse for that. In the plane, and
  * without checks, the first one serves. */
-static froe_status choose_cut(finish *f, const table_part *p, froe_cut *by, table_row *row) {
+static froe_status choose_exactly(finish *f, const table_part *p, froe_cut *by, table_row *row) {
     const table_prices prices = prices_of(f, p);
     table_other other = {.cost = INFINITY};
     froe_status status = FROE_OK;
@@ -257,7 +257,7 @@ static froe_status cut_part(finish *f, const table_part *p, bool *full) {
     froe_cut by;
     table_row r;
     uint32_t child;
-    froe_status status = choose_cut(f, p, &by, &r);
+    froe_status status = choose_exactly(f, p, &by, &r);
     if (status) return status;
     table_mask below = r.below & p->set, above = r.above & p->set, both = below & above, upper = 0;
     *full = !has_room(f, both);
