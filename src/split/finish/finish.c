@@ -303,7 +303,7 @@ static bool fits_table(const split_refine *config, const split_set *set, const s
 }
 
 /** Fills the table with a cell. */
-static void begin(finish *f, const split_cell *cell) {
+static void begin_table(finish *f, const split_cell *cell) {
     split_table *t = f->t;
     t->columns = cell->count;
     t->marked = 0;
@@ -332,7 +332,7 @@ froe_status split_finish(const split_refine *config, split_work *work, const spl
     froe_status status = FROE_OK;
     *done = fits_table(config, &work->set, cell);
     if (!*done) return FROE_OK;
-    begin(&f, cell);
+    begin_table(&f, cell);
     while (t->parts && !full && !status) {
         table_part p = t->stack[--t->parts];
         work->deepest = p.depth > work->deepest ? p.depth : work->deepest;
