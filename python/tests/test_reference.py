@@ -7,6 +7,8 @@ import importlib
 import importlib.util
 import inspect
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -82,6 +84,14 @@ def test_every_link_leads_somewhere(reference):
     for text in pages.values():
         for page, place in re.findall(r"\]\((\w+\.md)#([\w-]+)\)", text):
             assert f"{{#{place}}}" in pages[page], (page, place)
+
+
+def test_sentences_are_short_and_plain(reference, tmp_path):
+    for name, text in reference[1].items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    command = [sys.executable, ROOT / "scripts/check-prose", *sorted(tmp_path.glob("*.md"))]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert (done.returncode, done.stdout) == (0, "")
 
 
 def around(value, kind):

@@ -48,14 +48,14 @@ class Spread:
 
 @dataclass(frozen=True)
 class Defects:
-    """What is odd about a scene.
+    """What is odd about a scene. Pairs are of segments in the plane and of polygons in space, and are counted once.
 
     :ivar zero_length: segments without length
     :ivar zero_area: polygons without area
     :ivar duplicates: objects that are equal to earlier ones
-    :ivar crossings: pairs that pass through each other
-    :ivar t_junctions: pairs of which an end or edge of one touches the inside of the other
-    :ivar overlaps: pairs in one line or plane with more than a point or a segment in common
+    :ivar crossings: pairs that meet where neither has a corner, and do not overlap
+    :ivar t_junctions: pairs of which a corner of one lies in the other, where that has none
+    :ivar overlaps: pairs with a segment (in the plane) or an area (in space) in common, which are not equal
     """
 
     zero_length: int

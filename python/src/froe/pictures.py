@@ -31,16 +31,16 @@ FORMATS = {".svg": SVG, ".pdf": PDF, ".eps": EPS}
 
 @dataclass(frozen=True)
 class RenderReport:
-    """What a picture shows.
+    """What a picture shows. Neighbouring triangles in one plane count as one face.
 
     :ivar paint: how faces were filled: ``"whole"``, ``"regions"`` or ``"fragments"``
-    :ivar pieces: pieces of the tree that were looked at before nothing behind them could be visible any more
-    :ivar visible_pieces: visible parts of pieces
+    :ivar pieces: pieces of the tree that were looked at, until the picture was full
+    :ivar visible_pieces: convex parts that are visible
     :ivar visible_faces: faces of which something is visible
-    :ivar hidden_faces: faces that are wholly behind others
+    :ivar hidden_faces: faces that are wholly behind others, or beside the picture
     :ivar shapes: filled shapes in the file
     :ivar lines: strokes in the file
-    :ivar points: of the strokes those that are points
+    :ivar points: points of the scene in the file
     :ivar paths: elements of the file that hold shapes and lines
     :ivar bytes: size of the file
     """

@@ -123,7 +123,7 @@ class Tree(Questions):
         """Proves that the tree is right: every object is exactly the union of its pieces, and every piece is in the
         list of its cell. It returns nothing when all is well.
 
-        :param exact_only: also lists in which objects without a part of the cell may stand have none of these
+        :param exact_only: decides everything by exact numbers, without the doubles that decide most of it; much slower
         :raises AuditError: the tree is wrong; the message says where
         :cost: about as much as building the tree
 

@@ -80,7 +80,7 @@ class STRtree:
         """The geometries of the tree that ``predicate(geometry, tree_geometry)`` holds for.
 
         :param geometry: one geometry, or an array of them
-        :param predicate: None: their bounding boxes meet; otherwise a name that ``shapely.STRtree`` knows
+        :param predicate: None: their bounding boxes meet; otherwise the name of a predicate of ``shapely.STRtree``
         :param distance: for ``"dwithin"``: a number, or one for each geometry
         :returns: indices (m,) for one geometry, and (2, m) for an array: those of geometries, and of geometries of the
             tree
