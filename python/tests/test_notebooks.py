@@ -25,7 +25,8 @@ def test_there_are_notebooks():
 
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
 def test_notebook(path):
-    assert check(path) == (0, "")
+    status, printed = check(path)
+    assert status == 0 and printed == "", printed
 
 
 def notebook(path, *cells):
