@@ -18,7 +18,7 @@ let entering = 0;
 /** What a room is given. `stage` and `panel` are its elements; set() changes the state, and with it the address. */
 function host(name, module) {
     const stage = h("section", { class: "stage", "aria-label": `${module.title}: picture` });
-    const panel = h("aside", { class: "panel", "aria-label": `${module.title}: settings` });
+    const panel = h("section", { class: "panel", "aria-label": `${module.title}: settings` });
     const status = h("output", { class: "status" });
     stage.append(status);
     main.replaceChildren(h("h1", { class: "unseen" }, `${module.title}: ${module.lead}`), stage, panel);

@@ -87,3 +87,23 @@ export async function saved(page, folder, label, name) {
     await session.detach();
     return path;
 }
+
+/** Drops files, { name: bytes }, on the page. What was drawn or said before is taken away, so that a wait sees what is
+ * new. */
+export async function dropped(page, files) {
+    const list = Object.entries(files).map(([name, bytes]) => [name, Buffer.from(bytes).toString("base64")]);
+    await page.evaluate(async (list) => {
+        document.querySelector(".sheet")?.classList.remove("drawn");
+        document.querySelector(".status").classList.remove("wrong");
+        const transfer = new DataTransfer();
+        for (const [name, text] of list)
+            transfer.items.add(new File([await (await fetch(`data:;base64,${text}`)).arrayBuffer()], name));
+        dispatchEvent(new DragEvent("drop", { bubbles: true, cancelable: true, dataTransfer: transfer }));
+    }, list);
+}
+
+/** The sentence that says what is wrong. */
+export async function said(page) {
+    await page.waitForFunction(() => document.querySelector(".status.wrong"));
+    return page.$eval(".status", (status) => status.textContent);
+}

@@ -32,7 +32,7 @@ test("each room has an address, and nothing goes wrong in it", async () => {
     await page.close();
 });
 
-const STATES = ["scene=teapot", "scene=bracket&parallel=yes&paper=a4&shading=cel&hidden=yes&width=2&crease=10",
+const STATES = ["scene=teapot", "scene=bracket&parallel=yes&paper=a4&unit=0.001&scale=1&shading=cel&hidden=yes&width=2&crease=10",
     "scene=hills&turn=-120&tilt=40&section=x&at=0.3&lines=mesh&zoom=1.5&x=0.1&y=-0.05", "scene=city&shading=none&lines=outlines&fov=60&up=y",
     "scene=teapot&tilt=90&turn=0&section=z&flip=yes&shading=white&colours=own&parallel=yes&lines=none&paper=square"];
 for (const state of STATES)
@@ -41,7 +41,7 @@ for (const state of STATES)
         const folder = mkdtempSync(join(folders, "state-"));
         await settled(page);
         const line = await page.$eval("details code", (code) => code.textContent);
-        await saved(page, folder, "Tree, for the program froe", `${name}.froe`);
+        await saved(page, folder, "Saved tree", `${name}.froe`);
         const own = readFileSync(await saved(page, folder, "Save as SVG", `${name}.svg`));
         drawnByProgram(line, folder);
         assert.ok(own.length > 1000 && own.equals(readFileSync(join(folder, `${name}.svg`))));

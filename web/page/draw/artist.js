@@ -5,11 +5,27 @@
 import { sceneFrom } from "../open.js";
 import { isCancelled, startFroe } from "../link.js";
 
+/* A worker to come, which can be ended before it is there. */
+class Helper {
+    worker = null;
+    #ended = false;
+
+    take(worker) {
+        this.worker = worker;
+        if (this.#ended) worker.end();
+    }
+    end() {
+        this.#ended = true;
+        this.worker?.end();
+    }
+}
+
 export class Artist {
     #tell;
     #source = null;
     #drawer = null;     // { worker, tree, sections } that draws
-    #builder = null;    // the worker that builds the better tree
+    #builder = null;    // a helper that builds the better tree
+    #aside = null;      // a helper that draws all pictures of a turn
     #wanted = null;     // options of the picture to come
     #busy = false;
     #calls = 0;         // to the tree that draws: it is not given up while one runs
@@ -19,31 +35,34 @@ export class Artist {
     constructor(tell) { this.#tell = tell; }
 
     get best() { return this.#drawer?.best ?? false; }
-    get building() { return this.#builder !== null; }
 
-    /** Reads a source and draws it. `allow(objects)` may refuse before anything is built. Fails with what went wrong. */
-    async open(source, allow) {
+    /** Reads a source, which `read` gives, and draws it. `allow(objects)` may refuse before anything is built. Fails with
+     * what went wrong. */
+    async open(read, allow) {
         this.close();
         const age = this.#age;
-        this.#source = source;
         try {
-            const worker = await this.#start("Reading", age);
+            const [source, worker] = await Promise.all([read(), this.#start("Reading")]);
+            if (age !== this.#age) return;
+            this.#source = source;
             const scene = await sceneFrom(worker.froe, source);
             const model = await modelOf(scene);
             if (age !== this.#age) return;
             this.#tell.scene(model);
             if (!await allow(model.objects) || age !== this.#age) return;
             worker.what = "Building a tree";
-            const tree = await scene.build({ purpose: "draw" });
-            if (age !== this.#age) return;
-            this.#take(worker, tree, await tree.report(), false);
+            const tree = await scene.build({ purpose: "draw" }), report = await tree.report();
+            if (age === this.#age) this.#take(worker, tree, report, false);
         } catch (error) {
-            if (age === this.#age || !isCancelled(error)) throw error;
+            if (age !== this.#age) return; // whatever it was, it is no longer wanted
+            this.close();
+            throw error;
         }
     }
 
-    async #start(what, age) {
-        const worker = await startFroe((share) => { if (age === this.#age) this.#tell.progress(worker.what, share, worker === this.#builder); });
+    async #start(what) {
+        const age = this.#age, tell = (share) => { if (age === this.#age) this.#tell.progress(worker.what, share); };
+        const worker = await startFroe(tell);
         worker.what = what;
         if (age !== this.#age) worker.end();
         else if (!this.#drawer) this.#drawer = { worker, tree: null, sections: new Map(), best: false };
@@ -51,8 +70,7 @@ export class Artist {
     }
     #take(worker, tree, report, best) {
         if (this.#drawer.worker !== worker) this.#drawer.worker.end();
-        this.#drawer = { worker, tree, sections: new Map(), best, objects: report.objects };
-        this.#builder = null;
+        this.#drawer = { worker, tree, sections: new Map(), best };
         this.#tell.tree(report, best);
         this.#pump();
     }
@@ -60,26 +78,55 @@ export class Artist {
     /** Builds the tree with the fewest pieces; until it is there, pictures come from the first. */
     async improve() {
         if (this.#builder || this.best || !this.#drawer?.tree) return;
-        const age = this.#age;
-        try {
-            const worker = await this.#start("Building the tree with the fewest pieces", age);
-            if (age !== this.#age) return;
-            this.#builder = worker;
+        const mine = this.#builder = new Helper(), what = "Building the tree with the fewest pieces";
+        await this.#help(mine, what, async (worker) => {
             const scene = await sceneFrom(worker.froe, this.#source);
             const tree = await scene.build({ purpose: "pieces" }), report = await tree.report();
             while (this.#calls) await new Promise((resume) => setTimeout(resume, 20));
-            if (age !== this.#age || this.#builder !== worker) return;
+            if (mine !== this.#builder) return;
             this.#wanted ??= this.#drawer.drawn;
+            this.#builder = mine.worker = null;
             this.#take(worker, tree, report, true);
+        });
+    }
+
+    /** An SVG that turns. Undefined: it was cancelled. */
+    async turning({ plane, ...options }) {
+        this.#aside?.end();
+        const mine = this.#aside = new Helper(), bytes = await this.saved();
+        return this.#help(mine, "Drawing all around", async (worker) => {
+            const tree = await worker.froe.open(bytes), cut = plane ? await tree.section(plane) : tree;
+            return cut.renderTurning({ ...options, ...(plane ? { section: -1 } : {}) });
+        });
+    }
+
+    /* What a helper does in a worker of its own, which ends with it. */
+    async #help(helper, what, work) {
+        try {
+            helper.take(await this.#start(what));
+            return await work(helper.worker);
         } catch (error) {
             if (!isCancelled(error)) throw error;
+            return undefined;
+        } finally {
+            helper.end();
+            if (this.#builder === helper) this.#builder = null;
+            if (this.#aside === helper) this.#aside = null;
+            this.#tell.rest();
         }
     }
-    /** Ends the better tree; the first is kept. */
+
+    /** Ends what goes on beside the tree that draws. False: nothing does. */
     stay() {
-        this.#builder?.end();
-        this.#builder = null;
+        const one = this.#aside ?? this.#builder;
+        one?.end();
+        if (one === this.#aside) this.#aside = null;
+        else this.#builder = null;
+        this.#tell.rest();
+        return !!one;
     }
+    /** Is nothing going on? */
+    get resting() { return !this.#aside && !this.#builder && !this.#busy; }
 
     /** Asks for a picture; of several that are asked for while one is drawn, the last is. */
     draw(options) {
@@ -140,6 +187,7 @@ export class Artist {
         this.#age++;
         this.#drawer?.worker.end();
         this.#builder?.end();
+        this.#aside?.end();
         this.#drawer = this.#builder = this.#wanted = null;
         this.#busy = false;
     }

@@ -19,7 +19,7 @@ export function planeOf({ section, at, flip }, { lo, hi }) {
 
 export function cameraOfState(state, model) {
     const page = pageOf(state.paper), toScale = page.millimetres && state.parallel && Number(state.scale);
-    const view = { ...state, scale: toScale ? 1000 / toScale : 0 };
+    const view = { ...state, scale: toScale ? 1000 * state.unit / toScale : 0 };
     return cameraOf(view, { ...model, up: upOf(state, model) }, page);
 }
 

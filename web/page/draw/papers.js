@@ -9,8 +9,10 @@ export const PAPERS = {
     a3: { title: "A3, landscape", width: 420, height: 297, millimetres: true },
     letter: { title: "Letter, landscape", width: 279.4, height: 215.9, millimetres: true },
 };
-/** Scales to which a parallel drawing on paper may be true: a metre of the scene is 1000 / scale millimetres. */
-export const SCALES = [10, 20, 50, 100, 200, 500];
+/** Scales to which a parallel drawing on paper may be true: a metre is 1000 / scale millimetres. */
+export const SCALES = [1, 2, 5, 10, 20, 50, 100, 200, 500];
+/** Metres of a unit of the model. */
+export const UNITS = [[1, "m"], [0.01, "cm"], [0.001, "mm"], [0.0254, "inches"]];
 
 export function pageOf(name) {
     const paper = PAPERS[name] ?? PAPERS.wide;

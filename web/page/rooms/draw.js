@@ -4,7 +4,7 @@ import { count, h, save, size } from "../dom.js";
 import { Artist } from "../draw/artist.js";
 import { zoomOf } from "../draw/camera.js";
 import { cameraOfState, commandOf, optionsOf, planeOf } from "../draw/options.js";
-import { PAPERS, pageOf, SCALES } from "../draw/papers.js";
+import { PAPERS, pageOf, SCALES, UNITS } from "../draw/papers.js";
 import { Preview } from "../draw/preview.js";
 import { turnable } from "../draw/turn.js";
 import { MODEL_FILES, openFiles } from "../open.js";
@@ -16,7 +16,7 @@ export const lead = "an exact vector drawing of a model.";
 export const defaults = {
     scene: "house", turn: 31, tilt: 19, zoom: 0, x: 0, y: 0, up: "file", parallel: false, fov: 35,
     shading: "flat", colours: "file", lines: "all", width: 1, hidden: false, crease: 30,
-    section: "none", at: 0.5, flip: false, paper: "wide", scale: "fit",
+    section: "none", at: 0.5, flip: false, paper: "wide", scale: "fit", unit: 1,
 };
 
 const RESTS = 250;            // milliseconds without a turn, after which the drawing is made
@@ -35,7 +35,7 @@ class DrawRoom {
     #artist = new Artist({
         scene: (model) => this.#showModel(model),
         tree: (report, best) => this.#showTree(report, best),
-        progress: (what, share, behind) => this.#showProgress(what, share, behind),
+        progress: (what, share) => this.#showProgress(what, share),
         picture: (picture, options, time) => this.#showPicture(picture, options, time),
         failed: (error) => this.#fail(error),
         rest: () => this.#rest(),
@@ -43,6 +43,7 @@ class DrawRoom {
     #model = null;
     #tree = null;
     #picture = null;
+    #asked = null;      // options of the picture of the view as it is
     #file = "model";
     #frame = 0;
     #timer = 0;
@@ -83,9 +84,10 @@ class DrawRoom {
         p.credit = h("p", { class: "soft" });
         p.section = h("div", { class: "stack" }, c.slider("at", "Where", { min: 0, max: 1, step: 0.01, show: percent }), c.toggle("flip", "Keep the other side"));
         p.fov = c.slider("fov", "Angle of view", { min: 10, max: 100, show: (x) => `${x}°` });
-        p.scale = c.choice("scale", "Scale, for models in metres", [["fit", "As fits"], ...SCALES.map((s) => [String(s), `1 : ${s}`])]);
+        p.scale = h("div", { class: "stack" }, c.choice("scale", "Scale", [["fit", "As fits"], ...SCALES.map((s) => [String(s), `1 : ${s}`])]),
+            c.switch("unit", "The model is in", UNITS));
         p.command = h("code", {});
-        p.downloads = h("div", { class: "buttons" }, ["SVG", "PDF", "PNG", "EPS"].map((format) =>
+        p.downloads = h("div", { class: "buttons three" }, ["SVG", "PDF", "PNG"].map((format) =>
             button(format, () => this.#download(format.toLowerCase()), { "aria-label": `Save as ${format}` })));
         return [
             group("Model",
@@ -109,7 +111,8 @@ class DrawRoom {
             group("Paper",
                 c.choice("paper", "Size", Object.entries(PAPERS).map(([id, { title }]) => [id, title])), p.scale),
             group("Take away", p.downloads,
-                button("Tree, for the program froe", () => this.#download("froe")),
+                
+                h("div", { class: "buttons two" }, button("Turning SVG", () => this.#download("turning")), button("Saved tree", () => this.#download("froe"))),
                 h("details", {}, h("summary", {}, "The same from a terminal"), h("p", { class: "soft" }, "With the saved tree, this line draws the same bytes."), p.command)),
         ];
     }
@@ -132,25 +135,23 @@ class DrawRoom {
         await this.#open(() => openFiles(files), this.#file);
     }
     async #open(source, title) {
-        this.#artist.close();
-        this.#showProgress("Reading", 0, false);
+        this.#showProgress("Reading", 0);
         this.#hideDrawing();
+        this.#title = title;
+        this.#source = source;
         try {
-            const opened = await source();
-            this.#title = title;
-            this.#opened = opened;
-            await this.#artist.open(opened, (objects) => this.#allow(objects));
+            await this.#artist.open(source, (objects) => this.#allow(objects));
         } catch (error) {
             if (!isCancelled(error)) this.#fail(error);
         }
     }
     #title = "";
-    #opened = null;
+    #source = null;
 
     /* What building takes is told before it is begun. */
     #allow(objects) {
         if (objects < LARGE) return true;
-        this.#rest();
+        this.#parts.work.hidden = true;
         return new Promise((answer) => {
             const seconds = Math.round(objects * 1e-4), memory = size(objects * 1000);
             this.#host.say(h("span", {}, `${count(objects)} polygons: the first drawing takes about ${seconds} seconds and ${memory} of memory.`),
@@ -158,16 +159,12 @@ class DrawRoom {
         });
     }
 
-    /** Ends the better tree; where there is no picture yet, everything. */
+    /** Ends what goes on beside the drawing; where nothing does, everything. */
     cancel() {
-        if (this.#artist.building) {
-            this.#artist.stay();
-            this.#rest();
-            return;
-        }
+        if (this.#artist.stay()) return;
         this.#artist.close();
         this.#rest();
-        this.#host.say(h("span", {}, "Cancelled."), button("Draw again", () => this.#open(async () => this.#opened, this.#title)));
+        this.#host.say(h("span", {}, "Cancelled."), button("Draw again", () => this.#open(this.#source, this.#title)));
     }
 
     /* -- what the artist tells -------------------------------------------------- */
@@ -186,7 +183,7 @@ class DrawRoom {
         const p = this.#parts, url = URL.createObjectURL(new Blob([picture.bytes], { type: "image/svg+xml" }));
         const old = p.drawing.src;
         p.drawing.onload = () => {
-            if (this.#frame === 0 && this.#timer === 0) p.sheet.classList.add("drawn");
+            if (options === this.#asked) p.sheet.classList.add("drawn");
             if (old.startsWith("blob:")) URL.revokeObjectURL(old);
         };
         p.drawing.src = url;
@@ -196,16 +193,14 @@ class DrawRoom {
             h("span", { class: "soft" }, `${(time / 1000).toFixed(2)} s, from ${count(this.#tree.fragments)} pieces of ${count(this.#tree.objects)} polygons`));
         if (!this.#artist.best && this.#tree.objects <= QUICK_ENOUGH) this.#artist.improve().catch((error) => this.#fail(error));
     }
-    #showProgress(what, share, behind) {
+    #showProgress(what, share) {
         const p = this.#parts;
         p.work.hidden = false;
-        p.work.classList.toggle("behind", !!behind);
         p.what.textContent = what;
         p.bar.value = share;
     }
-    #rest() { if (!this.#artist.building) this.#parts.work.hidden = true; }
+    #rest() { this.#parts.work.hidden = this.#artist.resting; }
     #fail(error) {
-        this.#rest();
         this.#parts.work.hidden = true;
         this.#host.fail(error);
     }
@@ -230,9 +225,14 @@ class DrawRoom {
         this.#timer = setTimeout(() => { this.#timer = 0; this.#ask(); }, RESTS);
     }
     #ask() {
-        if (this.#model && this.#timer === 0) this.#artist.draw(optionsOf(this.#host.state, this.#model));
+        if (!this.#model || this.#timer) return;
+        this.#asked = optionsOf(this.#host.state, this.#model);
+        this.#artist.draw(this.#asked);
     }
-    #hideDrawing() { this.#parts.sheet.classList.remove("drawn"); }
+    #hideDrawing() {
+        this.#asked = null;
+        this.#parts.sheet.classList.remove("drawn");
+    }
 
     /* The sheet fills the desk; the preview is drawn once a frame at most. */
     #layOut() {
@@ -257,7 +257,11 @@ class DrawRoom {
         if (!this.#picture) return;
         const options = optionsOf(this.#host.state, this.#model), name = `${this.#file}.${format}`;
         try {
-            if (format === "froe") save(name, await this.#artist.saved(), "application/octet-stream");
+            if (format === "turning") {
+                this.#showProgress("Drawing all around", 0);
+                const turning = await this.#artist.turning(options);
+                if (turning) save(`${this.#file}-turning.svg`, turning.bytes, TYPES.svg);
+            } else if (format === "froe") save(name, await this.#artist.saved(), "application/octet-stream");
             else if (format === "png") save(name, await pixels(this.#picture, options), "image/png");
             else save(name, (await this.#artist.render({ ...options, format })).bytes, TYPES[format]);
         } catch (error) {
@@ -276,7 +280,7 @@ class DrawRoom {
     }
 }
 
-const TYPES = { svg: "image/svg+xml", pdf: "application/pdf", eps: "application/postscript" };
+const TYPES = { svg: "image/svg+xml", pdf: "application/pdf" };
 const FINE = 2, DOTS = 300 / 25.4; // pixels of a PNG for each pixel of the page, and for each millimetre
 
 /* An SVG as pixels, on white. */

@@ -1,0 +1,107 @@
+// What holds in every room: contrast and labels, by axe; no network once the page was open; no growth; an end at once.
+import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { after, before, test as register } from "node:test";
+import { dropped, drawn, launch, modules, open, serve } from "./browser.mjs";
+
+const axe = readFileSync(modules.resolve("axe-core/axe.min.js"), "utf8");
+const test = (name, body) => register(name, { timeout: 90000 }, body);
+const ROOMS = ["draw?scene=bracket", "partition", "ask", "move"];
+let site, chromium;
+before(async () => { site = await serve(); chromium = await launch(); });
+after(async () => { await chromium?.stop(); site?.stop(); });
+const at = (hash, options) => open(chromium.browser, site.url + hash, options);
+
+for (const dark of [false, true])
+    for (const width of [1280, 320])
+        test(`axe finds nothing: ${dark ? "dark" : "light"}, ${width} pixels wide`, async () => {
+            for (const room of ROOMS) {
+                const page = await at(`#${room}`, { width, height: 740, dark, still: true });
+                await page.waitForSelector(".stage");
+                if (room.startsWith("draw")) await drawn(page);
+                await page.evaluate(axe.replace(/<\/script>/g, ""));
+                const { violations } = await page.evaluate(() => globalThis.axe.run(document, { resultTypes: ["violations"] }));
+                assert.deepEqual(violations.map(({ id, nodes }) => [room, id, nodes[0].html.slice(0, 120), nodes[0].failureSummary]), []);
+                const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+                assert.ok(wide <= width, `${room} is ${wide} pixels wide`);
+                await page.close();
+            }
+        });
+
+test("a page that was open needs no network", async () => {
+    const own = await serve(), page = await open(chromium.browser, `${own.url}#draw?scene=bracket`);
+    await drawn(page);
+    await page.evaluate(() => navigator.serviceWorker.ready);
+    await page.reload(); // the first visit was before there was a service worker: its sample is kept now
+    await drawn(page);
+    await page.waitForFunction(() => navigator.serviceWorker.controller);
+    own.stop();
+    for (const hash of ["#draw?scene=bracket&turn=90", "#partition", "#ask", "#move", "#draw?scene=hills"]) {
+        await page.goto("about:blank");
+        await page.goto(own.url + hash);
+        await page.waitForSelector(".stage");
+        if (hash.startsWith("#draw")) await drawn(page);
+    }
+    assert.deepEqual(page.wrong, []);
+    await page.close();
+});
+
+test("nothing is loaded from elsewhere, and samples when they are chosen", async () => {
+    const own = await serve(), page = await open(chromium.browser, `${own.url}#draw?scene=hills`), urls = [];
+    page.on("request", (request) => urls.push(request.url()));
+    await drawn(page);
+    assert.ok(!own.asked.some((path) => path.startsWith("/samples/")));
+    await page.evaluate(() => { location.hash = "#draw?scene=bracket"; });
+    await page.waitForFunction(() => document.querySelector(".drawing").alt.startsWith("Bracket"));
+    assert.deepEqual(own.asked.filter((path) => path.startsWith("/samples/")), ["/samples/bracket.off"]);
+    assert.ok(urls.every((url) => url.startsWith(own.url) || /^(blob|data):/.test(url)), urls.join());
+    await page.close();
+    own.stop();
+});
+
+test("a hundred models take no more memory than ten", async () => {
+    const page = await at("#draw?scene=hills"), session = await page.createCDPSession();
+    await drawn(page);
+    const points = Array.from({ length: 24 }, (_, i) => `v ${Math.cos(i)} ${Math.sin(i)} ${i % 5}\n`).join("");
+    const faces = Array.from({ length: 22 }, (_, i) => `f ${i + 1} ${i + 2} ${i + 3}\n`).join("");
+    const load = async (n) => {
+        for (let i = 0; i < n; i++) {
+            await dropped(page, { [`m${i}.obj`]: Buffer.from(points + faces) });
+            await drawn(page);
+        }
+        await session.send("HeapProfiler.collectGarbage");
+        const { JSHeapUsedSize } = await page.metrics(), { nodes } = await session.send("Memory.getDOMCounters");
+        return { heap: JSHeapUsedSize, nodes, workers: page.workers().length };
+    };
+    const before = await load(10), after = await load(90);
+    assert.ok(after.heap < before.heap + 2e6, `${before.heap} bytes grow to ${after.heap}`);
+    assert.ok(after.nodes < before.nodes + 200, `${before.nodes} nodes grow to ${after.nodes}`);
+    assert.ok(after.workers <= 2);
+    await page.close();
+});
+
+test("Cancel ends what is built, at once, and the drawing stays", async () => {
+    const page = await at("#draw?scene=house");
+    await drawn(page);
+    await page.waitForFunction(() => /fewest/.test(document.querySelector(".work:not([hidden])")?.textContent ?? ""));
+    await page.waitForFunction(() => document.querySelector(".work progress").value > 0);
+    assert.equal(page.workers().length, 2);
+    await page.evaluate(() => document.querySelector(".work button").click());
+    assert.ok(await page.$eval(".work", (work) => work.hidden));
+    for (let tries = 0; page.workers().length > 1; tries++) {
+        assert.ok(tries < 80, "the worker goes on"); // Chromium lets it be busy for 2 s, beside the page
+        await new Promise((resume) => setTimeout(resume, 50));
+    }
+    assert.ok(await page.$(".sheet.drawn"));
+    await page.close();
+});
+
+test("Cancel before there is a drawing leaves a way to go on", async () => {
+    const page = await at("#draw?scene=house");
+    await page.waitForFunction(() => /tree/.test(document.querySelector(".work:not([hidden])")?.textContent ?? ""));
+    await page.evaluate(() => document.querySelector(".work button").click());
+    assert.match(await page.$eval(".status", (status) => status.textContent), /^Cancelled\./);
+    await page.evaluate(() => document.querySelector(".status button").click());
+    await drawn(page);
+    await page.close();
+});

@@ -1,0 +1,128 @@
+// Files on the page: each format is dropped, turned and taken away; broken and huge ones are refused in a sentence.
+import assert from "node:assert/strict";
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, before, test as register } from "node:test";
+import { dropped, drawn, launch, open, press, said, saved, serve, settled } from "./browser.mjs";
+
+const data = (name) => readFileSync(new URL(`../../data/${name}`, import.meta.url));
+const text = (content) => Buffer.from(content);
+const folders = mkdtempSync(join(tmpdir(), "froe-files-"));
+const test = (name, body) => register(name, { timeout: 60000 }, body);
+let site, chromium, page;
+before(async () => {
+    site = await serve();
+    chromium = await launch();
+    page = await open(chromium.browser, `${site.url}#draw?scene=bracket`);
+    await drawn(page);
+});
+after(async () => { await chromium?.stop(); site?.stop(); rmSync(folders, { recursive: true }); });
+
+/* A tetrahedron in each format. */
+const POINTS = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], FACES = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]];
+const ply = text(`ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 4\n` +
+    `property list uchar int vertex_indices\nend_header\n${POINTS.map((p) => p.join(" ")).join("\n")}\n${FACES.map((f) => `3 ${f.join(" ")}`).join("\n")}\n`);
+const obj = text(`mtllib red.mtl\nusemtl red\n${POINTS.map((p) => `v ${p.join(" ")}`).join("\n")}\n${FACES.map((f) => `f ${f.map((i) => i + 1).join(" ")}`).join("\n")}\n`);
+const mtl = text("newmtl red\nKd 1 0 0\n");
+const asciiStl = text(`solid t\n${FACES.map((f) => `facet normal 0 0 0\nouter loop\n${f.map((i) => `vertex ${POINTS[i].join(" ")}`).join("\n")}\nendloop\nendfacet`).join("\n")}\nendsolid t\n`);
+const binaryStl = (() => {
+    const bytes = Buffer.alloc(84 + 50 * FACES.length);
+    bytes.writeUInt32LE(FACES.length, 80);
+    FACES.forEach((face, f) => face.forEach((i, c) => POINTS[i].forEach((x, k) => bytes.writeFloatLE(x, 84 + 50 * f + 12 + 12 * c + 4 * k))));
+    return bytes;
+})();
+const bin = Buffer.concat([Buffer.from(Float32Array.from(POINTS.flat()).buffer), Buffer.from(Uint16Array.from(FACES.flat()).buffer)]);
+const gltf = (uri) => text(JSON.stringify({ asset: { version: "2.0" }, scene: 0, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0, name: "tetrahedron" }],
+    materials: [{ name: "red", pbrMetallicRoughness: { baseColorFactor: [1, 0, 0, 1] } }],
+    meshes: [{ primitives: [{ attributes: { POSITION: 0 }, indices: 1, material: 0 }] }],
+    accessors: [{ bufferView: 0, componentType: 5126, count: 4, type: "VEC3", min: [0, 0, 0], max: [1, 1, 1] },
+        { bufferView: 1, componentType: 5123, count: 12, type: "SCALAR" }],
+    bufferViews: [{ buffer: 0, byteOffset: 0, byteLength: 48 }, { buffer: 0, byteOffset: 48, byteLength: 24 }],
+    buffers: [{ uri, byteLength: bin.length }] }));
+
+const FILES = {
+    "GLB": { "bracket.glb": data("fzk-haus.glb") }, "OBJ": { "teapot.obj": data("utah-teapot.obj") }, "OFF": { "bracket.off": data("bracket.off") },
+    "PLY": { "t.ply": ply }, "STL as text": { "t.stl": asciiStl }, "STL in bytes": { "t.stl": binaryStl },
+    "OBJ with its MTL": { "t.obj": obj, "red.mtl": mtl }, "glTF with its BIN": { "t.bin": bin, "t.gltf": gltf("t.bin") },
+};
+for (const [format, files] of Object.entries(FILES))
+    test(`${format} is dropped, turned and taken away`, async () => {
+        const folder = mkdtempSync(join(folders, "format-")), name = Object.keys(files).at(format.startsWith("glTF") ? 1 : 0).replace(/\.\w+$/, "");
+        await dropped(page, files);
+        await drawn(page);
+        const first = await page.$eval(".drawing", (image) => image.src);
+        await press(page, "canvas", ["ArrowLeft", "ArrowUp"]);
+        await page.waitForFunction((old) => document.querySelector(".drawn") && document.querySelector(".drawing").src !== old, {}, first);
+        const taken = {};
+        for (const [label, ending] of [["Save as SVG", "svg"], ["Save as PDF", "pdf"], ["Save as PNG", "png"]])
+            taken[ending] = readFileSync(await saved(page, folder, label, `${name}.${ending}`)).toString("latin1");
+        assert.match(taken.svg, /^<svg[^>]*>[^]*<path fill="#[0-9a-f]{3,6}"[^]*<\/svg>\s*$/);
+        assert.match(taken.pdf, /^%PDF-1\.4[^]*%%EOF\s*$/);
+        assert.equal(taken.png.slice(1, 4), "PNG");
+        if (/MTL|BIN/.test(format)) assert.match(taken.svg, /fill="#([4-9a-f][0-9a-f]0000|[4-9a-f]00)"/);
+        assert.deepEqual(page.wrong, []);
+    });
+
+test("a model turns in an SVG of its own", async () => {
+    const folder = mkdtempSync(join(folders, "turning-"));
+    await dropped(page, { "t.ply": ply });
+    await settled(page);
+    const svg = readFileSync(await saved(page, folder, "Turning SVG", "t-turning.svg")).toString();
+    assert.ok(svg.match(/<animate|@keyframes|animation/) && svg.split("<g").length > 20);
+});
+
+const BROKEN = {
+    "an OBJ that names a corner that is not there": [{ "a.obj": text("v 0 0 0\nv 1 0 0\nf 1 2 7\n") }, /a\.obj.*\.$/],
+    "a GLB that is cut off": [{ "a.glb": data("fzk-haus.glb").subarray(0, 5000) }, /^A\.glb could not be read as glTF: .*\.$|^a\.glb/i],
+    "a GLB that is none": [{ "a.glb": text("This is no model.") }, /a\.glb could not be read as glTF/i],
+    "a glTF without its BIN": [{ "t.gltf": gltf("t.bin") }, /t\.gltf could not be read as glTF: it needs t\.bin/i],
+    "an STL that is none": [{ "a.stl": text("This is no model at all, but it is long enough to have a header of eighty bytes, and four more bytes after it.") }, /a\.stl/i],
+    "a PLY without an end": [{ "a.ply": ply.subarray(0, 100) }, /a\.ply/],
+    "a PLY with NaN": [{ "a.ply": text(ply.toString().replace("1 0 0", "nan 0 0")) }, /a\.ply/],
+    "an empty file": [{ "a.obj": Buffer.alloc(0) }, /a\.obj is empty\./i],
+    "a file of another kind": [{ "a.docx": text("x") }, /a\.docx is not of a format that this page reads/i],
+    "a map": [{ "a.geojson": text('{"type":"LineString","coordinates":[[0,0],[1,1]]}') }, /map/],
+};
+for (const [what, [files, sentence]] of Object.entries(BROKEN))
+    test(`${what} is refused in a sentence`, async () => {
+        await dropped(page, files);
+        const told = await said(page);
+        assert.match(told, sentence);
+        assert.match(told, /^[A-Z].*[.!?]$/s);
+        await dropped(page, { "t.ply": ply });
+        await drawn(page);
+        page.wrong.length = 0;
+    });
+
+test("a huge file is refused before it is read, and a large model before it is built", async () => {
+    await page.evaluate(() => {
+        const file = new File([], "huge.stl");
+        Object.defineProperty(file, "size", { value: 3e9 });
+        const event = new DragEvent("drop", { bubbles: true, cancelable: true });
+        Object.defineProperty(event, "dataTransfer", { value: { types: ["Files"], files: [file] } });
+        dispatchEvent(event);
+    });
+    assert.match(await said(page), /huge\.stl has 3000 MB, and a page can read 600 MB at most/i);
+    await dropped(page, { "large.stl": grid(400) });
+    await page.waitForFunction(() => /319,?000|320,?000/.test(document.querySelector(".status").textContent));
+    assert.match(await page.$eval(".status", (status) => status.textContent), /takes about \d+ seconds and/);
+    await page.evaluate(() => [...document.querySelectorAll(".status button")].find((button) => button.textContent === "Leave it").click());
+    assert.equal(await page.$eval(".status", (status) => status.textContent), "Not drawn.");
+});
+
+/* n x n squares, two triangles each, as STL. */
+function grid(n) {
+    const bytes = Buffer.alloc(84 + 100 * n * n);
+    bytes.writeUInt32LE(2 * n * n, 80);
+    let at = 84;
+    const corner = (x, y) => { bytes.writeFloatLE(x, at), bytes.writeFloatLE(y, at + 4), bytes.writeFloatLE(x % 7, at + 8), at += 12; };
+    for (let x = 0; x < n; x++)
+        for (let y = 0; y < n; y++)
+            for (const corners of [[[0, 0], [1, 0], [1, 1]], [[0, 0], [1, 1], [0, 1]]]) {
+                at += 12;
+                for (const [i, j] of corners) corner(x + i, y + j);
+                at += 2;
+            }
+    return bytes;
+}
