@@ -7,7 +7,7 @@ import { decode, encode } from "./parcel.js";
 const EVERY = 50; // milliseconds between two shares of progress
 
 const port = globalThis.postMessage ? globalThis : (await import(/* @vite-ignore */ "node:worker_threads")).parentPort;
-const kept = new Map();
+const kept = new Map();   // by handle: { object, remotes }, the latter as many as have been sent
 let next = 1, told = 0;
 
 /* Objects of classes other than those that parcel.js knows have methods, and stay. */
@@ -15,8 +15,12 @@ function keep(value) {
     const kind = Object.getPrototypeOf(value);
     if (kind === Object.prototype || Array.isArray(value) || ArrayBuffer.isView(value)) return undefined;
     if (value instanceof Error || value instanceof Answers) return undefined;
-    for (const [handle, object] of kept) if (object === value) return handle;
-    kept.set(next, value);
+    for (const [handle, it] of kept)
+        if (it.object === value) {
+            it.remotes++; // add() returns its scene
+            return handle;
+        }
+    kept.set(next, { object: value, remotes: 1 });
     return next++;
 }
 
@@ -29,10 +33,10 @@ function progress(share) {
 
 async function answer({ load: options, handle, name, args }) {
     if (options) return load({ ...options, progress });
-    const object = kept.get(handle);
+    const object = kept.get(handle)?.object;
     if (!object) throw new FroeError("FROE_E_ARG", "The object has been freed.");
     if (!(name in object)) throw new TypeError(`There is no ${name} in a ${object.constructor.name}.`);
-    const values = args.map((arg) => decode(arg, (held) => kept.get(held)));
+    const values = args.map((arg) => decode(arg, (held) => kept.get(held)?.object));
     if (typeof object[name] === "function") return object[name](...values);
     if (values.length) object[name] = values[0];
     return object[name];
@@ -40,7 +44,9 @@ async function answer({ load: options, handle, name, args }) {
 
 async function serve(message) {
     if (message.forget) {
-        kept.get(message.forget)?.free?.();
+        const it = kept.get(message.forget);
+        if (!it || --it.remotes) return;
+        it.object.free?.();
         kept.delete(message.forget);
         return;
     }
