@@ -15,16 +15,17 @@ let here = null;      // the room that is open: name, state, and what room.enter
 let written = null;   // what this page wrote to the address itself
 let entering = 0;
 
-/** What a room is given. `stage` and `panel` are its elements; set() changes the state, and with it the address. */
+/** What a room is given. `stage`, `foot` (a line below the picture) and `panel` are its elements; set() changes the
+ * state, and with it the address. */
 function host(name, module) {
     const stage = h("section", { class: "stage", "aria-label": `${module.title}: picture` });
     const panel = h("section", { class: "panel", "aria-label": `${module.title}: settings` });
-    const status = h("output", { class: "status" });
-    stage.append(status);
+    const status = h("output", { class: "status" }), foot = h("div", { class: "foot" }, status);
+    stage.append(foot);
     main.replaceChildren(h("h1", { class: "unseen" }, `${module.title}: ${module.lead}`), stage, panel);
     let timer = 0;
     const it = {
-        stage, panel, state: null,
+        stage, foot, panel, state: null,
         /** Changes the state, tells the room, and writes the address once it rests. */
         set(patch) {
             const changed = Object.keys(patch).filter((key) => it.state[key] !== patch[key]);

@@ -83,7 +83,7 @@ test("a hundred models take no more memory than ten", async () => {
 test("Cancel ends what is built, at once, and the drawing stays", async () => {
     const page = await at("#draw?scene=house");
     await drawn(page);
-    await page.waitForFunction(() => /fewest/.test(document.querySelector(".work:not([hidden])")?.textContent ?? ""));
+    await page.waitForFunction(() => /fewer/.test(document.querySelector(".work:not([hidden])")?.textContent ?? ""));
     await page.waitForFunction(() => document.querySelector(".work progress").value > 0);
     assert.equal(page.workers().length, 2);
     await page.evaluate(() => document.querySelector(".work button").click());

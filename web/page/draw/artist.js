@@ -78,7 +78,7 @@ export class Artist {
     /** Builds the tree with the fewest pieces; until it is there, pictures come from the first. */
     async improve() {
         if (this.#builder || this.best || !this.#drawer?.tree) return;
-        const mine = this.#builder = new Helper(), what = "Building the tree with the fewest pieces";
+        const mine = this.#builder = new Helper(), what = "Looking for fewer pieces";
         await this.#help(mine, what, async (worker) => {
             const scene = await sceneFrom(worker.froe, this.#source);
             const tree = await scene.build({ purpose: "pieces" }), report = await tree.report();

@@ -66,7 +66,7 @@ class DrawRoom {
     /* -- furniture ------------------------------------------------------------ */
 
     #furnish() {
-        const { stage, panel } = this.#host, p = this.#parts;
+        const { stage, foot, panel } = this.#host, p = this.#parts;
         p.canvas = h("canvas", { tabindex: 0, role: "img", "aria-label": "The model. Arrow keys turn it, plus and minus zoom, 0 fits it to the page." });
         p.drawing = h("img", { class: "drawing", alt: "" });
         p.sheet = h("div", { class: "sheet" }, p.canvas, p.drawing);
@@ -75,7 +75,8 @@ class DrawRoom {
         p.stop = button("Cancel", () => this.cancel());
         p.work = h("div", { class: "work", hidden: true }, p.what, p.bar, p.stop);
         p.desk = h("div", { class: "desk" }, p.sheet);
-        stage.prepend(p.desk, p.work);
+        stage.prepend(p.desk);
+        foot.append(p.work);
         this.#controls = new Controls(this.#host);
         panel.append(...this.#settings(this.#controls));
     }
@@ -91,11 +92,11 @@ class DrawRoom {
             button(format, () => this.#download(format.toLowerCase()), { "aria-label": `Save as ${format}` })));
         return [
             group("Model",
-                c.choice("scene", "Model", [...Object.entries(MODELS).map(([id, { title }]) => [id, title]), ["file", "Own file"]]),
+                c.choice("scene", "Sample", [...Object.entries(MODELS).map(([id, { title }]) => [id, title]), ["file", "Own file"]]),
                 opener("Open a file …", MODEL_FILES, (files) => this.files(files)), p.credit),
             group("View",
                 h("div", { class: "buttons" }, Object.entries(VIEWS).map(([name, [turn, tilt]]) =>
-                    button(name, () => set({ turn, tilt, zoom: 0, x: 0, y: 0 })))),
+                    button(name, () => set({ turn, tilt, zoom: 0, x: 0, y: 0 }))), button("Fit", () => set({ zoom: 0, x: 0, y: 0 }))),
                 c.switch("parallel", "Projection", [[false, "Perspective"], [true, "Parallel"]]), p.fov,
                 c.switch("up", "Points up", [["file", "As the file says"], ["x", "x"], ["y", "y"], ["z", "z"]])),
             group("Faces",
