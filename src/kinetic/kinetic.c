@@ -222,6 +222,7 @@ void froe_kinetic_free(froe_kinetic *k) {
     array_free(&alloc, &k->surgery.tasks);
     array_free(&alloc, &k->surgery.cuttings);
     array_free(&alloc, &k->surgery.scratch);
+    array_free(&alloc, &k->surgery.kept);
     array_free(&alloc, &k->events.items);
     array_free(&alloc, &k->events.order);
     array_free(&alloc, &k->events.roots);

@@ -1,17 +1,12 @@
 /* pass.c: a point passes a wall that belongs to another point, and nothing else happens. */
 #include "kinetic/event/pass.h"
 #include "kinetic/certificate/certify.h"
+#include "kinetic/event/strip.h"
 #include "kinetic/kinetic.h"
 #include <string.h>
 
-/* A place in the tree, which of the walls of its cell is passed, and the line that bounds the thin part there. */
-typedef struct half {
-    ktree_site site;
-    int side;
-} half;
-
 typedef struct passing {
-    half near, far;
+    strip near, far;
     uint32_t node, segment; /* of s, in the near cell */
     uint32_t wall;          /* an end, or the segment that it crosses at the point */
     bool grows;             /* it gets longer: the point goes to the far cell, and s comes after it from the near one */
@@ -26,7 +21,7 @@ static uint32_t root_of(const ktree *tree, const ktree_site *site) {
 }
 
 /* From the place at `far` down along the wall. False: the tree there is not as described. */
-static bool descend_to_half(const ktree *tree, uint32_t near, uint32_t owner, half *far) {
+static bool descend_to_half(const ktree *tree, uint32_t near, uint32_t owner, strip *far) {
     const uint32_t segment = ktree_node_at(tree, near)->segment;
     for (;;) {
         const uint32_t x = root_of(tree, &far->site);
@@ -60,7 +55,7 @@ static bool find_near(const froe_kinetic *k, const slab_item *item, passing *p) 
     p->grows = item->kind != CERT_MIDDLE;
     int side = item->kind == CERT_LEFT || (!p->grows && !left) ? KTREE_LEFT : KTREE_RIGHT;
     p->wall = n->wall[p->grows ? side : 1 - side];
-    p->near = (half){ktree_site_of(&k->tree, p->node), side};
+    p->near = (strip){ktree_site_of(&k->tree, p->node), side};
     return name_is(p->near.site.cell.wall[side], side == KTREE_LEFT ? item->claim.p : item->claim.q);
 }
 
@@ -92,20 +87,13 @@ static bool find_far(ktree *tree, name_point point, passing *p) {
 
 /* --------------------------------------------------------- what crosses the wall -- */
 
-/* Is a wall, if there is one, beyond the line that bounds the thin part of a half? */
-static bool is_beyond(now_state *now, const half *h, name_point wall) {
-    if (!name_exists(wall)) return true;
-    int order = now_compare(now, wall, (name_point){(uint32_t)(1 - h->side), NAME_LINE});
-    return h->side == KTREE_RIGHT ? order < 0 : order > 0;
-}
-
 static void push_half_visit(froe_kinetic *k, uint32_t node, unsigned back) {
     if (node) call_push(&k->call, &k->surgery.scratch, 2 * node + back);
 }
 
 /* Lists the segments that cross a subtree of a half along the passed wall, from the bottom up, and stamps nodes at
  * that wall. False: something has a wall in the thin part. */
-static bool walk_half(froe_kinetic *k, const half *h, uint32_t node) {
+static bool walk_half(froe_kinetic *k, const strip *h, uint32_t node) {
     ktree *tree = &k->tree;
     k->surgery.scratch.count = 0;
     push_half_visit(k, node, 0);
@@ -119,7 +107,7 @@ static bool walk_half(froe_kinetic *k, const half *h, uint32_t node) {
         n->stamp = tree->stamp;
         k->counts.nodes_touched++;
         const bool ends = n->wall[h->side] != KTREE_NO_WALL;
-        if (!is_beyond(&k->now, h, ktree_wall_name(tree, n->segment, n->wall[ends ? h->side : 1 - h->side])))
+        if (!strip_ends_before(&k->now, h, ktree_wall_name(tree, n->segment, n->wall[ends ? h->side : 1 - h->side])))
             return false;
         if (ends) {
             push_half_visit(k, n->child[h->side], 0);
@@ -133,7 +121,7 @@ static bool walk_half(froe_kinetic *k, const half *h, uint32_t node) {
 }
 
 /* Both children of a node that reaches the wall. */
-static bool walk_past(froe_kinetic *k, const half *h, uint32_t node) {
+static bool walk_past(froe_kinetic *k, const strip *h, uint32_t node) {
     ktree_node *n = ktree_node_at(&k->tree, node);
     n->stamp = k->tree.stamp;
     const uint32_t up = n->child[KTREE_UP];
@@ -148,12 +136,12 @@ static bool list_crossing(froe_kinetic *k, passing *p) {
     const int side = p->near.side;
     ktree_new_list(tree);
     bool thin = p->grows ? walk_half(k, &p->far, root)
-                         : is_beyond(&k->now, &p->far, ktree_wall_name(tree, p->segment, r->wall[side])) &&
+                         : strip_ends_before(&k->now, &p->far, ktree_wall_name(tree, p->segment, r->wall[side])) &&
                                walk_past(k, &p->far, root);
     p->across = tree->list.count;
     if (!thin) return false;
     if (!p->grows) return walk_half(k, &p->near, n->child[1 - side]);
-    return is_beyond(&k->now, &p->near, ktree_wall_name(tree, p->segment, n->wall[1 - side])) &&
+    return strip_ends_before(&k->now, &p->near, ktree_wall_name(tree, p->segment, n->wall[1 - side])) &&
            walk_past(k, &p->near, p->node);
 }
 
@@ -290,12 +278,14 @@ static void move_segment(froe_kinetic *k, const passing *p) {
 pass_outcome pass_wall(froe_kinetic *k, const slab_item *item) {
     ktree *tree = &k->tree;
     passing p;
-    if (now_is_in_space(&k->now) || !find_near(k, item, &p)) return PASS_REFUSED;
+    if (!find_near(k, item, &p)) return PASS_REFUSED;
     const name_point point = ktree_wall_name(tree, p.segment, p.wall);
     if (!find_far(tree, point, &p)) return PASS_REFUSED;
     const ktree_cell *near = &p.near.site.cell, *far = &p.far.site.cell;
-    if (!is_beyond(&k->now, &p.near, near->wall[p.far.side]) || !is_beyond(&k->now, &p.far, far->wall[p.near.side]))
+    if (!strip_ends_before(&k->now, &p.near, near->wall[p.far.side]) ||
+        !strip_ends_before(&k->now, &p.far, far->wall[p.near.side]))
         return PASS_REFUSED;
+    if (now_is_in_space(&k->now)) return strip_pass(k, (strip[]){p.near, p.far}, point);
     surgery_begin(k);
     if (!list_crossing(k, &p)) return PASS_REFUSED;
     if (k->call.stopped) return PASS_DONE;

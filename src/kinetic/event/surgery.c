@@ -65,8 +65,7 @@ static void split_node(froe_kinetic *k, const surgery_cutting *c, name_point lin
         push_cutting(k, n->child[i], KTREE_LEAF, (uint32_t[]){c->a, half}, (uint8_t[]){(uint8_t)i, (uint8_t)i});
 }
 
-/* Cuts the tree `node` along now.line[line]. REQUIRES: its place in the tree is given up. */
-static void split_tree(froe_kinetic *k, uint32_t node, int line, const uint32_t parent[2], const uint8_t slot[2]) {
+void surgery_split(froe_kinetic *k, uint32_t node, int line, const uint32_t parent[2], const uint8_t slot[2]) {
     size_t waiting = k->surgery.cuttings.count;
     push_cutting(k, node, KTREE_LEAF, parent, slot);
     while (k->surgery.cuttings.count > waiting && !k->call.stopped) {
@@ -112,8 +111,7 @@ static void join_nodes(froe_kinetic *k, const surgery_cutting *c) {
     surgery_free_node(k, b);
 }
 
-/* The inverse of split_tree(). Sets `broken` where the parts do not fit. */
-static void join_trees(froe_kinetic *k, uint32_t a, uint32_t b, uint32_t parent, uint8_t slot) {
+void surgery_join(froe_kinetic *k, uint32_t a, uint32_t b, uint32_t parent, uint8_t slot) {
     size_t waiting = k->surgery.cuttings.count;
     push_cutting(k, a, b, (uint32_t[]){parent, parent}, (uint8_t[]){slot, slot});
     while (k->surgery.cuttings.count > waiting && !k->call.stopped) {
@@ -131,9 +129,9 @@ bool surgery_slab(froe_kinetic *k, uint32_t node) {
     ktree_cell slab = site.cell;
     surgery_begin(k);
     ktree_new_list(tree);
-    split_tree(k, node, 0, (uint32_t[]){KTREE_PARTS, KTREE_PARTS}, (uint8_t[]){0, 1});
-    split_tree(k, ktree_node_at(tree, KTREE_PARTS)->child[1], 1, (uint32_t[]){KTREE_PARTS, KTREE_PARTS},
-               (uint8_t[]){1, 2});
+    surgery_split(k, node, 0, (uint32_t[]){KTREE_PARTS, KTREE_PARTS}, (uint8_t[]){0, 1});
+    surgery_split(k, ktree_node_at(tree, KTREE_PARTS)->child[1], 1, (uint32_t[]){KTREE_PARTS, KTREE_PARTS},
+                  (uint8_t[]){1, 2});
     if (k->call.stopped) return false;
     ktree_collect(tree, ktree_node_at(tree, KTREE_PARTS)->child[1]);
     bool more = participants_add_near(k, (uint32_t[]){site.cell.top, site.cell.bottom}, 2);
@@ -145,9 +143,9 @@ bool surgery_slab(froe_kinetic *k, uint32_t node) {
         surgery_grow(k, &slab, KTREE_PARTS, 1);
     }
     const uint32_t *part = ktree_node_at(tree, KTREE_PARTS)->child;
-    join_trees(k, part[0], part[1], KTREE_PARTS, 0);
+    surgery_join(k, part[0], part[1], KTREE_PARTS, 0);
     part = ktree_node_at(tree, KTREE_PARTS)->child;
-    join_trees(k, part[0], part[2], site.parent, site.slot);
+    surgery_join(k, part[0], part[2], site.parent, site.slot);
     if (!more && !tree->broken && !k->now.lost) certify_site(k, &site);
     turn_certify_halves(k);
     return !more;

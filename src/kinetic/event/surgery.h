@@ -33,6 +33,7 @@ typedef struct surgery_work {
     ARRAY(surgery_task) tasks;
     ARRAY(surgery_cutting) cuttings;
     ARRAY(uint32_t) scratch;
+    ARRAY(uint32_t) kept; /**< segments that are listed twice */
 } surgery_work;
 
 /** Begins one: what is touched from now on gets a new stamp. */
@@ -50,6 +51,10 @@ bool surgery_clip(froe_kinetic *k, uint32_t segment, const ktree_cell *cell, uin
 bool surgery_reaches(froe_kinetic *k, uint32_t segment, const ktree_cell *cell);
 /** The tree of the segments on the list, those that reach into the cell, made from scratch. Empties the list. */
 void surgery_grow(froe_kinetic *k, const ktree_cell *cell, uint32_t parent, uint8_t slot);
+/** Cuts the tree of a node along now.line[line]; where the parts go. REQUIRES: its place in the tree is given up. */
+void surgery_split(froe_kinetic *k, uint32_t node, int line, const uint32_t parent[2], const uint8_t slot[2]);
+/** The inverse. Sets tree.broken where the parts do not fit. */
+void surgery_join(froe_kinetic *k, uint32_t a, uint32_t b, uint32_t parent, uint8_t slot);
 /** Makes anew what lies between the two lines in the cell of a node. False: segments that were not participants come
  * near. They are participants now, and the tree is as it was. */
 bool surgery_slab(froe_kinetic *k, uint32_t node);

@@ -233,8 +233,7 @@ void ktree_list(ktree *tree, uint32_t segment) {
     call_push(tree->call, &tree->list, segment);
 }
 
-/* What the list has for a segment. */
-static void list_objects(ktree *tree, uint32_t segment) {
+void ktree_list_objects(ktree *tree, uint32_t segment) {
     const now_state *now = tree->now;
     if (!now_is_in_space(now)) {
         ktree_list(tree, segment);
@@ -252,5 +251,5 @@ static void list_objects(ktree *tree, uint32_t segment) {
 
 void ktree_collect(ktree *tree, uint32_t node) {
     ktree_walk(tree, node);
-    for (uint32_t n; (n = ktree_walk_next(tree));) list_objects(tree, ktree_node_at(tree, n)->segment);
+    for (uint32_t n; (n = ktree_walk_next(tree));) ktree_list_objects(tree, ktree_node_at(tree, n)->segment);
 }

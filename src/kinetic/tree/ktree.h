@@ -189,6 +189,9 @@ void ktree_push_visit(ktree *tree, uint32_t node, const ktree_cell *cell, bool b
 void ktree_new_list(ktree *tree);
 /** Adds one, once. */
 void ktree_list(ktree *tree, uint32_t segment);
+/** Adds what the list has for a segment: in the plane that, in space the surfaces of all triangles that are there and
+ * have it. */
+void ktree_list_objects(ktree *tree, uint32_t segment);
 /** Adds the segments of a subtree. In space: the surfaces of all triangles that are there and have one of its edges, or
  * whose surfaces it has. */
 void ktree_collect(ktree *tree, uint32_t node);

@@ -1,0 +1,23 @@
+/* strip.h: what lies in two cells next to the wall between them, in space.
+ *
+ *     ___:_________________         A point passes a wall that belongs to another point: see pass.h. The strips are
+ *        :    |..:..|     :         what lies between the wall and the lines on both sides of both points, in the near
+ *        :near|..:..| far :         and the far cell, through all layers of surfaces there. Both are cut off, made
+ *     ___:____|..:..|_____:         anew from the triangles of both, and joined again (section 3.2 of the paper, which
+ *                                   has the plane's transient cells in mind). All that is not in them stays. */
+#ifndef FROE_KINETIC_STRIP_H
+#define FROE_KINETIC_STRIP_H
+#include "kinetic/event/pass.h"
+#include "kinetic/tree/ktree.h"
+
+/** A place in the tree, and which of the walls of its cell is passed. */
+typedef struct strip {
+    ktree_site site;
+    int side;
+} strip;
+
+/** Is a wall, if there is one, beyond the line that bounds a strip? */
+bool strip_ends_before(now_state *now, const strip *s, name_point wall);
+/** Makes both strips anew, where one of them has `point` inside. Refused where another wall is in one. */
+pass_outcome strip_pass(froe_kinetic *k, const strip both[2], name_point point);
+#endif
