@@ -10,22 +10,22 @@ bool strip_ends_before(now_state *now, const strip *s, name_point wall) {
 }
 
 /* The places of what is cut off, among the parts: two of each strip. */
-static uint8_t part_of(int which, int side) {
+static uint8_t part_slot(int which, int side) {
     return (uint8_t)(2 * which + side);
 }
 
-static uint32_t part_at(const froe_kinetic *k, int which, int side) {
-    return ktree_node_at(&k->tree, KTREE_PARTS)->child[part_of(which, side)];
+static uint32_t strip_part(const froe_kinetic *k, int which, int side) {
+    return ktree_node_at(&k->tree, KTREE_PARTS)->child[part_slot(which, side)];
 }
 
-static void cut_off(froe_kinetic *k, const strip *s, int which) {
+static void cut_strip(froe_kinetic *k, const strip *s, int which) {
     const uint32_t node = ktree_node_at(&k->tree, s->site.parent)->child[s->site.slot];
     surgery_split(k, node, 1 - s->side, (uint32_t[]){KTREE_PARTS, KTREE_PARTS},
-                  (uint8_t[]){part_of(which, KTREE_LEFT), part_of(which, KTREE_RIGHT)});
+                  (uint8_t[]){part_slot(which, KTREE_LEFT), part_slot(which, KTREE_RIGHT)});
 }
 
 static void join_again(froe_kinetic *k, const strip *s, int which) {
-    surgery_join(k, part_at(k, which, KTREE_LEFT), part_at(k, which, KTREE_RIGHT), s->site.parent, s->site.slot);
+    surgery_join(k, strip_part(k, which, KTREE_LEFT), strip_part(k, which, KTREE_RIGHT), s->site.parent, s->site.slot);
 }
 
 /* Has it no wall but those of a point? */
@@ -45,7 +45,7 @@ static bool has_one_wall(froe_kinetic *k, uint32_t node, name_point point) {
 static void list_all(froe_kinetic *k, const strip both[2], name_point point) {
     ktree *tree = &k->tree;
     ktree_new_list(tree);
-    for (int i = 0; i < 2; i++) ktree_collect(tree, part_at(k, i, both[i].side));
+    for (int i = 0; i < 2; i++) ktree_collect(tree, strip_part(k, i, both[i].side));
     uint32_t e = name_is_vertex(point) ? tree->vertices.data[point.a] : FROE_NONE;
     for (; e != FROE_NONE; e = ktree_next_end(tree, e)) ktree_list_objects(tree, e / 2);
     for (int i = 0; i < 2 && name_is_crossing(point); i++) ktree_list_objects(tree, i ? (uint32_t)point.b : point.a);
@@ -62,15 +62,15 @@ static void grow_again(froe_kinetic *k, const strip *s, int which) {
     ktree_new_list(&k->tree);
     for (size_t i = 0; i < k->surgery.kept.count; i++) ktree_list(&k->tree, k->surgery.kept.data[i]);
     cell.wall[1 - s->side] = (name_point){(uint32_t)(1 - s->side), NAME_LINE};
-    surgery_free_tree(k, part_at(k, which, s->side));
-    surgery_grow(k, &cell, KTREE_PARTS, part_of(which, s->side));
+    surgery_free_tree(k, strip_part(k, which, s->side));
+    surgery_grow(k, &cell, KTREE_PARTS, part_slot(which, s->side));
 }
 
 pass_outcome strip_pass(froe_kinetic *k, const strip both[2], name_point point) {
     ktree *tree = &k->tree;
     pass_outcome outcome = PASS_DONE;
     surgery_begin(k);
-    for (int i = 0; i < 2; i++) cut_off(k, both + i, i);
+    for (int i = 0; i < 2; i++) cut_strip(k, both + i, i);
     if (k->call.stopped) return PASS_DONE;
     list_all(k, both, point);
     for (int i = 0; i < 2; i++) {
@@ -79,7 +79,7 @@ pass_outcome strip_pass(froe_kinetic *k, const strip both[2], name_point point) 
     }
     if (participants_add_near(k, tree->list.data, tree->list.count)) outcome = PASS_NEIGHBOURS;
     for (int i = 0; i < 2 && !outcome; i++)
-        if (!has_one_wall(k, part_at(k, i, both[i].side), point)) outcome = PASS_REFUSED;
+        if (!has_one_wall(k, strip_part(k, i, both[i].side), point)) outcome = PASS_REFUSED;
     if (!outcome) {
         k->counts.surgeries++;
         keep_list(k);

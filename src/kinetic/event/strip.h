@@ -2,7 +2,7 @@
  *
  *     ___:_________________         A point passes a wall that belongs to another point: see pass.h. The strips are
  *        :    |..:..|     :         what lies between the wall and the lines on both sides of both points, in the near
- *        :near|..:..| far :         and the far cell, through all layers of surfaces there. Both are cut off, made
+ *        :near|..:..| far :         and the far cell, through all layers of surfaces in these. Both are cut off, made
  *     ___:____|..:..|_____:         anew from the triangles of both, and joined again (section 3.2 of the paper, which
  *                                   has the plane's transient cells in mind). All that is not in them stays. */
 #ifndef FROE_KINETIC_STRIP_H
