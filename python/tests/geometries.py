@@ -98,6 +98,19 @@ def dots(random):
     return MultiPoint(lattice(random, random.randint(1, 4)))
 
 
+def with_corners_twice(geometry):
+    """The same set of points, with segments without length."""
+    if hasattr(geometry, "geoms"):
+        return type(geometry)([with_corners_twice(part) for part in geometry.geoms])
+    if isinstance(geometry, Polygon):
+        return Polygon(twice(geometry.exterior), [twice(ring) for ring in geometry.interiors])
+    return geometry if isinstance(geometry, Point) else LineString(twice(geometry))
+
+
+def twice(line):
+    return [corner for corner in line.coords for _ in range(2)]
+
+
 def lattice(random, count, most=4):
     return [(random.randint(0, most), random.randint(0, most)) for _ in range(count)]
 

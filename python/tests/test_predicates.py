@@ -72,6 +72,26 @@ def test_where_coordinates_are_rounded(predicate, seed):
     compare(predicate, asked, kept)
 
 
+@pytest.mark.parametrize("factor", [2.0**300, 2.0**-300])
+@pytest.mark.parametrize("predicate", PREDICATES)
+def test_the_unit_does_not_matter(predicate, factor):
+    random = randoms.Random(7)
+    asked, kept = (geometries.some(random, 20, geometries.DENSE) for _ in range(2))
+    larger = ([affine_transform(one, [factor, 0, 0, factor, 0, 0]) for one in some] for some in (asked, kept))
+    found = STRtree(kept).query(asked, predicate=predicate)
+    asked, kept = larger
+    assert found.size and np.array_equal(found, STRtree(kept).query(asked, predicate=predicate))
+
+
+@pytest.mark.parametrize("predicate", PREDICATES)
+def test_corners_that_are_repeated(predicate):
+    random = randoms.Random(8)
+    asked, kept = (geometries.some(random, 25, geometries.DENSE) for _ in range(2))
+    found = STRtree(kept).query(asked, predicate=predicate)
+    asked, kept = ([geometries.with_corners_twice(one) for one in some] for some in (asked, kept))
+    assert found.size and np.array_equal(found, STRtree(kept).query(asked, predicate=predicate))
+
+
 @pytest.mark.parametrize("seed", range(4))
 def test_against_fractions_alone(seed):
     random = randoms.Random(200 + seed)
