@@ -1,6 +1,7 @@
 // example.ts: the whole package in types. Lines after @ts-expect-error must not compile.
 import { load, Answers, CUTS, EVENTS, FroeError, KINDS, NONE, type BuildOptions, type Picture, type Progress, type Tree } from "froe";
 import { load as loadPlain } from "froe/plain";
+import { FroeWorker, moved } from "froe/worker";
 
 const progress: Progress = (done) => done < 0.5;
 const froe = await load({ progress });
@@ -42,6 +43,17 @@ try {
 }
 void [relation, cut, place, text];
 
+const worker = await FroeWorker.start({ progress: (done) => done.toFixed() });
+const afar = await worker.froe.triangles(moved(new Float64Array(9)));
+const far = await afar.build({ purpose: "draw" });
+const count: number = await afar.objectCount() + (await far.report()).nodes + (await far.render()).text.length + (await far.query([0, 0, 0, 1, 1, 1])).at(0)[0];
+const moving = await worker.froe.generateMotion("moving", 10);
+const { tree: instant } = await (await moving.partition()).snapshot();
+void [count, await instant.cells()];
+worker.end();
+
+// @ts-expect-error: what is afar is not there at once
+far.report.nodes.toFixed();
 // @ts-expect-error: there is no such kind
 scene.add({ kind: "circle", coords: [1, 2] });
 // @ts-expect-error: there is no such option

@@ -45,6 +45,18 @@ test("every export and every member is typed, and all that is typed is there", (
     }
 });
 
+test("every way into the package is typed, and the worker as it is", async () => {
+    const { exports } = JSON.parse(readFileSync(join(package_, "package.json"), "utf8"));
+    for (const [way, files] of Object.entries(exports)) if (way !== "./package.json") assert.ok(declared(join(package_, files.types)).size > 0, way);
+    const module = await import(join(package_, "worker.js")), types = declared(join(package_, "worker.d.ts"));
+    assert.deepEqual([...types.keys()].sort(), Object.keys(module).sort());
+    const worker = await module.FroeWorker.start();
+    assert.deepEqual([...members(worker)].sort(), types.get("FroeWorker").sort());
+    const scene = await worker.froe.generate("segments", 100), tree = await scene.build();
+    assert.deepEqual([await scene.objectCount(), (await tree.report()).objects], [100, 100]);
+    worker.end();
+});
+
 test("the plain module has the same exports", async () => {
     const plain = await import(join(package_, "plain.js"));
     assert.deepEqual(Object.keys(plain).sort(), Object.keys(froe).sort());
