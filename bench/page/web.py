@@ -41,7 +41,7 @@ OF_EXACT = """How right is that? Segments and windows of the next table have coo
 touches. Wrong answers are those that froe does not give and those that are missing, in percent of the right ones."""
 OF_SPACE = """The triangles have coordinates of 32 bits, as three-mesh-bvh keeps them. Half of the rays go to a corner or to
 the middle of an edge. Wrong is what lies more than a thousandth of the model's size elsewhere than froe's exact
-answer. Nearly all of it are rays that slip between triangles or past the border."""
+answer, and missing of it where the ray has passed what it meets first: between two triangles, or at a border."""
 OF_DRAWINGS = """SVGRenderer of three.js paints triangles in the order of their distances, and removes nothing that is
 hidden. Both draw faces without lines, on a page of 1000 by 1000. The first drawing begins with arrays, and another view
 with what is there already. Samples lie on the model, at least one unit away from the border of a face. A sample is
@@ -77,8 +77,9 @@ def plane(results):
     yield table(["", "wrong, percent"], [[name, shown(value)] for name, value in sorted(wrong.items(), key=lambda item: item[1])])
 
 
-def wrong(results, work, scene, size, program):
-    return shown(results.median("web: " + work, scene, size, program, "percent wrong"))
+def wrong(results, *key):
+    """Percents: wrong, and of these missing."""
+    return [shown(results.median(*key, "percent " + what)) for what in ("wrong", "missing")]
 
 
 def space(results):
@@ -86,8 +87,8 @@ def space(results):
     for scene in results.select(1, "web: rays"):
         size = results.select(2, "web: rays", scene=scene)[0]
         yield "### {}: {:,} triangles".format(NAMES[scene].capitalize(), results.objects["web: rays", scene, size])
-        yield table(["", "froe", other, "froe beside " + other, "wrong, percent"],
-                    [cells(results, work, scene, size, label, [other]) + [wrong(results, work, scene, size, other)]
+        yield table(["", "froe", other, "froe beside " + other, "wrong, percent", "of it missing"],
+                    [cells(results, work, scene, size, label, [other]) + wrong(results, "web: " + work, scene, size, other)
                      for work, label in SPACE.items()])
 
 
