@@ -41,7 +41,7 @@ answers. The answers to 20 questions of each kind are compared, and the number o
 each once; the calls of GEOS find each from both sides, and every segment with itself, and have no other way. *Boxes
 only* is what STRtree answers without a predicate; froe then has a tree of the bounding boxes, by the method
 `directional`, whose leaves hold one box, since only trees of segments and triangles are packed. Exact answers about the
-segments themselves are many times as fast as both.
+segments themselves are several times as fast as both.
 """
 
 GROWN = [
@@ -52,8 +52,9 @@ GROWN = [
 
 MEMORY = """## Memory
 
-By how much the process grows while froe takes {:,} segments from an array, which itself has 32 bytes for each. An array
-that another thread might write into is copied for the call. One whose `flags.writeable` is false is used where it lies.
+By how much the process grows while froe takes {:,} segments from an array, which itself has 32 bytes for each.
+An array that another thread might write into is copied for the call. One whose `flags.writeable` is false is used where
+it lies.
 """
 
 

@@ -42,9 +42,10 @@ def one_or_many(
         return True, of(dim, boxes, balls=(point(ball[0], "centre", dim)[None], ball[1]), **many)
     if polygon is not None:
         return True, of(dim, boxes, hulls=[convex(rows(polygon, "polygon", dim, dim))], **many)
-    if boxes is not None and np.ndim(box := doubles(boxes, "boxes")) == 1 and len(box):
-        return True, of(dim, point(box, "box", 2 * dim)[None], **many)
-    return False, of(dim, boxes, **many)
+    array = None if boxes is None else doubles(boxes, "boxes")
+    if array is not None and array.ndim == 1 and len(array):
+        return True, of(dim, point(array, "box", 2 * dim)[None], **many)
+    return False, of(dim, array, **many)
 
 
 def convex(corners: Doubles) -> Doubles:
