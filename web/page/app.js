@@ -58,10 +58,10 @@ function host(name, module) {
     return it;
 }
 
-/** The message of an error as a sentence. */
+/** The message of an error as a sentence; it may begin with the name of a file. */
 function sentence(error) {
     const text = String(error?.message ?? error).trim();
-    return text[0].toUpperCase() + text.slice(1) + (/[.!?]$/.test(text) ? "" : ".");
+    return text.replace(/^[a-z]+(?= )/, (word) => word[0].toUpperCase() + word.slice(1)) + (/[.!?]$/.test(text) ? "" : ".");
 }
 
 async function enter() {

@@ -25,6 +25,7 @@ export class Artist {
     #source = null;
     #drawer = null;     // { worker, tree, sections } that draws
     #builder = null;    // a helper that builds the better tree
+    #improved = false;  // has a better tree been begun?
     #aside = null;      // a helper that draws all pictures of a turn
     #wanted = null;     // options of the picture to come
     #busy = false;
@@ -33,8 +34,6 @@ export class Artist {
 
     /** `tell` hears of: scene(model), tree(report, best), progress(what, share), picture(picture, options), rest(). */
     constructor(tell) { this.#tell = tell; }
-
-    get best() { return this.#drawer?.best ?? false; }
 
     /** Reads a source, which `read` gives, and draws it. `allow(objects)` may refuse before anything is built. Fails with
      * what went wrong. */
@@ -65,19 +64,20 @@ export class Artist {
         const worker = await startFroe(tell);
         worker.what = what;
         if (age !== this.#age) worker.end();
-        else if (!this.#drawer) this.#drawer = { worker, tree: null, sections: new Map(), best: false };
+        else if (!this.#drawer) this.#drawer = { worker, tree: null, sections: new Map() };
         return worker;
     }
     #take(worker, tree, report, best) {
         if (this.#drawer.worker !== worker) this.#drawer.worker.end();
-        this.#drawer = { worker, tree, sections: new Map(), best };
+        this.#drawer = { worker, tree, sections: new Map() };
         this.#tell.tree(report, best);
         this.#pump();
     }
 
-    /** Builds the tree with the fewest pieces; until it is there, pictures come from the first. */
+    /** Builds the tree with the fewest pieces, once; until it is there, pictures come from the first. */
     async improve() {
-        if (this.#builder || this.best || !this.#drawer?.tree) return;
+        if (this.#improved || !this.#drawer?.tree) return;
+        this.#improved = true;
         const mine = this.#builder = new Helper(), what = "Looking for fewer pieces";
         await this.#help(mine, what, async (worker) => {
             const scene = await sceneFrom(worker.froe, this.#source);
@@ -189,7 +189,7 @@ export class Artist {
         this.#builder?.end();
         this.#aside?.end();
         this.#drawer = this.#builder = this.#wanted = null;
-        this.#busy = false;
+        this.#busy = this.#improved = false;
     }
 }
 

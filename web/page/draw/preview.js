@@ -37,6 +37,7 @@ export class Preview {
     #faces = [];
     #lines = null;
     #origin = [0, 0, 0];
+    #painted = "";
     #uniforms = { levels: { value: 0 }, lit: { value: true }, cut: { value: [0, 0, 0, 1] } };
 
     constructor(canvas) {
@@ -93,14 +94,15 @@ export class Preview {
         this.#uniforms.cut.value = [a, b, c, at];
         this.#lines.material.clippingPlanes = section ? [new Plane(new Vector3(-a, -b, -c), at)] : [];
         this.#lines.visible = lines || white;
+        const painted = white ? "white" : ownColours ? "own" : "file";
+        if (painted === this.#painted) return;
+        this.#painted = painted;
         for (const { faces, groups, model } of this.#faces) {
             const colours = model.groups.map(({ colour }, i) => (white ? 0xffffffff
                 : colour && !ownColours ? colour : (HUES[model.materials[i] % HUES.length] << 8 | 255) >>> 0));
-            const paint = faces.geometry.attributes.paint;
-            for (let i = 0; i < groups.length; i++) {
-                const colour = colours[groups[i]] ?? (white ? 0xffffffff : 0xe9e4d8ff);
-                paint.array.set([colour >>> 24, colour >>> 16 & 255, colour >>> 8 & 255, colour & 255], 4 * i);
-            }
+            const paint = faces.geometry.attributes.paint, bytes = new DataView(paint.array.buffer);
+            for (let i = 0; i < groups.length; i++)
+                bytes.setUint32(4 * i, colours[groups[i]] ?? (white ? 0xffffffff : 0xe9e4d8ff));
             paint.needsUpdate = true;
         }
     }
@@ -132,6 +134,7 @@ export class Preview {
         this.#parts = [];
         this.#faces = [];
         this.#lines = null;
+        this.#painted = "";
     }
     /** Gives the memory of the graphics card back. */
     close() {

@@ -45,6 +45,7 @@ class DrawRoom {
     #picture = null;
     #asked = null;      // options of the picture of the view as it is
     #file = "model";
+    #own = false;       // is it a file that was dropped?
     #frame = 0;
     #timer = 0;
     #preview;
@@ -83,6 +84,7 @@ class DrawRoom {
     #settings(c) {
         const p = this.#parts, { set } = this.#host, percent = (x) => `${Math.round(100 * x)} %`;
         p.credit = h("p", { class: "soft" });
+        p.opener = opener("Open a file …", MODEL_FILES, (files) => this.files(files));
         p.section = h("div", { class: "stack" }, c.slider("at", "Where", { min: 0, max: 1, step: 0.01, show: percent }), c.toggle("flip", "Keep the other side"));
         p.fov = c.slider("fov", "Angle of view", { min: 10, max: 100, show: (x) => `${x}°` });
         p.scale = h("div", { class: "stack" }, c.choice("scale", "Scale", [["fit", "As fits"], ...SCALES.map((s) => [String(s), `1 : ${s}`])]),
@@ -93,7 +95,7 @@ class DrawRoom {
         return [
             group("Model",
                 c.choice("scene", "Sample", [...Object.entries(MODELS).map(([id, { title }]) => [id, title]), ["file", "Own file"]]),
-                opener("Open a file …", MODEL_FILES, (files) => this.files(files)), p.credit),
+                p.opener, p.credit),
             group("View",
                 h("div", { class: "buttons" }, Object.entries(VIEWS).map(([name, [turn, tilt]]) =>
                     button(name, () => set({ turn, tilt, zoom: 0, x: 0, y: 0 }))), button("Fit", () => set({ zoom: 0, x: 0, y: 0 }))),
@@ -122,14 +124,18 @@ class DrawRoom {
 
     /** Loads the sample that the state names. */
     async load() {
-        const sample = MODELS[this.#host.state.scene] ?? MODELS.house;
+        const { state } = this.#host;
+        if (!MODELS[state.scene]) state.scene = defaults.scene; // the address of a file of somewhere else
+        const sample = MODELS[state.scene];
         this.#parts.credit.textContent = `${sample.title}: ${sample.credit}.`;
-        this.#file = this.#host.state.scene;
+        this.#file = state.scene;
+        this.#own = false;
         await this.#open(() => sampleSource(sample), sample.title);
     }
     /** Opens files that were dropped or chosen. */
     async files(files) {
         const name = files[0].name;
+        this.#own = true;
         this.#host.set({ scene: "file", zoom: 0, x: 0, y: 0, section: "none" });
         this.#parts.credit.textContent = `${name} stays in this browser; nothing is sent.`;
         this.#file = name.replace(/\.\w+$/, "");
@@ -192,7 +198,7 @@ class DrawRoom {
         p.command.textContent = commandOf(options, this.#host.state, this.#model, this.#file);
         this.#host.say(h("span", {}, h("b", {}, "Exact. "), `${count(picture.shapes)} shapes, ${count(picture.lines)} lines, ${size(picture.bytes.length)}`),
             h("span", { class: "soft" }, `${(time / 1000).toFixed(2)} s, from ${count(this.#tree.fragments)} pieces of ${count(this.#tree.objects)} polygons`));
-        if (!this.#artist.best && this.#tree.objects <= QUICK_ENOUGH) this.#artist.improve().catch((error) => this.#fail(error));
+        if (this.#tree.objects <= QUICK_ENOUGH) this.#artist.improve().catch((error) => this.#fail(error));
     }
     #showProgress(what, share) {
         const p = this.#parts;
@@ -214,7 +220,13 @@ class DrawRoom {
         p.section.hidden = state.section === "none";
         p.fov.hidden = state.parallel;
         p.scale.hidden = !(state.parallel && pageOf(state.paper).millimetres);
+        if (changed.includes("scene") && state.scene === "file" && !this.#own) {
+            this.#host.set({ scene: this.#file });
+            p.opener.querySelector("input").click();
+            return;
+        }
         if (changed.includes("scene") && state.scene !== "file") {
+            if (state.scene === this.#file && !this.#own) return;
             this.#host.set({ zoom: 0, x: 0, y: 0 });
             this.load();
             return;
