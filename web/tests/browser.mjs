@@ -46,7 +46,7 @@ export async function launch() {
 export async function open(browser, url, { width = 1280, height = 800, dark = false, still = false } = {}) {
     const page = await browser.newPage();
     page.wrong = [];
-    page.on("console", (message) => { if (message.type() === "error") page.wrong.push(message.text()); });
+    page.on("console", (message) => { if (message.type() === "error") page.wrong.push(`${message.text()} ${message.location().url ?? ""}`); });
     page.on("pageerror", (error) => page.wrong.push(error.message));
     await page.setViewport({ width, height });
     await page.emulateMediaFeatures([{ name: "prefers-color-scheme", value: dark ? "dark" : "light" },

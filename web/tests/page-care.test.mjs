@@ -32,16 +32,17 @@ test("a page that was open needs no network", async () => {
     const own = await serve(), page = await open(chromium.browser, `${own.url}#draw?scene=bracket`);
     await drawn(page);
     await page.evaluate(() => navigator.serviceWorker.ready);
-    await page.reload(); // the first visit was before there was a service worker: its sample is kept now
-    await drawn(page);
-    await page.waitForFunction(() => navigator.serviceWorker.controller);
-    own.stop();
-    for (const hash of ["#draw?scene=bracket&turn=90", "#partition", "#ask", "#move", "#draw?scene=hills"]) {
+    const visit = async (hash) => {
         await page.goto("about:blank");
         await page.goto(own.url + hash);
         await page.waitForSelector(".stage");
         if (hash.startsWith("#draw")) await drawn(page);
-    }
+        await page.waitForNetworkIdle({ idleTime: 200 });
+    };
+    await page.waitForFunction(() => navigator.serviceWorker.controller);
+    for (const room of ROOMS) await visit(`#${room}`); // samples are kept when they are first used
+    own.stop();
+    for (const hash of ["#draw?scene=bracket&turn=90", "#draw?scene=hills", ...ROOMS.map((room) => `#${room}`)]) await visit(hash);
     assert.deepEqual(page.wrong, []);
     await page.close();
 });
