@@ -161,6 +161,7 @@ static froe_status make(const froe_tree *tree, froe_draw_format format, const fr
     *output = (draw_output){.alloc = support_allocator(o.alloc)};
     int dim = froe_scene_dim(froe_tree_scene(tree));
     froe_status status = check_options(&o, dim, diag);
+    if (status == FROE_OK) status = froe_tree_check(tree, diag);
     if (status != FROE_OK) return status;
     if (o.style == FROE_DRAW_AUTO) o.style = dim == 2 ? FROE_DRAW_FLAT : FROE_DRAW_SECTIONS;
     froe_report report = froe_tree_report(tree);

@@ -304,6 +304,8 @@ froe_status froe_read_poses(const char *path, const froe_scene *model, const fro
     if (options && options->size != sizeof *options) return support_fail_defaults(diag, "froe_motion_read_defaults");
     if (froe_scene_dim(model) != 3)
         return support_fail(diag, FROE_E_UNSUPPORTED, "%s: The model is not in space.", support_short(path));
+    const froe_status checked = froe_scene_check(model, diag);
+    if (checked) return checked;
     if (!options) options = &standard;
     const double start = formats_seconds();
     pose_reading r = {.path = path, .model = model, .alloc = support_allocator(options->alloc), .diag = diag};

@@ -42,6 +42,8 @@ froe_status froe_arrays_of_scene(const froe_scene *scene, const froe_allocator *
                                  froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
     if (!scene || !out) return support_fail_null(diag, __func__);
+    const froe_status checked = froe_scene_check(scene, diag);
+    if (checked) return checked;
     froe_scene_arrays a = {.dim = froe_scene_dim(scene), .alloc = support_allocator(alloc)};
     a.object_count = froe_scene_object_count(scene);
     a.vertex_count = froe_scene_vertex_count(scene);
@@ -90,6 +92,8 @@ froe_status froe_arrays_of_pieces(const froe_tree *tree, const froe_allocator *a
                                   froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
     if (!tree || !out) return support_fail_null(diag, __func__);
+    const froe_status checked = froe_tree_check(tree, diag);
+    if (checked) return checked;
     froe_piece_arrays a = {.dim = froe_tree_report(tree).dim, .alloc = support_allocator(alloc)};
     a.count = froe_tree_piece_count(tree);
     for (size_t i = 0; i < a.count; i++) a.corner_count += froe_tree_piece(tree, i).corners;

@@ -177,6 +177,8 @@ froe_status froe_tree_parts(const froe_tree *tree, froe_export_what what, const 
     if (what != FROE_EXPORT_FRAGMENTS && what != FROE_EXPORT_CELLS && what != FROE_EXPORT_CUTS)
         return support_fail(diag, FROE_E_ARG, "There is nothing of number %d to export.", (int)what);
     if (options && options->size != sizeof *options) return support_fail_defaults(diag, "froe_export_defaults");
+    const froe_status checked = froe_tree_check(tree, diag);
+    if (checked) return checked;
     const froe_scene *scene = froe_tree_scene(tree);
     parts_walk w = {.tree = tree,
                     .scene = scene,

@@ -223,6 +223,8 @@ static const kind_of_file files[] = {
 froe_status froe_write_scene(const froe_scene *scene, const char *path, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
     if (!scene || !path) return support_fail_null(diag, __func__);
+    const froe_status checked = froe_scene_check(scene, diag);
+    if (checked) return checked;
     pen p = {.scene = scene,
              .path = path,
              .diag = diag,

@@ -259,6 +259,11 @@ FROE_API const double *froe_scene_vertex(const froe_scene *scene, uint32_t verte
 /** Strings live as long as the scene does not grow. */
 FROE_API froe_group froe_scene_group(const froe_scene *scene, uint32_t group);
 
+/** Checks all of the scene of an opened tree (see froe_tree_open()): FROE_E_FORMAT, FROE_E_MEMORY. O(corners) expected,
+ * and O(1) for other scenes. Until then, froe_scene_object() and the like say of a wrong object or group that it does
+ * not exist. */
+FROE_API froe_status froe_scene_check(const froe_scene *scene, froe_diagnostic *diag);
+
 /** What is odd about a scene: nothing here stops any builder. Pairs are counted
  * once; `first` is one example pair of each sort, FROE_NONE if there is none. */
 typedef struct froe_defects {
@@ -507,13 +512,22 @@ FROE_API uint64_t froe_tree_saved_size(const froe_tree *tree);
 FROE_API bool froe_is_tree(const char *path);
 /** Opens a saved tree by mapping the file, which must not be shortened or written to in
  * place while the tree is open (replacing it, as froe_tree_save does, is fine).
- * Everything is validated first: FROE_E_FORMAT for any file that froe_tree_save could
- * not have written. FROE_E_IO, FROE_E_MEMORY. O(size of the file). */
+ *
+ * That costs as much for a large file as for a small one: pages come from the disk when they are first read. Here only
+ * the header and the description are checked: FROE_E_FORMAT, FROE_E_IO, FROE_E_MEMORY. Windows, rays, first neighbours
+ * and what lies above, asked of a tree that was built to be queried, check the parts that they read, once each. Any
+ * other call that reads the tree first checks all of it, as froe_tree_check() does, once; so do forks and threads
+ * together. Each of these returns FROE_E_FORMAT for a file that froe_tree_save() could not have written; calls without
+ * a status return what they return for an id that does not exist. */
 FROE_API froe_status froe_tree_open(const char *path, const froe_allocator *alloc, froe_tree **out,
                                     froe_diagnostic *diag);
 /** The same of the bytes of a file in memory, which are copied: the caller may free them at once. */
 FROE_API froe_status froe_tree_open_memory(const void *bytes, size_t count, const froe_allocator *alloc,
                                            froe_tree **out, froe_diagnostic *diag);
+/** Checks all of an opened tree now, with its scene and the checksums of the file: FROE_E_FORMAT for any file that
+ * froe_tree_save() could not have written; FROE_E_MEMORY. O(size of the file), and O(1) for a tree that was built, or
+ * has been found right. That its lists are right is a matter of froe_tree_audit(). */
+FROE_API froe_status froe_tree_check(const froe_tree *tree, froe_diagnostic *diag);
 
 #ifdef __cplusplus
 }

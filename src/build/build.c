@@ -3,6 +3,7 @@
 #include "build/options.h"
 #include "support/fail.h"
 #include "support/locale.h"
+#include "tree/gate.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -85,7 +86,7 @@ static bool draws_space(const froe_scene *scene, const char *purpose) {
 const char *froe_method_auto(const froe_scene *scene, const char *purpose) {
     const bool query = purpose && !strcmp(purpose, "query");
     const bool known = !purpose || query || !strcmp(purpose, "pieces") || !strcmp(purpose, "draw");
-    if (!scene || !known) return NULL;
+    if (!scene || !known || scene_settle(scene, NULL)) return NULL;
     const uint32_t kinds = kinds_of(scene);
     if (query && froe_method_serves(&find_method("index")->info, scene, FROE_LEAF_OWN)) return "index";
     if (kinds == 1u << FROE_POINT && query) return "kd"; /* four times as fast as density in dimension 8 */
@@ -114,7 +115,7 @@ static uint32_t leaf_of(const froe_method_info *info, uint32_t leaf) {
 }
 
 bool froe_method_serves(const froe_method_info *method, const froe_scene *scene, uint32_t leaf) {
-    if (!method || !scene) return false;
+    if (!method || !scene || scene_settle(scene, NULL)) return false;
     uint32_t kinds = kinds_of(scene), capacity = leaf_of(method, leaf);
     /* leaf 0: every object ends in a cut */
     uint32_t kinds_in_cuts = scene->dim == 2 ? 1u << FROE_SEGMENT : scene->dim == 3 ? 1u << FROE_POLYGON : 0;
@@ -198,7 +199,8 @@ static froe_status build_by_method(froe_scene *scene, const froe_build_options *
     if (o.leaf > INT32_MAX && o.leaf != FROE_LEAF_OWN)
         return support_fail(diag, FROE_E_OPTIONS, "A leaf capacity of %u is above %d, the largest there is.", o.leaf,
                             INT32_MAX);
-    froe_status status = choose_method(&o, scene, &method, diag);
+    froe_status status = scene_settle(scene, diag);
+    if (!status) status = choose_method(&o, scene, &method, diag);
     const bool own_leaf = o.leaf == FROE_LEAF_OWN;
     if (!status) o.leaf = leaf_of(&method->info, o.leaf);
     if (!status) status = check_scene(method, scene, o.leaf, diag);
@@ -242,6 +244,8 @@ froe_status froe_tree_section(const froe_tree *tree, const double *plane, const 
         if (k < dim) most = fmax(most, fabs(plane[k]));
     }
     if (!(most > 0)) return support_fail(diag, FROE_E_ARG, "The normal of the plane has length 0.");
+    const froe_status settled = tree_settle(tree, diag);
+    if (settled) return settled;
     const froe_cut root = {.kind = FROE_CUT_PLANE, .value = plane[dim], .normal = plane};
     o.method = tree->meta.method;
     o.settings = tree->meta.settings;

@@ -61,6 +61,8 @@ froe_status froe_scene_defects(const froe_scene *scene, unsigned threads, froe_p
     if (!scene || !out) return support_fail_null(diag, __func__);
     if (out->size != sizeof *out)
         return support_fail(diag, FROE_E_OPTIONS, "The size of the report is not sizeof(froe_defects).");
+    const froe_status settled = scene_settle(scene, diag);
+    if (settled) return settled;
     defect_survey v = {.tallies = NULL};
     froe_defects defects = {.size = sizeof defects};
     froe_status status = measure_survey_begin(scene, threads, progress, user, &v.of);

@@ -19,7 +19,7 @@ froe_status measure_sample_begin(const froe_scene *scene, const froe_measure_opt
     sample->alloc = scene->alloc;
     sample->count = o.samples && o.samples < scene->object_count ? o.samples : scene->object_count;
     base_task_init(&sample->task, 1, o.progress, o.user);
-    return FROE_OK;
+    return scene_settle(scene, diag);
 }
 
 void measure_sample_free(measure_sample *sample) {

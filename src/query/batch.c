@@ -242,7 +242,7 @@ static froe_status answer_windows(const batch *b, froe_query *q, size_t first, s
         expect_as_much(b, q, found);
         const query_ids own = q->found;
         q->found = found->ids;
-        if (packed_ranges(q, windows, count, b->starts + first + 1)) status = support_fail_memory(diag);
+        if (packed_ranges(q, windows, count, b->starts + first + 1)) status = query_failed(q, diag);
         found->ids = q->found;
         q->found = own;
         q->found.count = 0;
@@ -257,7 +257,7 @@ static froe_status answer_near(const batch *b, froe_query *q, size_t first, size
     expect_as_much(b, q, found);
     for (size_t at = first, count; at < end; at += count) {
         count = end - at < QUERY_NEAR_FLOCK ? end - at : QUERY_NEAR_FLOCK;
-        if (query_near_flock(q, b->points + 2 * at, count, end - at, b->k, b->limit)) return support_fail_memory(diag);
+        if (query_near_flock(q, b->points + 2 * at, count, end - at, b->k, b->limit)) return query_failed(q, diag);
         for (size_t i = at; i < at + count; i++) {
             if (query_near_settle(q, b->points + 2 * i, i - at, b->k, b->limit)) return support_fail_memory(diag);
             const size_t near = b->starts[i + 1] = q->near.out.count;
@@ -320,7 +320,7 @@ static froe_status answer_chunk(void *user, unsigned worker, size_t job) {
         return space_rays(q, points, point_of(b, b->directions, first), end - first, b->limit,
                           b->hits ? b->hits + first : NULL, b->objects ? b->objects + first : NULL, &c->diag);
     if (upright) status = packed_vertical(q, points, end - first, b->direction, b->objects + first);
-    if (upright) return status ? support_fail_memory(&c->diag) : FROE_OK;
+    if (upright) return status ? query_failed(q, &c->diag) : FROE_OK;
     if (b->ask == ask_range && are_windows(b, q, first, end, windows))
         return answer_windows(b, q, first, end, windows, found, &c->diag);
     if (near) return answer_near(b, q, first, end, found, &c->diag);

@@ -6,7 +6,8 @@
 #include "query/packed/space.h"
 #include "support/fail.h"
 
-static froe_status take_context(const froe_tree *tree, query_shared *shared, froe_query **out) {
+static froe_status take_context(const froe_tree *tree, const tree_ready *ready, query_shared *shared,
+                                froe_query **out) {
     froe_query *q = support_calloc(&tree->alloc, 1, sizeof *q);
     if (!q) return FROE_E_MEMORY;
     q->tree = tree;
@@ -16,6 +17,7 @@ static froe_status take_context(const froe_tree *tree, query_shared *shared, fro
         return FROE_E_MEMORY;
     }
     q->shared = shared;
+    q->ready = ready;
     froe_status status = tree_is_space(tree)    ? space_work_new(tree, &q->space)
                          : tree_is_packed(tree) ? packed_work_new(tree, &q->packed)
                                                 : FROE_OK;
@@ -32,9 +34,12 @@ static froe_status take_context(const froe_tree *tree, query_shared *shared, fro
 froe_status froe_query_new(const froe_tree *tree, froe_query **out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!tree || !out) return support_fail_null(diag, __func__);
+    const tree_ready *ready;
+    const froe_status status = tree_make_ready(tree, &ready, diag);
+    if (status) return status;
     query_shared *shared = support_calloc(&tree->alloc, 1, sizeof *shared);
     if (!shared) return support_fail_memory(diag);
-    if (take_context(tree, shared, out)) {
+    if (take_context(ready ? &ready->tree : tree, ready, shared, out)) {
         support_free(&tree->alloc, shared, sizeof *shared);
         return support_fail_memory(diag);
     }
@@ -45,7 +50,7 @@ froe_status froe_query_new(const froe_tree *tree, froe_query **out, froe_diagnos
 froe_status froe_query_fork(const froe_query *query, froe_query **out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!query || !out) return support_fail_null(diag, __func__);
-    if (take_context(query->tree, query->shared, out)) return support_fail_memory(diag);
+    if (take_context(query->tree, query->ready, query->shared, out)) return support_fail_memory(diag);
     (*out)->numbers.first = query->numbers.first;
     if (query->packed) (*out)->packed->kernels = query->packed->kernels;
     if (query->space) (*out)->space->kernels = query->space->kernels;
@@ -88,8 +93,9 @@ froe_query_stats froe_query_statistics(froe_query *query) {
 froe_status query_prepare(froe_query *query, query_part_id id, query_make_fn *make, const query_part **out,
                           froe_diagnostic *diag) {
     query_part *part = atomic_load_explicit(&query->shared->parts[id], memory_order_acquire), *there = NULL;
-    if (!part) {
-        froe_status status = make(query, &part, diag);
+    if (!part) { /* it reads all of the tree */
+        froe_status status = tree_settle(query->tree, diag);
+        if (!status) status = make(query, &part, diag);
         if (status) {
             if (part) part->free(&query->alloc, part);
             return status;
@@ -101,4 +107,30 @@ froe_status query_prepare(froe_query *query, query_part_id id, query_make_fn *ma
     }
     *out = part;
     return FROE_OK;
+}
+
+/* ------------------------------------------------------------- opened trees -- */
+
+bool query_check_leaf(froe_query *q, uint32_t block) {
+    if (tree_check_leaf(q->ready, &q->numbers, block, NULL) == FROE_OK) return true;
+    q->bad.found = true;
+    q->bad.owners = false;
+    q->bad.block = block;
+    return false;
+}
+
+bool query_owners_are_good(froe_query *q, uint32_t block, uint32_t end) {
+    if (!q->ready) return true;
+    if (tree_check_owners(q->ready, block, end, NULL) == FROE_OK) return true;
+    q->bad.found = q->bad.owners = true;
+    q->bad.block = block;
+    q->bad.end = end;
+    return false;
+}
+
+froe_status query_failed(froe_query *q, froe_diagnostic *diag) {
+    if (!q->bad.found) return support_fail_memory(diag);
+    q->bad.found = false;
+    return q->bad.owners ? tree_check_owners(q->ready, q->bad.block, q->bad.end, diag)
+                         : tree_check_leaf(q->ready, &q->numbers, q->bad.block, diag);
 }

@@ -16,6 +16,7 @@
 #include "query/near/near.h"
 #include "query/range/range.h"
 #include "query/ray/ray.h"
+#include "tree/gate.h"
 #include "tree/list.h"
 #include <froe/query.h>
 
@@ -55,6 +56,11 @@ struct froe_query {
     query_ray ray;
     query_near near;
     query_range range;
+    const tree_ready *ready;    /**< of an opened tree: its leaves are checked when they are first visited; or NULL */
+    struct {
+        bool found, owners; /**< owners: what is wrong is a slice of them */
+        uint32_t block, end;
+    } bad; /**< what of an opened tree is not right, of what the query in progress has met */
     struct packed_work *packed; /**< packed trees of the plane only (query/packed/packed.h) */
     struct space_work *space;   /**< packed trees of space only (query/packed/space.h) */
     struct {
@@ -70,6 +76,16 @@ typedef froe_status query_make_fn(froe_query *query, query_part **out, froe_diag
 /** The part, made by `make` unless it is there. */
 froe_status query_prepare(froe_query *query, query_part_id id, query_make_fn *make, const query_part **out,
                           froe_diagnostic *diag);
+
+/** Is the leaf with this block right, with the objects in it? False: the query has to end by query_failed(). */
+bool query_check_leaf(froe_query *query, uint32_t block);
+static inline bool query_leaf_is_good(froe_query *q, uint32_t block) {
+    return !q->ready || tree_bit_is_set(q->ready->leaves, block) || query_check_leaf(q, block);
+}
+/** Do the owners exist that the leaves from one block to another begin? */
+bool query_owners_are_good(froe_query *query, uint32_t block, uint32_t end);
+/** The status and the sentence of a query that had no memory, or met something of an opened tree that is not right. */
+froe_status query_failed(froe_query *query, froe_diagnostic *diag);
 
 /** Begins a query: forgets what the last one found. */
 static inline void query_begin(froe_query *q) {

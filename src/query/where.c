@@ -6,8 +6,17 @@
 #include "query/context.h"
 #include "support/fail.h"
 
-static froe_status check_object(const froe_query *q, uint32_t object, froe_diagnostic *diag) {
-    if (object < q->tree->scene->object_count) return FROE_OK;
+/* Objects that a query has found were checked with their leaf; this one may be any. */
+static froe_status check_found(froe_query *q, uint32_t object, froe_diagnostic *diag) {
+    const froe_scene *s = q->tree->scene;
+    const char *why = scene_is_checked(s) ? NULL : scene_object_fault(s, object, &q->numbers);
+    if (!why) return FROE_OK;
+    return support_fail_at(diag, FROE_E_FORMAT, object, FROE_NONE, FROE_NONE,
+                           "object %u: The scene of the file is corrupted: %s.", object, why);
+}
+
+static froe_status check_object(froe_query *q, uint32_t object, froe_diagnostic *diag) {
+    if (object < q->tree->scene->object_count) return check_found(q, object, diag);
     return support_fail(diag, FROE_E_ARG, "There is no object %u in a scene of %zu.", object,
                         (size_t)q->tree->scene->object_count);
 }

@@ -57,6 +57,7 @@ size_t froe_scene_across(const froe_scene *scene, uint32_t *first) {
     if (first) *first = FROE_NONE;
     if (scene->crs_kind != FROE_CRS_GEOGRAPHIC || !(scene->hi[0] - scene->lo[0] > 180)) return 0;
     for (uint32_t i = 0; i < scene->object_count; i++) {
+        if (!scene_is_checked(scene) && !scene_object_fits(scene, i)) continue;
         if (!is_across(scene, i)) continue;
         const froe_object object = froe_scene_object(scene, i);
         if (!count && first) *first = i;

@@ -45,5 +45,6 @@ froe_group froe_scene_group(const froe_scene *scene, uint32_t group) {
     if (group >= scene->group_count) return (froe_group){"", "", "", "", 0};
     const scene_group *g = scene->group_table + group;
     const char *text = scene->text;
+    if (!scene_is_checked(scene) && !scene_group_fits(scene, g)) return (froe_group){"", "", "", "", 0};
     return (froe_group){text + g->name, text + g->material, text + g->left, text + g->right, g->colour};
 }

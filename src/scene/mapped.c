@@ -1,10 +1,17 @@
-/* mapped.c: a scene over arrays from a file, which are unvalidated input. */
+/* mapped.c: a scene over arrays from a file, which are unvalidated input.
+ *
+ * It is checked whole when something asks for all of it (scene_settle()), or object by object where a query comes by
+ * (scene_object_fault()). docs/design/opening.md says why. */
+#include "base/floats.h"
 #include "geom/selftest.h"
 #include "scene/polygon.h"
 #include "scene/store.h"
 #include "support/fail.h"
 #include <math.h>
 #include <string.h>
+
+#define BAD_NUMBER "a coordinate is not finite, or is -0"
+#define BAD_SHAPE "it has no valid shape"
 
 static froe_status bad_scene(froe_diagnostic *diag, const char *what) {
     return support_fail(diag, FROE_E_FORMAT, "The scene of the file is corrupted: %s.", what);
@@ -24,7 +31,7 @@ static bool plain_number(double x) {
 /** No two vertices may be equal: everything that knows points by their ids relies on it. */
 static froe_status check_vertices(const froe_scene *s, const froe_allocator *alloc, froe_diagnostic *diag) {
     for (size_t i = 0, n = (size_t)s->vertex_count * (size_t)s->dim; i < n; i++)
-        if (!plain_number(s->coords[i])) return bad_scene(diag, "a coordinate is not finite, or is -0");
+        if (!plain_number(s->coords[i])) return bad_scene(diag, BAD_NUMBER);
     scene_table table = {0};
     size_t bytes = (size_t)s->dim * sizeof(double);
     froe_status status = scene_table_reserve(alloc, &table, s->vertex_count) ? FROE_OK : support_fail_memory(diag);
@@ -72,27 +79,47 @@ static bool shape_fits(const froe_scene *s, uint32_t object, num_context *contex
     }
 }
 
-static froe_status check_object(const froe_scene *s, uint32_t object, num_context *context, froe_diagnostic *diag) {
+static const char *index_fault(const froe_scene *s, uint32_t object) {
     unsigned kind = scene_kind(s, object), form = scene_form(s, object);
     uint32_t begin = scene_start(s, object), end = scene_start(s, object + 1);
     const bool exists = kind == FROE_POLYGON ? s->dim == 3 : kind < FROE_KIND_COUNT;
     const bool high = kind == FROE_SEGMENT && s->dim > 3, whole = form == (high ? (unsigned)FROE_HULL : kind);
     const bool lesser = (kind == FROE_SEGMENT && form == FROE_POINT) ||
                         (kind == FROE_POLYGON && (form == FROE_POINT || form == FROE_SEGMENT));
-    if (!exists || (!whole && !lesser)) return bad_object(diag, object, "it has a wrong kind or form");
+    if (!exists || (!whole && !lesser)) return "it has a wrong kind or form";
     const uint32_t least = form == FROE_POINT || kind == FROE_HULL ? 1 : form == FROE_POLYGON ? 3 : 2;
     const bool more = form == FROE_POLYGON || kind == FROE_HULL;
     if (end < begin || end > s->corner_count || (more ? end - begin < least : end - begin != least))
-        return bad_object(diag, object, "it has a wrong number of corners");
+        return "it has a wrong number of corners";
     for (uint32_t i = begin; i < end; i++) {
         bool radius = form == FROE_BALL && i > begin;
-        if (scene_corner_vertex(s, i) >= (radius ? s->radius_count : s->vertex_count))
-            return bad_object(diag, object, "a corner does not exist");
+        if (scene_corner_vertex(s, i) >= (radius ? s->radius_count : s->vertex_count)) return "a corner does not exist";
     }
-    if (!shape_fits(s, object, context)) return bad_object(diag, object, "it has no valid shape");
     if (s->groups && s->groups[object] != FROE_NONE && s->groups[object] >= s->group_count)
-        return bad_object(diag, object, "its group does not exist");
-    return FROE_OK;
+        return "its group does not exist";
+    return NULL;
+}
+
+bool scene_object_fits(const froe_scene *s, uint32_t object) {
+    return !index_fault(s, object);
+}
+
+const char *scene_object_fault(const froe_scene *s, uint32_t object, num_context *context) {
+    const char *why = index_fault(s, object);
+    if (why) return why;
+    const uint32_t points = scene_form(s, object) == FROE_BALL ? 1 : scene_corners(s, object);
+    for (uint32_t i = 0; i < points; i++)
+        for (int k = 0; k < s->dim; k++)
+            if (!plain_number(scene_point(s, object, i)[k])) return BAD_NUMBER;
+    const bool flat = scene_form(s, object) == FROE_SEGMENT &&
+                      !memcmp(scene_point(s, object, 0), scene_point(s, object, 1), (size_t)s->dim * sizeof(double));
+    return flat || !shape_fits(s, object, context) ? BAD_SHAPE : NULL;
+}
+
+static froe_status check_object(const froe_scene *s, uint32_t object, num_context *context, froe_diagnostic *diag) {
+    const char *why = index_fault(s, object);
+    if (!why && !shape_fits(s, object, context)) why = BAD_SHAPE;
+    return why ? bad_object(diag, object, why) : FROE_OK;
 }
 
 static froe_status check_objects(const froe_scene *s, const froe_allocator *alloc, froe_diagnostic *diag) {
@@ -108,7 +135,8 @@ static froe_status check_objects(const froe_scene *s, const froe_allocator *allo
 
 /* ------------------------------------------------------------------- whole -- */
 
-froe_status scene_validate(const froe_scene *s, const froe_allocator *alloc, froe_diagnostic *diag) {
+/* What takes no longer for larger scenes. */
+static froe_status check_frame(const froe_scene *s, froe_diagnostic *diag) {
     if (s->dim < 2 || s->dim > FROE_MAX_DIM) return bad_scene(diag, "its dimension is wrong");
     if (s->object_count > SCENE_LIMIT || s->vertex_count > SCENE_LIMIT || s->group_count > SCENE_LIMIT ||
         s->corner_count > SCENE_CORNER_LIMIT)
@@ -116,19 +144,23 @@ froe_status scene_validate(const froe_scene *s, const froe_allocator *alloc, fro
     bool vertices = (!s->vertex_count || s->coords) && (!s->radius_count || s->radii);
     bool groups = !s->group_count || (s->group_table && s->text);
     if (!vertices || !groups) return bad_scene(diag, "a part is missing");
-    if (!scene_crs_fits(s->crs_kind, s->crs, s->crs_size)) return bad_scene(diag, "its coordinate system is wrong");
-    froe_status status = check_vertices(s, alloc, diag);
-    if (!status) status = check_objects(s, alloc, diag);
-    if (status || !s->group_count) return status;
-    if (!s->text_size || s->text[0] || s->text[s->text_size - 1])
+    if (s->group_count && (!s->text_size || s->text[0] || s->text[s->text_size - 1]))
         return bad_scene(diag, "the strings of the groups are wrong");
-    for (uint32_t i = 0; i < s->group_count; i++) {
-        const scene_group *g = s->group_table + i;
-        if (g->name >= s->text_size || g->material >= s->text_size || g->left >= s->text_size ||
-            g->right >= s->text_size)
-            return bad_scene(diag, "the strings of a group are wrong");
-    }
+    if (!scene_crs_fits(s->crs_kind, s->crs, s->crs_size)) return bad_scene(diag, "its coordinate system is wrong");
     return FROE_OK;
+}
+
+bool scene_group_fits(const froe_scene *s, const scene_group *g) {
+    return g->name < s->text_size && g->material < s->text_size && g->left < s->text_size && g->right < s->text_size;
+}
+
+froe_status scene_validate(const froe_scene *s, const froe_allocator *alloc, froe_diagnostic *diag) {
+    froe_status status = check_frame(s, diag);
+    if (!status) status = check_vertices(s, alloc, diag);
+    if (!status) status = check_objects(s, alloc, diag);
+    for (uint32_t i = 0; !status && i < s->group_count; i++)
+        if (!scene_group_fits(s, s->group_table + i)) status = bad_scene(diag, "the strings of a group are wrong");
+    return status;
 }
 
 froe_status scene_mapped(const froe_scene *arrays, const froe_allocator *caller, froe_scene **out,
@@ -136,7 +168,7 @@ froe_status scene_mapped(const froe_scene *arrays, const froe_allocator *caller,
     froe_allocator alloc = support_allocator(caller);
     if (!arrays->start_of || (arrays->object_count && !(arrays->kind_of && arrays->form_of && arrays->vertex_of)))
         return bad_scene(diag, "a part is missing");
-    froe_status status = scene_validate(arrays, &alloc, diag);
+    froe_status status = check_frame(arrays, diag);
     if (status) return status;
     froe_scene *s = support_calloc(&alloc, 1, sizeof *s);
     if (!s) return support_fail_memory(diag);
@@ -145,15 +177,36 @@ froe_status scene_mapped(const froe_scene *arrays, const froe_allocator *caller,
     s->mapped = true;
     s->store = NULL;
     atomic_init(&s->holds, 1);
-    for (int k = 0; k < FROE_MAX_DIM; k++) s->lo[k] = INFINITY, s->hi[k] = -INFINITY;
+    atomic_init(&s->unchecked, true);
+    *out = s;
+    return FROE_OK;
+}
+
+static bool bounds_fit(const froe_scene *s) {
+    double all_lo[FROE_MAX_DIM], all_hi[FROE_MAX_DIM];
+    bool fit = true;
+    for (int k = 0; k < s->dim; k++) all_lo[k] = INFINITY, all_hi[k] = -INFINITY;
     for (uint32_t i = 0; i < s->object_count; i++) {
         double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
         scene_object_bounds(s, i, lo, hi);
         for (int k = 0; k < s->dim; k++) {
-            s->lo[k] = fmin(s->lo[k], lo[k]);
-            s->hi[k] = fmax(s->hi[k], hi[k]);
+            all_lo[k] = lo[k] < all_lo[k] ? lo[k] : all_lo[k];
+            all_hi[k] = hi[k] > all_hi[k] ? hi[k] : all_hi[k];
         }
     }
-    *out = s;
-    return FROE_OK;
+    for (int k = 0; k < s->dim; k++) fit = fit && s->lo[k] == all_lo[k] && s->hi[k] == all_hi[k];
+    return fit;
+}
+
+froe_status scene_settle(const froe_scene *s, froe_diagnostic *diag) {
+    if (scene_is_checked(s)) return FROE_OK;
+    froe_status status = scene_validate(s, &s->alloc, diag);
+    if (!status && !bounds_fit(s)) status = bad_scene(diag, "its bounds are wrong");
+    if (!status) atomic_store_explicit(&((froe_scene *)(uintptr_t)s)->unchecked, false, memory_order_relaxed);
+    return status;
+}
+
+froe_status froe_scene_check(const froe_scene *scene, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
+    return scene ? scene_settle(scene, diag) : support_fail_null(diag, __func__);
 }

@@ -150,7 +150,7 @@ bool froe_scene_bounds(const froe_scene *scene, double *lo, double *hi) {
 }
 
 froe_object froe_scene_object(const froe_scene *scene, uint32_t object) {
-    if (object >= scene->object_count)
+    if (object >= scene->object_count || (!scene_is_checked(scene) && !scene_object_fits(scene, object)))
         return (froe_object){.kind = FROE_KIND_COUNT, .form = FROE_KIND_COUNT, .face = FROE_NONE, .group = FROE_NONE};
     bool ball = scene_kind(scene, object) == FROE_BALL;
     return (froe_object){

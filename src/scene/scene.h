@@ -31,6 +31,7 @@ typedef struct scene_group {
 struct froe_scene {
     froe_allocator alloc;
     atomic_uint holds; /**< the caller's and each tree's; > 1: frozen */
+    atomic_bool unchecked; /**< arrays of a file that scene_settle() has not found right yet */
     bool mapped;
     void *map; /**< the file they lie in, which goes with the scene; trees that hold it may lie there, too */
     size_t map_size;
@@ -187,10 +188,24 @@ bool scene_crs_fits(uint32_t kind, const char *strings, size_t size);
  * index, ring, form and coordinate, and that no two vertices are equal. Bounds are not looked at.
  * FROE_E_FORMAT with the first violation. O(corners) expected. */
 froe_status scene_validate(const froe_scene *s, const froe_allocator *alloc, froe_diagnostic *diag);
-/** A scene over arrays that lie in a file mapping: `arrays` gives dim, counts and arrays, none of objects or corners
- * missing; all else is ignored. Validates, computes the bounds. The mapping stays the caller's, must outlive the
- * scene and is not written to; froe_scene_free() frees the rest. The scene has one hold and never
- * grows. FROE_E_FORMAT, FROE_E_MEMORY. */
+/** A scene over arrays that lie in a file mapping: `arrays` gives dim, counts, arrays, none of objects or corners
+ * missing, and bounds; all else is ignored. Only what has no size is validated, and the scene is unchecked. The
+ * mapping stays the caller's, must outlive the scene and is not written to; froe_scene_free() frees the rest. The
+ * scene has one hold and never grows. FROE_E_FORMAT, FROE_E_MEMORY. O(1). */
 froe_status scene_mapped(const froe_scene *arrays, const froe_allocator *alloc, froe_scene **out,
                          froe_diagnostic *diag);
+/** Is there nothing left to be checked? Until then the arrays are untrusted: readers ask scene_object_fits() first. */
+static inline bool scene_is_checked(const froe_scene *s) {
+    return !atomic_load_explicit(&s->unchecked, memory_order_relaxed);
+}
+/** Checks an unchecked scene whole, by scene_validate(), and its bounds. O(1) on others. FROE_E_FORMAT, FROE_E_MEMORY.
+ */
+froe_status scene_settle(const froe_scene *s, froe_diagnostic *diag);
+/** May the corners, the radius and the group of an object, whose id is good, be looked up? O(corners of the object). */
+bool scene_object_fits(const froe_scene *s, uint32_t object);
+/** May the strings of a group be looked up? */
+bool scene_group_fits(const froe_scene *s, const scene_group *group);
+/** Is the object one that geometry may be done with? All that scene_validate() checks of an object, and its
+ * coordinates; NULL, or what is wrong, as a clause. */
+const char *scene_object_fault(const froe_scene *s, uint32_t object, num_context *context);
 #endif

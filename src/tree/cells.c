@@ -5,8 +5,8 @@
  * the box to size 1, so that no coordinate a double can hold overflows. */
 #include "base/floats.h"
 #include "support/fail.h"
+#include "tree/gate.h"
 #include "tree/shape.h"
-#include "tree/tree.h"
 #include <math.h>
 #include <string.h>
 
@@ -104,6 +104,8 @@ froe_status froe_tree_cells(const froe_tree *tree, const double *lo, const doubl
                             froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!tree || !lo || !hi || !fn) return support_fail_null(diag, __func__);
+    const froe_status settled = tree_settle(tree, diag);
+    if (settled) return settled;
     cell_walk w = {.tree = tree, .alloc = tree->alloc, .dim = tree->scene->dim, .fn = fn, .user = user};
     double most = 0;
     if (w.dim > 3)

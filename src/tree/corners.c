@@ -6,6 +6,7 @@
 #include "base/floats.h"
 #include "geom/predicates.h"
 #include "geom/selftest.h"
+#include "tree/gate.h"
 #include "tree/packed/packed.h"
 #include "tree/ring.h"
 #include <sched.h>
@@ -61,7 +62,7 @@ static void ring_corners(num_context *context, const froe_tree *t, uint32_t obje
 
 size_t froe_tree_piece_corners(const froe_tree *tree, size_t piece, double *coords, froe_node *made, size_t capacity) {
     BASE_FLOATS_OWN;
-    if (piece >= tree->piece_count) return 0;
+    if (piece >= tree->piece_count || tree_settle(tree, NULL)) return 0;
     froe_piece p = froe_tree_piece(tree, piece);
     size_t count = p.corners < capacity ? p.corners : capacity;
     size_t dim = (size_t)tree->scene->dim;

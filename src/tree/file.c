@@ -45,6 +45,22 @@ typedef struct file_array {
     uint32_t item_size;
 } file_array;
 
+/* What follows from other sections. */
+static file_array made_array_of(const froe_tree *t, file_id id) {
+    const table_cells *cells = &t->packed.cells;
+    const tree_wide *wide = t->packed.wide;
+    switch (id) {
+    case FILE_FACTS:
+        return (file_array){&t->facts, 1, sizeof t->facts};
+    case FILE_CELLS:
+        return (file_array){cells->nodes, cells->count, sizeof *cells->nodes};
+    case FILE_LINES:
+        return (file_array){cells->crooked, cells->lines, sizeof *cells->crooked};
+    default:
+        return (file_array){wide ? wide->nodes : NULL, wide ? wide->count : 0, sizeof(wide_node)};
+    }
+}
+
 static file_array array_of(const froe_tree *t, file_id id) {
     const froe_scene *s = t->scene;
     const uint64_t objects = s->object_count;
@@ -87,8 +103,10 @@ static file_array array_of(const froe_tree *t, file_id id) {
         return (file_array){t->packed.owners, t->packed.owner_count, sizeof *t->packed.owners};
     case FILE_CRS:
         return (file_array){s->crs, s->crs_size, 1};
-    default:
+    case FILE_TEXT:
         return (file_array){s->text, s->text_size, 1};
+    default:
+        return made_array_of(t, id);
     }
 }
 

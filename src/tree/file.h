@@ -5,14 +5,16 @@
  *     ...   sections      in the order of their ids, each at a multiple of 64, zeros between
  *
  * Sections are the arrays of the tree and its scene as they lie in memory, so that opening is
- * mapping. Everything has one place only: two equal trees make equal files.
+ * mapping. Two equal trees make equal files. What follows from other sections, and would take a walk through them, is
+ * there, too: facts, the jump table, wide nodes.
  *
  * It speaks for file.c, open.c and save.c. */
 #ifndef FROE_TREE_FILE_H
 #define FROE_TREE_FILE_H
 #include "tree/packed/packed.h"
+#include "tree/packed/wide.h"
 
-#define FILE_VERSION 3u
+#define FILE_VERSION 4u
 #define FILE_ALIGN 64u
 #define FILE_MAGIC                                                                                                     \
     "\x89"                                                                                                             \
@@ -39,6 +41,10 @@ typedef enum file_id {
     FILE_BLOCKS,
     FILE_OWNERS,
     FILE_CRS,
+    FILE_FACTS,
+    FILE_CELLS,
+    FILE_LINES,
+    FILE_WIDE,
     FILE_END
 } file_id;
 #define FILE_SECTIONS ((uint32_t)FILE_END - 1)
@@ -62,14 +68,14 @@ typedef struct file_section {
 _Static_assert(sizeof(file_header) == 64 && sizeof(file_section) == 32, "as specified");
 _Static_assert(sizeof(tree_meta) == 1264 && sizeof(tree_promise) == 48, "as specified");
 _Static_assert(sizeof(tree_node) == 16 && sizeof(tree_cut) == 24 && sizeof(tree_piece) == 8, "as specified");
-_Static_assert(sizeof(scene_group) == 20, "as specified");
+_Static_assert(sizeof(scene_group) == 20 && sizeof(tree_facts) == 208 && sizeof(wide_node) == 192, "as specified");
 
 /** FROE_E_UNSUPPORTED: this machine does not store numbers as the file does. */
 froe_status file_check_machine(froe_diagnostic *diag);
 /** Checksum of bytes followed by zeros up to a multiple of 64, continuing `seed` (0 at first). A change within
  * any 8 aligned bytes changes it for certain. */
 uint64_t file_checksum(const void *bytes, size_t size, uint64_t seed);
-static inline bool file_is_of_tree(file_id id) { /* not of its scene */
+static inline bool file_is_of_tree(file_id id) { /* not of its scene, and not made from other sections */
     return id <= FILE_NORMALS || id == FILE_BLOCKS || id == FILE_OWNERS;
 }
 /** Where a section of a tree lies in memory: *data (NULL: absent) and its size; returns the size of an item. */

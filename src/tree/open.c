@@ -1,9 +1,6 @@
 /* open.c: a saved tree by mapping its file, or from a copy of its bytes. Nothing in it is used before it has been
- * checked:
- *
- *     header, table      magic, version, sizes, places, checksums     here
- *     scene              scene_mapped()
- *     tree               tree_validate()
+ * checked. What has no size is checked here: header and table, the places of sections, description, facts and the
+ * coordinate system. The rest is checked when it is first asked for (gate.h).
  *
  * The mapping is private and read-only. If another program shortens the file while it is
  * mapped, its pages are lost (SIGBUS). froe itself replaces files and never shortens them. */
@@ -11,9 +8,12 @@
 #include "num/context.h"
 #include "support/fail.h"
 #include "tree/file.h"
+#include "tree/gate.h"
+#include "tree/packed/table.h"
 #include "tree/validate.h"
 #include <errno.h>
 #include <fcntl.h>
+#include <math.h>
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
@@ -79,10 +79,8 @@ static froe_status copy_file(opening *o, const void *bytes, size_t size, const f
 
 /* ------------------------------------------------------------------ layout -- */
 
-static bool is_zero_between(const uint8_t *bytes, uint64_t from, uint64_t to) {
-    for (; from < to; from++)
-        if (bytes[from]) return false;
-    return true;
+static bool is_read_at_once(uint32_t id) {
+    return id == FILE_META || id == FILE_FACTS || id == FILE_CRS;
 }
 
 /* Sections lie in the order of their ids, without gaps but for the zeros that align them. */
@@ -92,9 +90,10 @@ static froe_status check_layout(opening *o) {
     if (memcmp(h->magic, FILE_MAGIC, sizeof h->magic) != 0) return bad_file(o, "it does not begin as one");
     if (h->version != FILE_VERSION)
         return support_fail(o->diag, FROE_E_FORMAT,
-                            "%s: It is a tree file of version %u, and this froe reads version %u: build it again from "
-                            "its scene.",
-                            support_short(o->path), h->version, FILE_VERSION);
+                            "%s: It is a tree file of version %u, and this froe reads version %u: %s.",
+                            support_short(o->path), h->version, FILE_VERSION,
+                            h->version < FILE_VERSION ? "build it again from its scene"
+                                                      : "open it with a newer froe, or build it again from its scene");
     if (h->size != o->size) return bad_file(o, h->size > o->size ? "it is truncated" : "something follows its end");
     if (h->sections != FILE_SECTIONS || o->size < sizeof *h + table) return bad_file(o, "its section table is wrong");
     o->table = (const file_section *)(const void *)(o->bytes + sizeof *h);
@@ -117,13 +116,11 @@ static froe_status check_layout(opening *o) {
             return bad_file(o, "a section is out of place");
         if (s->size % s->item_size || s->size / s->item_size > UINT32_MAX)
             return bad_file(o, "a section is of odd size");
-        if (!is_zero_between(o->bytes, end, offset)) return bad_file(o, "it has bytes between sections");
-        if (s->checksum != file_checksum(o->bytes + offset, s->size, 0))
+        if (is_read_at_once(s->id) && s->checksum != file_checksum(o->bytes + offset, s->size, 0))
             return bad_file(o, "the checksum of a section is wrong");
         end = offset + s->size;
     }
-    if (file_align(end) != o->size || !is_zero_between(o->bytes, end, o->size))
-        return bad_file(o, "something follows its end");
+    if (file_align(end) != o->size) return bad_file(o, "something follows its end");
     return FROE_OK;
 }
 
@@ -134,14 +131,16 @@ static void *section(const opening *o, file_id id, uint32_t *count) {
     return s->size ? (void *)(uintptr_t)(o->bytes + s->offset) : NULL;
 }
 
+#define MISFIT "its sections do not fit together"
+
 static bool optional(uint32_t count, uint32_t objects) {
     return count == 0 || count == objects;
 }
 
-/* The arrays of scene and tree, as the file claims them. */
-static froe_status claim_arrays(opening *o, froe_tree *t) {
+/* The arrays of the scene, as the file claims them. */
+static froe_status claim_scene(opening *o) {
     froe_scene *s = &o->scene;
-    uint32_t coords, forms, starts, tags, faces, groups, text, count;
+    uint32_t coords, forms, starts, tags, faces, groups, text;
     s->dim = (int)o->header->dim;
     s->up = s->dim == 3 ? (int)(o->header->up + 2) % 3 : -1;
     s->coords = section(o, FILE_COORDS, &coords);
@@ -161,10 +160,46 @@ static froe_status claim_arrays(opening *o, froe_tree *t) {
     s->vertex_count = coords / o->header->dim;
     bool fits = coords % o->header->dim == 0 && forms == s->object_count && starts == (uint64_t)s->object_count + 1 &&
                 optional(tags, forms) && optional(faces, forms) && optional(groups, forms);
-    if (!fits) return bad_file(o, "its sections do not fit together");
-    const void *meta = section(o, FILE_META, &count);
-    if (count != 1) return bad_file(o, "its description is wrong");
+    if (!fits) return bad_file(o, MISFIT);
+    return FROE_OK;
+}
+
+/* Facts that the sizes of the sections exclude would cost memory. */
+static bool facts_are_possible(const froe_tree *t, const froe_scene *s) {
+    const tree_facts *f = &t->facts;
+    const uint64_t bytes = (uint64_t)t->packed.block_count * PACKED_BLOCK;
+    bool possible = tree_is_packed(t) ? f->pieces <= TREE_MOST && 12 * f->pieces <= bytes : f->pieces == t->piece_count;
+    possible = possible && 2 * (f->height & UINT32_MAX) < t->node_count && f->height < t->node_count &&
+               f->max_leaf <= f->pieces && f->leaves <= t->node_count && isfinite(f->mean_depth);
+    for (int k = 0; k < FROE_MAX_DIM; k++)
+        possible = possible && isfinite(f->lo[k]) && isfinite(f->hi[k]) && f->lo[k] <= f->hi[k] &&
+                   ((s->object_count && k < s->dim) || (f->lo[k] == 0 && f->hi[k] == 0));
+    return possible;
+}
+
+/* Description and facts, and what is known by them. */
+static froe_status claim_description(opening *o, froe_tree *t) {
+    froe_scene *s = &o->scene;
+    uint32_t metas, facts;
+    const void *meta = section(o, FILE_META, &metas), *known = section(o, FILE_FACTS, &facts);
+    if (metas != 1 || facts != 1) return bad_file(o, "its description is wrong");
     memcpy(&t->meta, meta, sizeof t->meta);
+    memcpy(&t->facts, known, sizeof t->facts);
+    t->scene = s; /* for these checks alone */
+    const bool fits = tree_meta_fits(t) && facts_are_possible(t, s);
+    t->scene = NULL;
+    if (!fits) return bad_file(o, "its description is wrong");
+    for (int k = 0; k < FROE_MAX_DIM; k++) {
+        const bool there = s->object_count && k < s->dim;
+        s->lo[k] = there ? t->facts.lo[k] : (double)INFINITY;
+        s->hi[k] = there ? t->facts.hi[k] : -(double)INFINITY;
+    }
+    if (tree_is_packed(t)) t->piece_count = (uint32_t)t->facts.pieces;
+    return FROE_OK;
+}
+
+/* The arrays of the tree, as the file claims them; those of the scene are claimed. */
+static froe_status claim_tree(opening *o, froe_tree *t) {
     t->nodes = section(o, FILE_NODES, &t->node_count);
     t->cuts = section(o, FILE_CUTS, &t->cut_count);
     t->pieces = section(o, FILE_PIECES, &t->piece_count);
@@ -172,9 +207,23 @@ static froe_status claim_arrays(opening *o, froe_tree *t) {
     t->normals = section(o, FILE_NORMALS, &t->normal_count);
     t->packed.blocks = section(o, FILE_BLOCKS, &t->packed.block_count);
     t->packed.owners = section(o, FILE_OWNERS, &t->packed.owner_count);
-    if (tree_is_packed(t) && t->piece_count) return bad_file(o, "its sections do not fit together");
-    if (tree_is_packed(t)) t->piece_count = packed_count(t);
-    return FROE_OK;
+    if (tree_is_packed(t) && (t->piece_count || o->scene.dim > 3)) return bad_file(o, MISFIT);
+    return t->node_count ? claim_description(o, t) : bad_file(o, "it has no root");
+}
+
+/* Sections that follow from others; tree and scene are one. */
+static froe_status claim_made(opening *o, froe_tree *t) {
+    uint32_t cells, lines, wide;
+    const table_cells shape = tree_table_shape(t);
+    t->packed.cells.nodes = section(o, FILE_CELLS, &cells);
+    t->packed.cells.crooked = section(o, FILE_LINES, &lines);
+    t->packed.cells.count = cells;
+    t->packed.cells.lines = lines;
+    wide_node *nodes = section(o, FILE_WIDE, &wide);
+    if (cells != shape.count || lines != shape.lines) return bad_file(o, MISFIT);
+    const froe_status status = tree_wide_from(t, nodes, wide, t->facts.levels, &t->packed.wide);
+    if (status == FROE_E_MEMORY) return support_fail_memory(o->diag);
+    return status ? bad_file(o, MISFIT) : FROE_OK;
 }
 
 /* ------------------------------------------------------------------- whole -- */
@@ -197,10 +246,12 @@ static froe_status open_bytes(opening *o, const froe_allocator *alloc, froe_tree
     froe_status status = t ? FROE_OK : support_fail_memory(o->diag);
     if (t) t->alloc = *alloc, t->mapped = true;
     if (!status) status = check_layout(o);
-    if (!status) status = claim_arrays(o, t);
+    if (!status) status = claim_scene(o);
+    if (!status) status = claim_tree(o, t);
     if (!status) status = scene_mapped(&o->scene, alloc, &t->scene, o->diag);
-    if (!status) status = tree_validate(t, o->diag);
-    if (!status && tree_finish(t)) status = support_fail_memory(o->diag);
+    if (!status) status = claim_made(o, t);
+    if (!status && (tree_gate_new(alloc, o->bytes, o->size, &t->gate) || tree_show(t)))
+        status = support_fail_memory(o->diag);
     if (!status) {
         t->scene->map = o->map;
         t->scene->map_size = o->map_size;

@@ -3,6 +3,8 @@
 #include "support/fail.h"
 #include "support/writer.h"
 #include "tree/file.h"
+#include "tree/gate.h"
+#include "tree/packed/table.h"
 #include <string.h>
 
 typedef struct file_head {
@@ -31,7 +33,7 @@ uint64_t froe_tree_saved_size(const froe_tree *tree) {
     return lay_out_sections(tree, table, false);
 }
 
-/* The scene of the tree has all its arrays. False: fn has stopped. */
+/* The scene of the tree has all its arrays, and the tree the cells of its table. False: fn has stopped. */
 static bool write_file(const froe_tree *tree, froe_write_fn *fn, void *user) {
     static const uint8_t zeros[FILE_ALIGN];
     file_head head;
@@ -57,15 +59,22 @@ static bool write_file(const froe_tree *tree, froe_write_fn *fn, void *user) {
     return going;
 }
 
-/* *done: fn has taken all. FROE_E_MEMORY. */
+/* *done: fn has taken all. FROE_E_MEMORY; FROE_E_FORMAT: the file that the tree lies in is bad. */
 static froe_status write_tree(const froe_tree *tree, froe_write_fn *fn, void *user, bool *done, froe_diagnostic *diag) {
     froe_scene scene;
+    froe_status status = tree_settle(tree, diag);
+    if (status) return status;
     froe_tree whole = *tree;
-    if (scene_explicit(tree->scene, &tree->alloc, &scene)) return support_fail_memory(diag);
-    whole.scene = &scene;
-    *done = write_file(&whole, fn, user);
-    scene_explicit_free(tree->scene, &tree->alloc, &scene);
-    return FROE_OK;
+    if (!tree->gate && tree_table_cells(tree, &whole.packed.cells)) return support_fail_memory(diag);
+    if (scene_explicit(tree->scene, &tree->alloc, &scene)) {
+        status = support_fail_memory(diag);
+    } else {
+        whole.scene = &scene;
+        *done = write_file(&whole, fn, user);
+        scene_explicit_free(tree->scene, &tree->alloc, &scene);
+    }
+    if (!tree->gate) tree_table_cells_free(tree, &whole.packed.cells);
+    return status;
 }
 
 froe_status froe_tree_write(const froe_tree *tree, froe_write_fn *fn, void *user, froe_diagnostic *diag) {

@@ -2,6 +2,7 @@
 #include "tree/tree.h"
 #include "base/floats.h"
 #include "tree/file.h"
+#include "tree/gate.h"
 #include "tree/list.h"
 #include "tree/packed/table.h"
 #include "tree/packed/wide.h"
@@ -28,6 +29,7 @@ void froe_tree_free(froe_tree *tree) {
     if (!tree) return;
     froe_allocator alloc = tree->alloc;
     tree_spare_free(&alloc, tree->spare);
+    tree_gate_free(&alloc, tree->gate);
     tree_table_free(&alloc, tree->packed.table);
     tree_wide_free(&alloc, tree->packed.wide);
     froe_scene_free(tree->scene);
@@ -83,14 +85,62 @@ geom_plane tree_plane_at(const froe_tree *t, uint32_t node) {
 
 /* ------------------------------------------------------------------ report -- */
 
-froe_status tree_finish(froe_tree *t) {
+froe_status tree_facts_of(const froe_tree *t, tree_facts *out) {
+    const froe_scene *s = t->scene;
+    tree_facts f = {.pieces = t->piece_count};
+    tree_walk walk = {.tree = t};
+    double depths = 0; /* of all pieces */
+    for (int k = 0; s->object_count && k < s->dim; k++) f.lo[k] = s->lo[k], f.hi[k] = s->hi[k];
+    while (tree_walk_next(&walk)) {
+        const tree_node *n = t->nodes + walk.node;
+        const uint32_t count = tree_list(t, walk.node).count, covers = tree_covers(t, n);
+        const uint32_t depth = tree_walk_depth(&walk);
+        depths += (double)depth * (double)count;
+        f.covers += covers;
+        if (!tree_is_leaf(n)) {
+            f.in_cut += count - covers;
+            continue;
+        }
+        f.leaves++;
+        if (depth > f.height) f.height = depth;
+        if (count > f.max_leaf) f.max_leaf = count;
+        if (n->flags & TREE_INSEPARABLE) f.inseparable++;
+        if (n->flags & TREE_CROWDED) f.crowded++;
+    }
+    f.mean_depth = f.pieces ? depths / (double)f.pieces : 0;
+    *out = f;
+    return tree_walk_end(&walk);
+}
+
+/* Of what is there to be searched, without the scene. */
+static uint64_t bytes_of(const froe_tree *t) {
+    uint64_t bytes = tree_table_bytes(t) + tree_wide_bytes(t->packed.wide);
+    for (int id = FILE_NODES; id < FILE_END; id++) {
+        const void *data;
+        uint64_t size;
+        if (file_is_of_tree((file_id)id)) file_part(t, (file_id)id, &data, &size), bytes += size;
+    }
+    return bytes;
+}
+
+froe_status tree_show(froe_tree *t) {
+    const tree_facts *f = &t->facts;
     froe_report r = {.method = t->meta.method, .settings = t->meta.settings, .dim = t->scene->dim};
     r.leaf = t->meta.leaf;
     r.seed = t->meta.seed;
     r.objects = t->scene->object_count;
     r.nodes = t->node_count;
-    r.fragments = t->piece_count;
+    r.leaves = f->leaves;
+    r.fragments = f->pieces;
+    r.in_cut = f->in_cut;
+    r.covers = f->covers;
     r.size = r.nodes + r.fragments;
+    r.height = f->height;
+    r.mean_depth = f->mean_depth;
+    r.max_leaf = f->max_leaf;
+    r.inseparable = f->inseparable;
+    r.crowded = f->crowded;
+    r.bytes = bytes_of(t);
     r.predicates = t->predicates;
     r.promises = t->promises;
     for (uint32_t i = 0; i < t->meta.promise_count; i++) {
@@ -98,37 +148,17 @@ froe_status tree_finish(froe_tree *t) {
         t->promises[i] = (froe_promise){p->name, p->promised, p->measured};
     }
     t->promises[t->meta.promise_count] = (froe_promise){0};
-    tree_walk walk = {.tree = t};
-    double depths = 0; /* of all pieces */
-    while (tree_walk_next(&walk)) {
-        const tree_node *n = t->nodes + walk.node;
-        const uint32_t count = tree_list(t, walk.node).count, covers = tree_covers(t, n);
-        const uint32_t depth = tree_walk_depth(&walk);
-        depths += (double)depth * (double)count;
-        r.covers += covers;
-        if (!tree_is_leaf(n)) {
-            r.in_cut += count - covers;
-            continue;
-        }
-        r.leaves++;
-        if (depth > r.height) r.height = depth;
-        if (count > r.max_leaf) r.max_leaf = count;
-        if (n->flags & TREE_INSEPARABLE) r.inseparable++;
-        if (n->flags & TREE_CROWDED) r.crowded++;
-    }
-    r.mean_depth = r.fragments ? depths / (double)r.fragments : 0;
-    froe_status status = tree_walk_end(&walk);
+    t->report = r;
+    return tree_spare_new(&t->alloc, &t->spare);
+}
+
+froe_status tree_finish(froe_tree *t) {
+    froe_status status = tree_facts_of(t, &t->facts);
     if (!status) status = tree_table_new(t, &t->packed.table);
     if (!status) status = tree_wide_new(t, &t->packed.wide);
-    if (!status) status = tree_spare_new(&t->alloc, &t->spare);
-    r.bytes = tree_table_bytes(t->packed.table) + tree_wide_bytes(t->packed.wide);
-    for (int id = FILE_NODES; id < FILE_END; id++) {
-        const void *data;
-        uint64_t size;
-        if (file_is_of_tree((file_id)id)) file_part(t, (file_id)id, &data, &size), r.bytes += size;
-    }
-    t->report = r;
-    return status;
+    t->packed.cells = tree_table_shape(t);
+    if (!status && t->packed.wide) t->facts.levels = t->packed.wide->levels;
+    return status ? status : tree_show(t);
 }
 
 froe_report froe_tree_report(const froe_tree *tree) {
@@ -150,7 +180,7 @@ froe_node_info froe_tree_node(const froe_tree *tree, froe_node node) {
     BASE_FLOATS_OWN;
     froe_node_info info = {0};
     uint32_t id = node.id1 - 1;
-    if (id >= tree->node_count) return info;
+    if (id >= tree->node_count || tree_settle(tree, NULL)) return info;
     const tree_node *n = tree->nodes + id;
     info.cut = tree_cut_at(tree, id);
     if (info.cut.kind == FROE_CUT_VERTEX || info.cut.kind == FROE_CUT_CROSSING)
@@ -179,7 +209,7 @@ size_t froe_tree_piece_count(const froe_tree *tree) {
 }
 
 froe_piece froe_tree_piece(const froe_tree *tree, size_t piece) {
-    if (piece >= tree->piece_count) return (froe_piece){.object = FROE_NONE};
+    if (piece >= tree->piece_count || tree_settle(tree, NULL)) return (froe_piece){.object = FROE_NONE};
     if (tree_is_space(tree)) { /* nothing is cut there */
         tree_objects list = tree_list(tree, packed_leaf(tree, (uint32_t)piece));
         uint32_t object = tree_object(&list, (uint32_t)piece - list.first);

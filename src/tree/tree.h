@@ -68,6 +68,7 @@ typedef struct tree_piece { /* 8 bytes */
 
 typedef struct tree_table tree_table;
 typedef struct tree_wide tree_wide;
+typedef struct tree_gate tree_gate;
 
 #define TREE_PROMISES 12
 #define TREE_TEXT 512
@@ -85,6 +86,22 @@ typedef struct tree_meta {
     double root_lo[FROE_MAX_DIM], root_hi[FROE_MAX_DIM]; /**< root cube of the guard stage; 0,0 without one */
 } tree_meta;
 
+/** What follows from the arrays of tree and scene by a walk through all of them; saved with the tree. */
+typedef struct tree_facts {
+    uint64_t pieces, leaves, in_cut, covers, height, max_leaf, inseparable, crowded; /**< as in froe_report */
+    double mean_depth;
+    uint64_t levels;                           /**< of wide nodes (tree/packed/wide.h); 0: there are none */
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM]; /**< bounds of the scene; 0 without objects and beyond its dimension */
+} tree_facts;
+
+/** The jump table (tree/packed/table.h) as files hold it: a node for each cell, and a byte for each line of columns,
+ * then of rows. */
+typedef struct table_cells {
+    uint32_t *nodes;
+    uint8_t *crooked;
+    uint64_t count, lines; /**< 0: there is no table */
+} table_cells;
+
 /** Leaf blocks and what belongs to them; all zero in other trees. */
 typedef struct tree_packed {
     uint8_t *blocks;      /**< at a multiple of 64 */
@@ -93,7 +110,9 @@ typedef struct tree_packed {
     uint32_t *owners;
     void *memory; /**< that blocks lie in; NULL: in a mapped file */
     size_t memory_size;
-    tree_table *table; /**< of the plane; follows from the nodes: tree/packed/table.h */
+    tree_table *table; /**< of the plane; follows from the nodes: tree/packed/table.h. Opened trees have it when they
+                            are ready (tree/gate.h) */
+    table_cells cells; /**< its size; of an opened tree they lie in the file */
     tree_wide *wide;   /**< of space; follows from the nodes and boxes: tree/packed/wide.h */
 } tree_packed;
 
@@ -106,6 +125,7 @@ struct froe_tree {
     froe_allocator alloc;
     froe_scene *scene; /**< held */
     tree_meta meta;
+    tree_facts facts;
     uint32_t node_count, cut_count, piece_count, bound_count, normal_count; /**< normal_count in doubles */
     tree_node *nodes;
     tree_cut *cuts;
@@ -117,7 +137,8 @@ struct froe_tree {
     froe_report report;              /**< computed once, by tree_finish */
     froe_promise promises[TREE_PROMISES + 1];
     tree_spare *spare;
-    bool mapped; /**< arrays lie in the file that the scene has mapped */
+    bool mapped;     /**< arrays lie in the file that the scene has mapped */
+    tree_gate *gate; /**< what of the file has been checked (tree/gate.h); NULL: there is no file */
 };
 
 static inline bool tree_is_leaf(const tree_node *node) {
@@ -149,8 +170,13 @@ geom_plane tree_plane_at(const froe_tree *t, uint32_t node);
 /** Takes memory for the arrays, of the sizes their counts say. FROE_E_MEMORY: froe_tree_free() gives back what was had.
  */
 froe_status tree_take_arrays(froe_tree *tree);
-/** Computes report and promise views of a tree whose arrays and meta are complete. FROE_E_MEMORY. */
+/** Computes facts, report and promise views of a tree whose arrays and meta are complete, and what searches need beside
+ * them. FROE_E_MEMORY. */
 froe_status tree_finish(froe_tree *tree);
+/** Computes the facts of a tree, whose nodes have been checked. FROE_E_MEMORY. O(nodes). */
+froe_status tree_facts_of(const froe_tree *tree, tree_facts *out);
+/** Makes report and promise views from meta and facts. FROE_E_MEMORY. O(1). */
+froe_status tree_show(froe_tree *tree);
 /** Measures what a promise of that name is about, on a finished tree: height, nodes, path_length (over all pieces, the
  * cuts above each), size, fragments, leaf_load (most pieces in a leaf), guard_leaves (cells of the guard stage),
  * guard_fragments (over those cells and the stage's own cuts), charged_fragments (the same of charged cells), aspect

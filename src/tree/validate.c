@@ -7,7 +7,7 @@
 #include "tree/validate.h"
 #include "geom/selftest.h"
 #include "support/fail.h"
-#include "tree/packed/packed.h"
+#include "tree/packed/space.h"
 #include "tree/walk.h"
 #include <math.h>
 
@@ -15,7 +15,8 @@ typedef struct check {
     const froe_tree *tree;
     tree_walk walk;
     num_context context;
-    uint32_t nodes, cuts, pieces, bounds, normals; /* seen so far */
+    uint32_t nodes, cuts, pieces, bounds, normals, blocks; /* seen so far */
+    uint64_t height, max_leaf;                             /* likewise */
     froe_diagnostic *diag;
 } check;
 
@@ -138,6 +139,10 @@ static froe_status check_node(check *c) {
     if (n->type > TREE_TABLED || n->flags & ~known || n->unused) return bad_node(c, "an unknown type or flag");
     if (leaf) {
         if (n->axis) return bad_node(c, "an unused field that is not 0");
+        if (tree_walk_depth(&c->walk) > c->height) c->height = tree_walk_depth(&c->walk);
+        if (n->u.list.count > c->max_leaf) c->max_leaf = n->u.list.count;
+        if (packed && !tree_is_space(t) && !packed_takes_place(t, n, &c->blocks))
+            return bad_node(c, "a block out of place");
         return check_list(c, n->u.list.first, n->u.list.count, tree_covers(t, n));
     }
     if (n->flags & (TREE_INSEPARABLE | TREE_CROWDED)) return bad_node(c, "an unknown flag");
@@ -165,7 +170,7 @@ static bool text_fits(const char *text, size_t size) {
     return i == size;
 }
 
-static bool meta_fits(const froe_tree *t) {
+bool tree_meta_fits(const froe_tree *t) {
     const tree_meta *m = &t->meta;
     if (!text_fits(m->method, sizeof m->method) || !text_fits(m->settings, sizeof m->settings)) return false;
     if (m->leaf > INT32_MAX || m->promise_count > TREE_PROMISES) return false;
@@ -178,11 +183,10 @@ static bool meta_fits(const froe_tree *t) {
     return finite_root(t, m->root_lo) && finite_root(t, m->root_hi);
 }
 
-froe_status tree_validate(const froe_tree *tree, froe_diagnostic *diag) {
+froe_status tree_validate_nodes(const froe_tree *tree, froe_diagnostic *diag) {
     const bool packed = tree_is_packed(tree);
     check c = {.tree = tree, .walk = {.tree = tree}, .nodes = 1, .bounds = packed ? 0 : 1, .diag = diag};
     froe_status status = FROE_OK;
-    if (!meta_fits(tree)) return support_fail(diag, FROE_E_FORMAT, "The tree is corrupted: its description is wrong.");
     bool begun = packed ? !tree->bound_count : tree->bound_count && tree->bounds[0] == 0;
     if (geom_context_new(&tree->alloc, &c.context)) return support_fail_memory(diag);
     if (!tree->node_count || !begun)
@@ -194,5 +198,14 @@ froe_status tree_validate(const froe_tree *tree, froe_diagnostic *diag) {
     if (c.nodes != tree->node_count || c.cuts != tree->cut_count || c.pieces != tree->piece_count ||
         c.bounds != tree->bound_count || c.normals != tree->normal_count)
         return support_fail(diag, FROE_E_FORMAT, "The tree is corrupted: something that no node uses.");
-    return packed ? packed_validate(tree, diag) : FROE_OK;
+    if (c.height != tree->facts.height || c.max_leaf != tree->facts.max_leaf)
+        return support_fail(diag, FROE_E_FORMAT, "The tree is corrupted: its height or its fullest leaf is wrong.");
+    return FROE_OK;
+}
+
+froe_status tree_validate(const froe_tree *tree, froe_diagnostic *diag) {
+    if (!tree_meta_fits(tree))
+        return support_fail(diag, FROE_E_FORMAT, "The tree is corrupted: its description is wrong.");
+    const froe_status status = tree_validate_nodes(tree, diag);
+    return status || !tree_is_packed(tree) ? status : packed_validate(tree, diag);
 }

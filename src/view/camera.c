@@ -254,6 +254,8 @@ froe_status froe_camera_place(const froe_camera *camera, const froe_scene *scene
         return support_fail(diag, FROE_E_OPTIONS, "An angle of view of %g degrees is not in 1 .. 170.", c->fov);
     if (!(c->scale >= 0) || !isfinite(c->scale))
         return support_fail(diag, FROE_E_OPTIONS, "A scale of %g is none.", c->scale);
+    const froe_status settled = scene_settle(scene, diag);
+    if (settled) return settled;
     const bool ok = fit_points_new(camera, scene, &points);
     const froe_status status = ok ? put_in_place(camera, scene, &points, out, diag) : support_fail_memory(diag);
     array_free(&scene->alloc, &points.own);

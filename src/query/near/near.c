@@ -119,7 +119,8 @@ static froe_status sort_candidates(froe_query *q, size_t k, double bound) {
 
 froe_status query_near_by_blocks(froe_query *q, size_t k, bool *out, froe_diagnostic *diag) {
     const query_pieces *pieces;
-    *out = q->packed && k == 1;
+    const froe_scene *s = q->tree->scene;
+    *out = q->packed && (k == 1 || (k && q->ready && s->object_count && scene_form(s, 0) != FROE_POINT));
     if (*out || !q->packed || !k) return FROE_OK;
     const froe_status status = query_pieces_of(q, &pieces, diag);
     *out = !status && !pieces->points;
@@ -185,7 +186,7 @@ froe_status froe_query_near(froe_query *query, const double *point, size_t k, do
     if (!status && !done) status = find_neighbours(query, k, bound, diag);
     if (!status) status = round_distances(query);
     query->stats.exact += query->numbers.stats.exact - exact;
-    if (status) return status == FROE_E_MEMORY ? support_fail_memory(diag) : status;
+    if (status) return status == FROE_E_MEMORY ? query_failed(query, diag) : status;
     *out = (froe_neighbours){n->out.data, n->out.count};
     return FROE_OK;
 }

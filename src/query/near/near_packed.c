@@ -117,6 +117,8 @@ static void lower_limit(query_near *n, const leaf_view *v, const uint32_t *ids, 
 
 static bool scan_leaf(froe_query *q, const packed_header *block, uint32_t count, size_t k) {
     query_near *n = &q->near;
+    const size_t at = (size_t)((const uint8_t *)block - q->tree->packed.blocks);
+    if (q->ready && !query_leaf_is_good(q, (uint32_t)(at / PACKED_BLOCK))) return false;
     packed_work *work = q->packed;
     const uint32_t *ids = packed_ids(block, count);
     const leaf_view v = view_leaf(n, block);

@@ -90,7 +90,7 @@ static uint32_t test(froe_query *q, uint32_t block, uint32_t count, const double
     const uint8_t *bytes = q->tree->packed.blocks + (size_t)block * PACKED_BLOCK;
     const packed_header *header = (const packed_header *)(const void *)bytes;
     packed_heights h = {.candidates = q->packed->candidates.data};
-    if (!count) return FROE_NONE;
+    if (!count || !query_leaf_is_good(q, block)) return FROE_NONE;
     q->stats.leaves++;
     q->stats.tests += count;
     q->packed->kernels->vertical(header, count, point, direction, &h);
@@ -175,7 +175,7 @@ froe_status packed_vertical(froe_query *q, const double *points, size_t count, i
         *objects = test(q, block, in_block, batch->point, direction);
         if (*objects != FROE_NONE || !more) q->stats.nodes += batch->nodes;
     }
-    if (count == 1) return FROE_OK;
+    if (count == 1) return q->bad.found ? FROE_E_MEMORY : FROE_OK;
     /* The next ray takes the place of one that is answered; where none is left, the last one does. */
     for (size_t i = 0; flying; i = i + 1 < flying ? i + 1 : 0) {
         climb *c = batch + i;
@@ -190,5 +190,5 @@ froe_status packed_vertical(froe_query *q, const double *points, size_t count, i
         batch[flying].stack = stack;
         if (i == flying) i = 0;
     }
-    return FROE_OK;
+    return q->bad.found ? FROE_E_MEMORY : FROE_OK;
 }

@@ -199,15 +199,21 @@ static bool reports(froe_query *q, const packed_unsure *u, const packed_window *
     return !enters_left && !enters_level;
 }
 
-/* How many objects begin in the leaves of a visit with an end. */
+/* How many objects begin in the leaves of a visit with an end, which is good. */
 static inline uint32_t owners_of(const froe_tree *t, const packed_visit *v) {
     return packed_block_at(t, v->end)->owner - packed_block_at(t, v->block)->owner;
 }
 
-/* Appends the answers of one visit to query->found. False without memory. */
+/* May the blocks of a visit be read? */
+static inline bool is_good(froe_query *q, const packed_visit *v) {
+    return !q->ready || (v->end ? query_owners_are_good(q, v->block, v->end) : query_leaf_is_good(q, v->block));
+}
+
+/* Appends the answers of one visit to query->found. False without memory, or where the visit is not good. */
 static bool answer_window(froe_query *q, const packed_visit *v, const packed_window *w) {
     const packed_header *block = packed_block_at(q->tree, v->block);
     packed_work *work = q->packed;
+    if (!is_good(q, v)) return false;
     if (v->end) {
         const uint32_t from = block->owner, count = owners_of(q->tree, v);
         q->stats.slices++;
@@ -268,6 +274,7 @@ static bool expect_answers(froe_query *q, size_t from, size_t to) {
     size_t most = PACKED_LANES;
     for (size_t i = from; i < to; i++) {
         const packed_visit *v = make_visit(q, i);
+        if (!is_good(q, v)) return false;
         most += v->end ? owners_of(q->tree, v) : v->count;
     }
     return array_reserve(&q->alloc, &q->found, most);
@@ -292,10 +299,9 @@ froe_status packed_count_range(froe_query *q, const double *lo, const double *hi
     uint64_t sum = 0;
     for (size_t i = 0; i < q->packed->visits.count && memory; i++) {
         const packed_visit *v = make_visit(q, i);
-        if (v->end)
-            sum += owners_of(q->tree, v), q->stats.slices++;
-        else
-            memory = answer_window(q, v, &w);
+        memory = is_good(q, v);
+        if (v->end && memory) sum += owners_of(q->tree, v), q->stats.slices++;
+        if (!v->end && memory) memory = answer_window(q, v, &w);
         sum += q->found.count;
         q->found.count = 0;
     }

@@ -125,7 +125,7 @@ static froe_status answer_alone(ray_batch *f, space_ray_state *r) {
     if (status || !flies) return status;
     space_step did = SPACE_ON;
     while (did == SPACE_ON) did = step_ray(f, r, true);
-    if (did == SPACE_NO_MEMORY) return support_fail_memory(f->diag);
+    if (did == SPACE_NO_MEMORY) return query_failed(f->query, f->diag);
     answer_ray(f, r);
     return FROE_OK;
 }
@@ -139,7 +139,7 @@ static froe_status answer_in_turns(ray_batch *f, space_ray_state *rays) {
     for (size_t i = 0; flying && !status; i = i + 1 < flying ? i + 1 : 0) {
         space_ray_state *r = rays + i;
         const space_step did = step_ray(f, r, false);
-        if (did == SPACE_NO_MEMORY) return support_fail_memory(f->diag);
+        if (did == SPACE_NO_MEMORY) return query_failed(f->query, f->diag);
         if (did != SPACE_END) continue;
         answer_ray(f, r);
         status = launch_ray(f, r, &flies);

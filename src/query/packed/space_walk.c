@@ -180,6 +180,7 @@ static bool take_hit(froe_query *q, space_walk *w, uint32_t object, float key, f
 static space_step push_objects(froe_query *q, space_walk *w, uint32_t block, float key) {
     space_work *work = q->space;
     const space_header *h = space_block(q->tree, block);
+    if (!query_leaf_is_good(q, block)) return SPACE_NO_MEMORY;
     const size_t room = h->count + PACKED_LANES, from = w->stack.count;
     if (!array_reserve(&q->alloc, &work->objects, room) || !array_reserve(&q->alloc, &work->keys, room) ||
         !array_reserve(&q->alloc, &work->ends, room) || !array_reserve(&q->alloc, &w->stack, room))

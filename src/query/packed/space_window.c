@@ -4,9 +4,11 @@
  * decided exactly; an object that several leaves list is looked at once. */
 #include "query/packed/space.h"
 
-/* Objects of a block that meet the window. False without memory. */
-static bool answer_space_window(froe_query *q, const space_header *h, const space_window *window) {
+/* Objects of a block that meet the window. False without memory, or if the block is not good. */
+static bool answer_space_window(froe_query *q, uint32_t block, const space_window *window) {
     space_work *w = q->space;
+    const space_header *h = space_block(q->tree, block);
+    if (!query_leaf_is_good(q, block)) return false;
     const size_t room = h->count + PACKED_LANES;
     bool memory = false;
     w->objects.count = 0;
@@ -50,6 +52,6 @@ froe_status space_range(froe_query *q, const double *lo, const double *hi, bool 
         }
     }
     for (size_t i = 0; i < q->space->others.count && !(any && q->found.count); i++)
-        if (!answer_space_window(q, space_block(q->tree, q->space->others.data[i]), &window)) return FROE_E_MEMORY;
+        if (!answer_space_window(q, q->space->others.data[i], &window)) return FROE_E_MEMORY;
     return FROE_OK;
 }

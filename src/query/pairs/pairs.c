@@ -134,8 +134,9 @@ froe_status froe_batch_pairs(froe_query *query, bool shared, const froe_batch_op
     if (!query || !fn) return support_fail_null(diag, __func__);
     const size_t jobs = ((size_t)query->tree->scene->object_count + OBJECTS_PER_JOB - 1) / OBJECTS_PER_JOB;
     const uint64_t queries = query->stats.queries;
-    query_workers workers;
-    froe_status status = query_workers_take(query, options, jobs, &workers, diag);
+    query_workers workers = {0};
+    froe_status status = tree_settle(query->tree, diag);
+    if (!status) status = query_workers_take(query, options, jobs, &workers, diag);
     if (!status) {
         status = query->packed ? packed_pairs(&workers, shared, fn, fn_user) : FROE_E_LIMIT;
         if (status == FROE_E_LIMIT) status = search_objects(&workers, shared, fn, fn_user);

@@ -24,13 +24,13 @@ froe_status query_range_ask(froe_query *q, const froe_range *range, bool any, fr
         query_begin(q);
         if (dim == 3) query_range_of_box(q, range);
         status = dim == 3 ? space_range(q, lo, hi, any) : any ? packed_any(q, lo, hi) : packed_range(q, lo, hi);
-        return status ? support_fail_memory(diag) : FROE_OK;
+        return status ? query_failed(q, diag) : FROE_OK;
     }
     query_begin(q);
     q->range.any = any;
     if (q->range.walk == FROE_WALK_CLASSES) return query_classes_search(q, diag);
     status = query_range_walk(q);
-    return status ? support_fail_memory(diag) : FROE_OK;
+    return status ? query_failed(q, diag) : FROE_OK;
 }
 
 froe_status froe_query_range(froe_query *query, const froe_range *range, froe_list *out, froe_diagnostic *diag) {
@@ -53,7 +53,7 @@ froe_status froe_query_count(froe_query *query, const froe_range *range, uint64_
     if (status) return status;
     query_begin(query);
     status = packed_count_range(query, range->points, range->points + 2, out);
-    return status ? support_fail_memory(diag) : FROE_OK;
+    return status ? query_failed(query, diag) : FROE_OK;
 }
 
 froe_status froe_query_any(froe_query *query, const froe_range *range, uint32_t *out, froe_diagnostic *diag) {

@@ -99,7 +99,7 @@ static inline froe_status gather_met(froe_query *q, double t_max, uint32_t kinds
         }
     }
     q->stats.exact += q->numbers.stats.exact - exact;
-    return status == FROE_E_MEMORY ? support_fail_memory(diag) : status;
+    return status == FROE_E_MEMORY ? query_failed(q, diag) : status;
 }
 
 /* ------------------------------------------------------------------- first -- */

@@ -26,6 +26,7 @@
 #include "support/fail.h"
 #include "tree/audit/inseparable.h"
 #include "tree/audit/trace.h"
+#include "tree/gate.h"
 #include "tree/packed/packed_audit.h"
 #include "tree/packed/space.h"
 #include "tree/validate.h"
@@ -342,6 +343,8 @@ froe_status froe_tree_audit(const froe_tree *tree, const froe_audit_options *opt
     base_task task;
     if (!tree) return support_fail_null(diag, __func__);
     if (o.size != sizeof o) return support_fail_defaults(diag, "froe_audit_defaults");
+    const froe_status settled = tree_settle(tree, diag);
+    if (settled) return settled;
     base_task_init(&task, o.threads, o.progress, o.user);
     audit a = {.tree = tree, .alloc = tree->alloc, .task = &task, .diag = diag, .exact_only = o.exact_only};
     froe_status status = check_all(&a);

@@ -23,35 +23,39 @@ static bool bytes_are_zero(const uint8_t *from, const uint8_t *to) {
     return from == to;
 }
 
-static froe_status check_block(packed_check *c, uint32_t node) {
-    const froe_tree *t = c->tree;
+bool packed_takes_place(const froe_tree *t, const tree_node *leaf, uint32_t *blocks) {
+    const uint32_t count = leaf->u.list.count;
+    if (leaf->child != *blocks || *blocks >= t->packed.block_count) return false;
+    const uint32_t room = t->packed.block_count - 1 - *blocks; /* without the sentinel */
+    if ((uint64_t)count * 12 > (uint64_t)room * PACKED_BLOCK || packed_size(count) > room) return false;
+    *blocks += packed_size(count);
+    return true;
+}
+
+const char *packed_leaf_fault(const froe_tree *t, uint32_t node, uint32_t *owners) {
     const tree_node *n = t->nodes + node;
-    uint32_t count = n->u.list.count, room = t->packed.block_count - 1 - c->blocks; /* without the sentinel */
-    if (n->child != c->blocks || (uint64_t)count * 12 > (uint64_t)room * PACKED_BLOCK || packed_size(count) > room)
-        return bad_block(c, node, "a block out of place");
+    const uint32_t count = n->u.list.count, end = n->child + packed_size(count);
     const packed_header *h = packed_block(t, n);
     packed_box box;
     bool fits = isfinite(h->lo[0]) && isfinite(h->lo[1]) && packed_cell(t, h, &box) == node && box.lo[0] == h->lo[0] &&
-                box.lo[1] == h->lo[1] && h->owner == c->owners;
+                box.lo[1] == h->lo[1] && h->owner == *owners && *owners <= t->packed.owner_count;
     bool coarse = h->scale == 0 && h->error == PACKED_COARSE;
     bool units = fits && h->scale == packed_scale(&box) && h->scale > 0 && h->error >= 0.5f && h->error < 0x1p16f;
     const uint32_t *ids = packed_ids(h, count);
-    c->blocks += packed_size(count);
-    if (!fits || !(coarse || units)) return bad_block(c, node, "a block whose header does not fit");
-    if (!bytes_are_zero((const uint8_t *)(ids + count), t->packed.blocks + (size_t)c->blocks * PACKED_BLOCK))
-        return bad_block(c, node, "a block with something behind its end");
+    if (!fits || !(coarse || units)) return "a block whose header does not fit";
+    if (!bytes_are_zero((const uint8_t *)(ids + count), t->packed.blocks + (size_t)end * PACKED_BLOCK))
+        return "a block with something behind its end";
     for (uint32_t i = 0; i < count; i++) {
         uint32_t object = ids[i] & PACKED_OBJECT;
-        if (object >= t->scene->object_count) return bad_block(c, node, "an object that does not exist");
-        if (scene_form(t->scene, object) > FROE_SEGMENT) return bad_block(c, node, "a kind that no block can hold");
-        if (scene_form(t->scene, object) == FROE_POINT && !packed_is_whole(ids[i]))
-            return bad_block(c, node, "a part of a point");
+        if (object >= t->scene->object_count) return "an object that does not exist";
+        if (scene_form(t->scene, object) > FROE_SEGMENT) return "a kind that no block can hold";
+        if (scene_form(t->scene, object) == FROE_POINT && !packed_is_whole(ids[i])) return "a part of a point";
         if (!(ids[i] & PACKED_START)) continue;
-        if (c->owners == t->packed.owner_count || t->packed.owners[c->owners] != object)
-            return bad_block(c, node, "owners that differ from the blocks");
-        c->owners++;
+        if (*owners == t->packed.owner_count || t->packed.owners[*owners] != object)
+            return "owners that differ from the blocks";
+        ++*owners;
     }
-    return FROE_OK;
+    return NULL;
 }
 
 froe_status packed_validate(const froe_tree *t, froe_diagnostic *diag) {
@@ -61,8 +65,13 @@ froe_status packed_validate(const froe_tree *t, froe_diagnostic *diag) {
     const tree_meta *m = &t->meta;
     bool fits = t->scene->dim == 2 && m->root_lo[0] <= m->root_hi[0] && m->root_lo[1] <= m->root_hi[1];
     froe_status status = fits && !t->cut_count ? FROE_OK : bad_block(&c, 0, "blocks that such a tree cannot have");
-    while (!status && tree_walk_next(&walk))
-        if (tree_is_leaf(t->nodes + walk.node)) status = check_block(&c, walk.node);
+    while (!status && tree_walk_next(&walk)) {
+        const tree_node *n = t->nodes + walk.node;
+        if (!tree_is_leaf(n)) continue;
+        const char *why = packed_takes_place(t, n, &c.blocks) ? packed_leaf_fault(t, walk.node, &c.owners)
+                                                              : "a block out of place";
+        if (why) status = bad_block(&c, walk.node, why);
+    }
     if (tree_walk_end(&walk)) return support_fail_memory(diag);
     if (status) return status;
     /* the sentinel is zeros, but for the number of all owners */

@@ -31,11 +31,11 @@ static bool header_fits(const froe_tree *t, const space_header *h) {
     return numbers && memcmp(h->unused, zeros, sizeof zeros) == 0;
 }
 
-static const char *check_block(const froe_tree *t, const tree_node *n, uint32_t *blocks) {
-    uint32_t count = n->u.list.count, room = t->packed.block_count - 1 - *blocks; /* without the sentinel */
-    if (n->child != *blocks || !room) return "a block out of place";
-    const space_header *h = space_block(t, n->child);
-    if (h->count != count || h->triangles > count) return "a block whose header does not fit";
+const char *space_leaf_fault(const froe_tree *t, uint32_t block, uint32_t *size) {
+    const uint32_t room = t->packed.block_count - 1 - block; /* without the sentinel */
+    const space_header *h = space_block(t, block);
+    const uint32_t count = h->count;
+    if (h->triangles > count) return "a block whose header does not fit";
     if ((uint64_t)count * 16 > (uint64_t)room * PACKED_BLOCK || space_size(count, h->triangles) > room)
         return "a block out of place";
     if (!header_fits(t, h)) return "a block whose header does not fit";
@@ -47,12 +47,21 @@ static const char *check_block(const froe_tree *t, const tree_node *n, uint32_t 
         if ((form == FROE_BOX || form == FROE_POINT) != ((id & SPACE_EXACT) != 0))
             return "a box or point not called so, or something else called so";
     }
-    *blocks += space_size(count, h->triangles);
+    *size = space_size(count, h->triangles);
     const uint8_t *end = (const uint8_t *)(space_row(h, 8) + h->triangles);
     const uint8_t *from = h->scale == 0 ? (const uint8_t *)(space_ids(h) + count) : end;
-    return range_is_zero(from, t->packed.blocks + (size_t)*blocks * PACKED_BLOCK)
+    return range_is_zero(from, t->packed.blocks + ((size_t)block + *size) * PACKED_BLOCK)
                ? NULL
                : "a block with something behind its end";
+}
+
+static const char *check_block(const froe_tree *t, const tree_node *n, uint32_t *blocks) {
+    uint32_t size;
+    if (n->child != *blocks || n->child + 1 >= t->packed.block_count) return "a block out of place";
+    if (space_block(t, n->child)->count != n->u.list.count) return "a block whose header does not fit";
+    const char *why = space_leaf_fault(t, n->child, &size);
+    if (!why) *blocks += size;
+    return why;
 }
 
 froe_status space_validate(const froe_tree *t, froe_diagnostic *diag) {

@@ -30,6 +30,9 @@ typedef struct tree_entry {
 #define TABLE_LEAF 0x80000000u
 #define TABLE_RAGGED 1u
 
+/** A cell of the table as files hold it: its node, and TABLE_RAGGED_CELL. */
+#define TABLE_RAGGED_CELL 0x80000000u
+
 struct tree_table {
     double lo[2], scale[2];
     uint32_t cells[2];   /**< per axis, powers of 2 */
@@ -37,10 +40,21 @@ struct tree_table {
     uint8_t *crooked[2]; /**< line -> bool; line i begins cell i */
 };
 
-/** *out NULL: the tree is not packed, or its root box too small or too large for a grid. FROE_E_MEMORY. O(leaves). */
+/** How many cells and lines a tree has, none unless it is packed and its root box has a size that a grid can have; its
+ * arrays are not made. O(1). */
+table_cells tree_table_shape(const froe_tree *t);
+/** Both from the nodes of the tree. FROE_E_MEMORY. O(nodes + cells). */
+froe_status tree_table_cells(const froe_tree *t, table_cells *out);
+void tree_table_cells_free(const froe_tree *t, table_cells *cells);
+
+/** *out NULL: there is none. From the nodes alone. FROE_E_MEMORY. O(nodes + cells). */
 froe_status tree_table_new(const froe_tree *t, tree_table **out);
+/** The same from cells of a file, of the shape that the tree has. FROE_E_FORMAT, without a sentence: a node does not
+ * exist. O(cells). */
+froe_status tree_table_from(const froe_tree *t, const table_cells *cells, tree_table **out);
 void tree_table_free(const froe_allocator *alloc, tree_table *table);
-uint64_t tree_table_bytes(const tree_table *table);
+/** Of the table that a tree has, once it is there. */
+uint64_t tree_table_bytes(const froe_tree *t);
 
 /** Where x lies in the grid; anything, NaN too, for an x outside. */
 static inline double tree_table_place(const tree_table *table, int axis, double x) {

@@ -164,17 +164,14 @@ static bool make_nodes(widening *w) {
 
 /* ------------------------------------------------------------------- whole -- */
 
-froe_status tree_wide_new(const froe_tree *t, tree_wide **out) {
+/* The coordinates of the wide tree; false: the tree has none. */
+static bool frame_wide(const froe_tree *t, tree_wide *wide) {
     const tree_meta *m = &t->meta;
     double size = 0;
     int exponent;
-    *out = NULL;
     if (!tree_is_space(t) || !t->scene->object_count || t->packed.block_count > WIDE_INDEX ||
         !space_is_tame(m->root_lo, m->root_hi))
-        return FROE_OK;
-    tree_wide *wide = support_calloc(&t->alloc, 1, sizeof *wide);
-    if (!wide) return FROE_E_MEMORY;
-    widening w = {.tree = t, .wide = wide};
+        return false;
     for (int k = 0; k < 3; k++) {
         size = fmax(size, m->root_hi[k] - m->root_lo[k]);
         wide->middle[k] = 0.5 * m->root_lo[k] + 0.5 * m->root_hi[k];
@@ -186,6 +183,17 @@ froe_status tree_wide_new(const froe_tree *t, tree_wide **out) {
         wide->lo[k] = (m->root_lo[k] - wide->middle[k]) * wide->scale;
         wide->hi[k] = (m->root_hi[k] - wide->middle[k]) * wide->scale;
     }
+    return true;
+}
+
+froe_status tree_wide_new(const froe_tree *t, tree_wide **out) {
+    tree_wide frame = {.scale = 0};
+    *out = NULL;
+    if (!frame_wide(t, &frame)) return FROE_OK;
+    tree_wide *wide = support_calloc(&t->alloc, 1, sizeof *wide);
+    if (!wide) return FROE_E_MEMORY;
+    *wide = frame;
+    widening w = {.tree = t, .wide = wide};
     w.boxes = support_calloc(&t->alloc, t->node_count, sizeof *w.boxes);
     w.forests = support_calloc(&t->alloc, t->node_count, sizeof *w.forests);
     bool made = w.boxes && w.forests;
@@ -205,6 +213,42 @@ froe_status tree_wide_new(const froe_tree *t, tree_wide **out) {
     return made ? FROE_OK : FROE_E_MEMORY;
 }
 
+froe_status tree_wide_from(const froe_tree *t, wide_node *nodes, size_t count, size_t levels, tree_wide **out) {
+    tree_wide frame = {.nodes = nodes, .count = count, .levels = levels};
+    *out = NULL;
+    const bool wanted = frame_wide(t, &frame);
+    if (wanted != (count > 0) || wanted != (levels > 0)) return FROE_E_FORMAT;
+    if (!wanted) return FROE_OK;
+    *out = support_calloc(&t->alloc, 1, sizeof **out);
+    if (!*out) return FROE_E_MEMORY;
+    **out = frame;
+    return FROE_OK;
+}
+
+/* Numbers that kernels do arithmetic with, and children that follow `last` or are leaves; *last is moved on. */
+static bool node_fits(const froe_tree *t, const wide_node *n, size_t *last) {
+    bool fits = n->count > 0 && n->count <= WIDE_CHILDREN && n->unused == WIDE_NORMAL;
+    for (int k = 0; k < 3; k++) fits = fits && fabs(n->lo[k]) <= 2 && n->shift[k] >= 4;
+    for (uint32_t i = 0; fits && i < n->count; i++) {
+        const uint32_t child = n->child[i];
+        if (child & WIDE_LEAF)
+            fits = (child & ~WIDE_LEAF) < t->packed.block_count - 1; /* the last one is a sentinel */
+        else
+            fits = child == ++*last;
+    }
+    return fits;
+}
+
+bool tree_wide_fits(const froe_tree *t, const tree_wide *wide) {
+    size_t levels = 0, last = 0, level = 0; /* level: where the next one begins */
+    for (size_t i = 0; i < wide->count; i++) {
+        if (i > last) return false;
+        if (i == level) level = last + 1, levels++;
+        if (!node_fits(t, wide->nodes + i, &last) || last >= wide->count) return false;
+    }
+    return last + 1 == wide->count && levels == wide->levels;
+}
+
 void tree_wide_free(const froe_allocator *alloc, tree_wide *wide) {
     if (!wide) return;
     support_free(alloc, wide->memory, wide->memory_size);
@@ -212,5 +256,5 @@ void tree_wide_free(const froe_allocator *alloc, tree_wide *wide) {
 }
 
 uint64_t tree_wide_bytes(const tree_wide *wide) {
-    return wide ? wide->memory_size + sizeof *wide : 0;
+    return wide ? wide->count * sizeof *wide->nodes + PACKED_BLOCK + sizeof *wide : 0;
 }

@@ -8,7 +8,7 @@
  *      / \   / \            +--+--+-- ... --+--+     in units of the node, a byte each, rounded outwards
  *    ...............         c0 c1           cf      blocks of leaves, or other wide nodes
  *
- * Made from the nodes and the boxes of blocks when a tree is built or opened; files do not hold it. The box with
+ * Made from the nodes and the boxes of blocks when a tree is built, and saved with it. The box with
  * largest surface is opened until there are sixteen, so a search that meets a node may compare all of them at once and
  * go on with those it meets. Leaves without objects are left out. Bounds are so much wider than the boxes of
  * leaves that rounding leaves no object out. */
@@ -42,6 +42,12 @@ struct tree_wide {
 
 /** *out NULL: the tree is not one of space, empty, or too large or small for it. FROE_E_MEMORY. O(nodes). */
 froe_status tree_wide_new(const froe_tree *t, tree_wide **out);
+/** The same over nodes that lie in a file, at a multiple of 64, and are not checked. FROE_E_FORMAT, without a sentence:
+ * there are nodes where a tree has none, or none where it has some. FROE_E_MEMORY. O(1). */
+froe_status tree_wide_from(const froe_tree *t, wide_node *nodes, size_t count, size_t levels, tree_wide **out);
+/** May it be searched? Each node is the child of one, they lie breadth first, their levels are counted right, and
+ * leaves are blocks that the tree has. O(wide nodes). */
+bool tree_wide_fits(const froe_tree *t, const tree_wide *wide);
 void tree_wide_free(const froe_allocator *alloc, tree_wide *wide);
 uint64_t tree_wide_bytes(const tree_wide *wide);
 #endif

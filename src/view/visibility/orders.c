@@ -4,6 +4,7 @@
 #include "base/task.h"
 #include "geom/selftest.h"
 #include "support/fail.h"
+#include "tree/gate.h"
 #include "view/visibility/order.h"
 
 enum { EYES_PER_WORD = 32, NODES_PER_TASK = 4096 };
@@ -20,7 +21,7 @@ static froe_status check_orders(const froe_tree *tree, const froe_order_options 
     if (tree->scene->dim > 3)
         return support_fail(diag, FROE_E_UNSUPPORTED, "Depth orders exist in 2 and 3 dimensions, not in %d.",
                             tree->scene->dim);
-    return FROE_OK;
+    return tree_settle(tree, diag);
 }
 
 froe_status froe_tree_order(const froe_tree *tree, const froe_eye *eye, const froe_order_options *options,

@@ -32,6 +32,8 @@ froe_status froe_surface_new(const froe_scene *scene, const froe_allocator *allo
     if (!scene || !out) return support_fail_null(diag, __func__);
     if (scene->dim != 3)
         return support_fail(diag, FROE_E_UNSUPPORTED, "Surfaces exist in 3 dimensions, not in %d.", scene->dim);
+    const froe_status settled = scene_settle(scene, diag);
+    if (settled) return settled;
     const froe_allocator own = support_allocator(alloc);
     froe_surface *s = support_calloc(&own, 1, sizeof *s);
     if (!s) return support_fail_memory(diag);

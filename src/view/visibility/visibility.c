@@ -1,6 +1,7 @@
 /* visibility.c: pieces front to back, each sent down the beam tree. */
 #include "base/floats.h"
 #include "support/fail.h"
+#include "tree/gate.h"
 #include "view/visibility/crossings.h"
 #include "view/visibility/order.h"
 #include "view/visibility/wires.h"
@@ -204,6 +205,8 @@ static froe_status check_visibility_options(const froe_tree *tree, const froe_su
     if (!tree || !surface) return support_fail_null(diag, "froe_visibility_new");
     if (!o || o->size != sizeof *o) return support_fail_defaults(diag, "froe_visibility_defaults");
     if (surface->scene != tree->scene) return support_fail(diag, FROE_E_ARG, "The surface is not of the tree's scene.");
+    const froe_status settled = tree_settle(tree, diag);
+    if (settled) return settled;
     if (o->section < -1 || o->section > 1)
         return support_fail(diag, FROE_E_OPTIONS, "A section is -1, 0 or 1, not %d.", o->section);
     if (o->section && tree_is_leaf(tree->nodes))
