@@ -177,7 +177,7 @@ froe_status scene_mapped(const froe_scene *arrays, const froe_allocator *caller,
     s->mapped = true;
     s->store = NULL;
     atomic_init(&s->holds, 1);
-    atomic_init(&s->unchecked, true);
+    atomic_init(&s->trust, SCENE_UNCHECKED);
     *out = s;
     return FROE_OK;
 }
@@ -199,10 +199,13 @@ static bool bounds_fit(const froe_scene *s) {
 }
 
 froe_status scene_settle(const froe_scene *s, froe_diagnostic *diag) {
-    if (scene_is_checked(s)) return FROE_OK;
+    atomic_int *trust = &((froe_scene *)(uintptr_t)s)->trust;
+    const int known = atomic_load_explicit(trust, memory_order_relaxed);
+    if (known == SCENE_RIGHT) return FROE_OK;
+    if (known == SCENE_WRONG && !diag) return FROE_E_FORMAT;
     froe_status status = scene_validate(s, &s->alloc, diag);
     if (!status && !bounds_fit(s)) status = bad_scene(diag, "its bounds are wrong");
-    if (!status) atomic_store_explicit(&((froe_scene *)(uintptr_t)s)->unchecked, false, memory_order_relaxed);
+    if (status != FROE_E_MEMORY) atomic_store_explicit(trust, status ? SCENE_WRONG : SCENE_RIGHT, memory_order_relaxed);
     return status;
 }
 

@@ -28,10 +28,13 @@ typedef struct scene_group {
     uint32_t colour;                      /**< see froe_group */
 } scene_group;
 
+/** Of arrays that come from a file: what scene_settle() has found. */
+typedef enum scene_trust { SCENE_RIGHT = 0, SCENE_UNCHECKED, SCENE_WRONG } scene_trust;
+
 struct froe_scene {
     froe_allocator alloc;
     atomic_uint holds; /**< the caller's and each tree's; > 1: frozen */
-    atomic_bool unchecked; /**< arrays of a file that scene_settle() has not found right yet */
+    atomic_int trust;  /**< scene_trust */
     bool mapped;
     void *map; /**< the file they lie in, which goes with the scene; trees that hold it may lie there, too */
     size_t map_size;
@@ -196,10 +199,10 @@ froe_status scene_mapped(const froe_scene *arrays, const froe_allocator *alloc, 
                          froe_diagnostic *diag);
 /** Is there nothing left to be checked? Until then the arrays are untrusted: readers ask scene_object_fits() first. */
 static inline bool scene_is_checked(const froe_scene *s) {
-    return !atomic_load_explicit(&s->unchecked, memory_order_relaxed);
+    return atomic_load_explicit(&s->trust, memory_order_relaxed) == SCENE_RIGHT;
 }
-/** Checks an unchecked scene whole, by scene_validate(), and its bounds. O(1) on others. FROE_E_FORMAT, FROE_E_MEMORY.
- */
+/** Checks an unchecked scene whole, by scene_validate(), and its bounds. O(1) once that has been done, unless it is wrong
+ * and the sentence is wanted. FROE_E_FORMAT, FROE_E_MEMORY. */
 froe_status scene_settle(const froe_scene *s, froe_diagnostic *diag);
 /** May the corners, the radius and the group of an object, whose id is good, be looked up? O(corners of the object). */
 bool scene_object_fits(const froe_scene *s, uint32_t object);

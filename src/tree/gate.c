@@ -11,7 +11,7 @@
 struct tree_gate {
     const uint8_t *bytes; /* of the file */
     uint64_t size;
-    atomic_bool settled;
+    atomic_int trust; /* scene_trust */
     _Atomic(tree_ready *) ready; /* NULL until the first search */
 };
 
@@ -20,7 +20,7 @@ froe_status tree_gate_new(const froe_allocator *alloc, const uint8_t *bytes, uin
     if (!gate) return FROE_E_MEMORY;
     gate->bytes = bytes;
     gate->size = size;
-    atomic_init(&gate->settled, false);
+    atomic_init(&gate->trust, SCENE_UNCHECKED);
     atomic_init(&gate->ready, NULL);
     return FROE_OK;
 }
@@ -94,12 +94,15 @@ static froe_status check_made(const froe_tree *t, froe_diagnostic *diag) {
 }
 
 froe_status tree_settle(const froe_tree *t, froe_diagnostic *diag) {
-    if (!t->gate || atomic_load_explicit(&t->gate->settled, memory_order_relaxed)) return FROE_OK;
+    const int known = t->gate ? atomic_load_explicit(&t->gate->trust, memory_order_relaxed) : SCENE_RIGHT;
+    if (known == SCENE_RIGHT) return FROE_OK;
+    if (known == SCENE_WRONG && !diag) return FROE_E_FORMAT;
     froe_status status = check_bytes(t->gate, diag);
     if (!status) status = scene_settle(t->scene, diag);
     if (!status) status = tree_validate(t, diag);
     if (!status) status = check_made(t, diag);
-    if (!status) atomic_store_explicit(&t->gate->settled, true, memory_order_relaxed);
+    if (status != FROE_E_MEMORY)
+        atomic_store_explicit(&t->gate->trust, status ? SCENE_WRONG : SCENE_RIGHT, memory_order_relaxed);
     return status;
 }
 

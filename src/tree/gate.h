@@ -28,8 +28,8 @@ enum { READY_OWNERS = 1024 };
 froe_status tree_gate_new(const froe_allocator *alloc, const uint8_t *bytes, uint64_t size, tree_gate **out);
 void tree_gate_free(const froe_allocator *alloc, tree_gate *gate);
 
-/** Checks all of an opened tree, once it is right never again. O(1) on a tree that was built. FROE_E_FORMAT,
- * FROE_E_MEMORY. */
+/** Checks all of an opened tree, unless that has been done: as scene_settle(). O(1) on a tree that was built.
+ * FROE_E_FORMAT, FROE_E_MEMORY. */
 froe_status tree_settle(const froe_tree *tree, froe_diagnostic *diag);
 /** Checks what every search of a packed tree reads; settles any other. *out NULL: search the tree itself. The gate keeps
  * it. FROE_E_FORMAT, FROE_E_MEMORY. */

@@ -11,6 +11,7 @@
  */
 #include "query/answers.h"
 #include "support/forge.h"
+#include "support/opened.h"
 #include "support/samples.h"
 #include <fcntl.h>
 #include <signal.h>
@@ -76,6 +77,13 @@ static outcome judge_tree(mutation *m, const froe_tree *tree, uint64_t seed) {
     froe_diagnostic why;
     char text[300];
     o.threads = 1;
+    opened_ask(tree, seed, ROUNDS);
+    const froe_status whole = froe_tree_check(tree, &why);
+    if (whole) {
+        if (whole != FROE_E_FORMAT || !why.message[0]) complain(m, "refused without a reason");
+        opened_ask(tree, seed + 1, ROUNDS);
+        return REFUSED;
+    }
     const froe_status status = froe_tree_audit(tree, &o, &why);
     if (status == FROE_OK) {
         if (!answers_right(tree, seed, ROUNDS, text, sizeof text)) complain(m, text);

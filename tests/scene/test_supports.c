@@ -185,12 +185,21 @@ static froe_scene *motley(void) {
     return s;
 }
 
+/* The scene over those arrays, checked whole. */
+static froe_status map_whole(const froe_scene *arrays, const froe_allocator *alloc, froe_scene **out,
+                             froe_diagnostic *diag) {
+    froe_status status = scene_mapped(arrays, alloc, out, diag);
+    if (!status) status = froe_scene_check(*out, diag);
+    if (status && *out) froe_scene_free(*out);
+    return status;
+}
+
 static void a_mapped_scene_reads_like_the_one_it_came_from(void **state) {
     (void)state;
-    froe_scene *s = motley(), *m;
+    froe_scene *s = motley(), *m = NULL;
     test_memory memory;
     froe_allocator alloc = test_memory_begin(&memory);
-    assert_int_equal(scene_mapped(s, &alloc, &m, NULL), FROE_OK);
+    assert_int_equal(map_whole(s, &alloc, &m, NULL), FROE_OK);
     double lo[2][3], hi[2][3];
     froe_scene_bounds(s, lo[0], hi[0]);
     froe_scene_bounds(m, lo[1], hi[1]);
@@ -284,10 +293,10 @@ static void corrupted_arrays_are_refused_or_harmless(void **state) {
     froe_scene *s = motley();
     size_t refused = 0, accepted = 0;
     for (uint64_t round = 0; round < 4000; round++) {
-        froe_scene c = exact_copy(s), *m;
+        froe_scene c = exact_copy(s), *m = NULL;
         froe_diagnostic diag;
         for (uint64_t i = 0; i <= round % 3; i++) corrupt(&c, base_hash(5, round, i));
-        froe_status status = scene_mapped(&c, NULL, &m, &diag);
+        froe_status status = map_whole(&c, NULL, &m, &diag);
         assert_true(status == FROE_OK || status == FROE_E_FORMAT);
         if (status) {
             assert_non_null(strstr(diag.message, "corrupted"));
@@ -317,16 +326,17 @@ static void missing_parts_and_wrong_counts_are_refused(void **state) {
         if (fault == 6) c.kind_of = NULL;
         if (fault == 7) c.start_of = NULL;
         if (fault == 8) c.text_size = 0;
-        assert_int_equal(scene_mapped(&c, NULL, &m, NULL), FROE_E_FORMAT);
+        m = NULL;
+        assert_int_equal(map_whole(&c, NULL, &m, NULL), FROE_E_FORMAT);
     }
     froe_scene_free(s);
 }
 
 static froe_status map_and_compare(void *user, const froe_allocator *alloc) {
     const froe_scene *s = user;
-    froe_scene *m;
+    froe_scene *m = NULL;
     uint32_t originals[16];
-    froe_status status = scene_mapped(s, alloc, &m, NULL);
+    froe_status status = map_whole(s, alloc, &m, NULL);
     if (status) return status;
     status = scene_originals(m, alloc, originals);
     froe_scene_free(m);

@@ -1,5 +1,6 @@
 /* test_file.c: saving and opening: what goes out comes back, and nothing else comes in. */
 #include "support/forge.h"
+#include "support/opened.h"
 #include "trees.h"
 #include <dirent.h>
 #include <fcntl.h>
@@ -281,20 +282,21 @@ static void checksums_are_as_specified(void **state) {
 static void files_are_as_specified(void **state) {
     (void)state;
     static const uint8_t magic[8] = {0x89, 0x66, 0x72, 0x6f, 0x65, 0x0d, 0x0a, 0x1a};
-    static const uint64_t items[20] = {1264, 16, 24, 8, 4, 8, 8, 1, 1, 4, 4, 8, 8, 4, 4, 20, 1, 64, 4, 1};
+    static const uint64_t items[24] = {1264, 16, 24, 8,  4, 8,  8, 1, 1,   4, 4, 8,
+                                       8,    4,  4,  20, 1, 64, 4, 1, 208, 4, 1, 192};
     froe_tree *tree = rich_tree(3);
     const froe_scene *scene = froe_tree_scene(tree);
-    size_t size, offset = 704;
+    size_t size, offset = 832;
     assert_saved(tree, NAME);
     uint8_t *bytes = slurp(NAME, &size);
     assert_memory_equal(bytes, magic, 8);
-    assert_int_equal(number(bytes, 8, 4), 3);
-    assert_int_equal(number(bytes, 12, 4), 20);
+    assert_int_equal(number(bytes, 8, 4), 4);
+    assert_int_equal(number(bytes, 12, 4), 24);
     assert_int_equal(number(bytes, 16, 8), size);
     assert_int_equal(number(bytes, 24, 4), 3);
     assert_int_equal(number(bytes, 32, 4), FROE_CRS_PROJECTED);
-    assert_true(number(bytes, 56, 8) == file_checksum(bytes + 64, 20 * 32, file_checksum(bytes, 56, 0)));
-    const uint64_t counts[20] = {1,
+    assert_true(number(bytes, 56, 8) == file_checksum(bytes + 64, 24 * 32, file_checksum(bytes, 56, 0)));
+    const uint64_t counts[24] = {1,
                                  tree->node_count,
                                  tree->cut_count,
                                  tree->piece_count,
@@ -313,8 +315,12 @@ static void files_are_as_specified(void **state) {
                                  scene->text_size,
                                  0,
                                  0,
-                                 sizeof CRS_STRINGS - 1};
-    for (size_t i = 0; i < 20; i++) {
+                                 sizeof CRS_STRINGS - 1,
+                                 1,
+                                 0,
+                                 0,
+                                 0};
+    for (size_t i = 0; i < 24; i++) {
         const size_t entry = 64 + 32 * i;
         assert_int_equal(number(bytes, entry, 4), i + 1);
         assert_int_equal(number(bytes, entry + 4, 4), items[i]);
@@ -324,9 +330,9 @@ static void files_are_as_specified(void **state) {
         offset = (offset + counts[i] * items[i] + 63) / 64 * 64;
     }
     assert_int_equal(offset, size);
-    assert_string_equal(bytes + 704, "density");
+    assert_string_equal(bytes + 832, "density");
     const size_t strings = (sizeof CRS_STRINGS - 1 + 63) / 64 * 64;
-    assert_memory_equal(bytes + size - strings, CRS_STRINGS, sizeof CRS_STRINGS - 1);
+    assert_memory_equal(bytes + size - 256 - strings, CRS_STRINGS, sizeof CRS_STRINGS - 1);
     free(bytes);
     froe_tree_free(tree);
     unlink(NAME);
@@ -375,7 +381,10 @@ static froe_status try_bytes(const uint8_t *bytes, size_t size, froe_diagnostic 
     froe_tree *tree = NULL;
     froe_status status = froe_tree_open_memory(bytes, size, NULL, &tree, why);
     if (status == FROE_OK) {
-        look_at_all(tree);
+        opened_ask(tree, size, 4); /* what each search reads is checked by it ... */
+        status = froe_tree_check(tree, why);
+        look_at_all(tree); /* ... and by the first other call, everything */
+        if (status) assert_int_equal(froe_tree_save(tree, "never.froe", NULL), FROE_E_FORMAT);
         froe_tree_free(tree);
     } else {
         assert_int_equal(why->status, status);
@@ -395,7 +404,7 @@ static uint8_t *small_file(int layout, size_t *size) {
 /* What to do about it is said. */
 static void files_of_other_versions_are_refused(void **state) {
     (void)state;
-    static const uint8_t versions[] = {0, 1, 2, 4};
+    static const uint8_t versions[] = {0, 1, 2, 3, 5};
     size_t size;
     uint8_t *bytes = small_file(COVERED, &size);
     for (size_t i = 0; i < sizeof versions; i++) {
@@ -407,9 +416,9 @@ static void files_of_other_versions_are_refused(void **state) {
         spill("other.froe", bytes, size);
         assert_int_equal(froe_tree_open("other.froe", NULL, &tree, &why), FROE_E_FORMAT);
         snprintf(expected, sizeof expected,
-                 "other.froe: It is a tree file of version %u, and this froe reads version 3: build it again from its "
+                 "other.froe: It is a tree file of version %u, and this froe reads version 4: %sbuild it again from its "
                  "scene.",
-                 versions[i]);
+                 versions[i], versions[i] > 4 ? "open it with a newer froe, or " : "");
         assert_string_equal(why.message, expected);
     }
     free(bytes);
