@@ -56,11 +56,11 @@ struct froe_query {
     query_ray ray;
     query_near near;
     query_range range;
-    const tree_ready *ready;    /**< of an opened tree: its leaves are checked when they are first visited; or NULL */
+    const tree_ready *ready; /**< of an opened tree: its leaves are checked when they are first visited; or NULL */
     struct {
         bool found, owners; /**< owners: what is wrong is a slice of them */
         uint32_t block, end;
-    } bad; /**< what of an opened tree is not right, of what the query in progress has met */
+    } bad;                      /**< what of an opened tree is not right, of what the query in progress has met */
     struct packed_work *packed; /**< packed trees of the plane only (query/packed/packed.h) */
     struct space_work *space;   /**< packed trees of space only (query/packed/space.h) */
     struct {

@@ -198,7 +198,9 @@ static bool bounds_fit(const froe_scene *s) {
     return fit;
 }
 
-froe_status scene_settle(const froe_scene *s, froe_diagnostic *diag) {
+froe_status froe_scene_check(const froe_scene *s, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
+    if (!s) return support_fail_null(diag, __func__);
     atomic_int *trust = &((froe_scene *)(uintptr_t)s)->trust;
     const int known = atomic_load_explicit(trust, memory_order_relaxed);
     if (known == SCENE_RIGHT) return FROE_OK;
@@ -207,9 +209,4 @@ froe_status scene_settle(const froe_scene *s, froe_diagnostic *diag) {
     if (!status && !bounds_fit(s)) status = bad_scene(diag, "its bounds are wrong");
     if (status != FROE_E_MEMORY) atomic_store_explicit(trust, status ? SCENE_WRONG : SCENE_RIGHT, memory_order_relaxed);
     return status;
-}
-
-froe_status froe_scene_check(const froe_scene *scene, froe_diagnostic *diag) {
-    BASE_FLOATS_OWN;
-    return scene ? scene_settle(scene, diag) : support_fail_null(diag, __func__);
 }

@@ -201,9 +201,11 @@ froe_status scene_mapped(const froe_scene *arrays, const froe_allocator *alloc, 
 static inline bool scene_is_checked(const froe_scene *s) {
     return atomic_load_explicit(&s->trust, memory_order_relaxed) == SCENE_RIGHT;
 }
-/** Checks an unchecked scene whole, by scene_validate(), and its bounds. O(1) once that has been done, unless it is wrong
- * and the sentence is wanted. FROE_E_FORMAT, FROE_E_MEMORY. */
-froe_status scene_settle(const froe_scene *s, froe_diagnostic *diag);
+/** Checks an unchecked scene whole, by scene_validate(), and its bounds. O(1) once that has been done, unless it is
+ * wrong and the sentence is wanted. FROE_E_FORMAT, FROE_E_MEMORY. */
+static inline froe_status scene_settle(const froe_scene *s, froe_diagnostic *diag) {
+    return scene_is_checked(s) ? FROE_OK : froe_scene_check(s, diag);
+}
 /** May the corners, the radius and the group of an object, whose id is good, be looked up? O(corners of the object). */
 bool scene_object_fits(const froe_scene *s, uint32_t object);
 /** May the strings of a group be looked up? */

@@ -70,8 +70,7 @@ uint32_t scene_object_of(const froe_scene *s, uint32_t corner) {
 bool froe_scene_edge(const froe_scene *s, uint32_t edge, uint32_t vertices[2]) {
     if (edge >= s->corner_count || !s->object_count) return false;
     uint32_t object = scene_object_of(s, edge), first = scene_start(s, object);
-    if (!scene_is_checked(s) &&
-        (first > edge || scene_start(s, object + 1) <= edge || !scene_object_fits(s, object)))
+    if (!scene_is_checked(s) && (first > edge || scene_start(s, object + 1) <= edge || !scene_object_fits(s, object)))
         return false;
     uint32_t next = edge + 1 < scene_start(s, object + 1) ? edge + 1 : first;
     if (scene_form(s, object) != FROE_SEGMENT && scene_form(s, object) != FROE_POLYGON) return false;

@@ -11,7 +11,7 @@
 struct tree_gate {
     const uint8_t *bytes; /* of the file */
     uint64_t size;
-    atomic_int trust; /* scene_trust */
+    atomic_int trust;            /* scene_trust */
     _Atomic(tree_ready *) ready; /* NULL until the first search */
 };
 
@@ -80,9 +80,9 @@ static froe_status check_made(const froe_tree *t, froe_diagnostic *diag) {
     tree_table_cells_free(t, &cells);
     if (tree_wide_new(t, &wide)) return support_fail_memory(diag);
     const tree_wide *nodes = t->packed.wide;
-    const bool wide_same = !wide == !nodes && (!wide || (wide->count == nodes->count && wide->levels == nodes->levels &&
-                                                         same(wide->nodes, nodes->nodes,
-                                                              wide->count * sizeof *wide->nodes)));
+    const bool wide_same =
+        !wide == !nodes && (!wide || (wide->count == nodes->count && wide->levels == nodes->levels &&
+                                      same(wide->nodes, nodes->nodes, wide->count * sizeof *wide->nodes)));
     if (wide) facts.levels = wide->levels;
     tree_wide_free(&t->alloc, wide);
     const char *what = !same(&facts, &t->facts, sizeof facts) ? "counts"
@@ -90,13 +90,19 @@ static froe_status check_made(const froe_tree *t, froe_diagnostic *diag) {
                        : !wide_same                           ? "boxes"
                                                               : NULL;
     if (!what) return FROE_OK;
-    return support_fail(diag, FROE_E_FORMAT, "The tree is corrupted: it has %s that do not follow from its nodes.", what);
+    return support_fail(diag, FROE_E_FORMAT, "The tree is corrupted: it has %s that do not follow from its nodes.",
+                        what);
 }
 
-froe_status tree_settle(const froe_tree *t, froe_diagnostic *diag) {
-    const int known = t->gate ? atomic_load_explicit(&t->gate->trust, memory_order_relaxed) : SCENE_RIGHT;
-    if (known == SCENE_RIGHT) return FROE_OK;
-    if (known == SCENE_WRONG && !diag) return FROE_E_FORMAT;
+bool tree_is_checked(const froe_tree *t) {
+    return !t->gate || atomic_load_explicit(&t->gate->trust, memory_order_relaxed) == SCENE_RIGHT;
+}
+
+froe_status froe_tree_check(const froe_tree *t, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
+    if (!t) return support_fail_null(diag, __func__);
+    if (tree_is_checked(t)) return FROE_OK;
+    if (!diag && atomic_load_explicit(&t->gate->trust, memory_order_relaxed) == SCENE_WRONG) return FROE_E_FORMAT;
     froe_status status = check_bytes(t->gate, diag);
     if (!status) status = scene_settle(t->scene, diag);
     if (!status) status = tree_validate(t, diag);
@@ -104,11 +110,6 @@ froe_status tree_settle(const froe_tree *t, froe_diagnostic *diag) {
     if (status != FROE_E_MEMORY)
         atomic_store_explicit(&t->gate->trust, status ? SCENE_WRONG : SCENE_RIGHT, memory_order_relaxed);
     return status;
-}
-
-froe_status froe_tree_check(const froe_tree *tree, froe_diagnostic *diag) {
-    BASE_FLOATS_OWN;
-    return tree ? tree_settle(tree, diag) : support_fail_null(diag, __func__);
 }
 
 /* -------------------------------------------------------------------- ready -- */

@@ -94,6 +94,8 @@ static void ask_tree(floats_run *r, const froe_tree *tree) {
     MUST(r, froe_tree_save(tree, FILE_NAME, NULL));
     floats_note_file(r, FILE_NAME);
     MUST(r, froe_tree_open(FILE_NAME, &(froe_allocator){floats_memory, r}, &again, NULL));
+    MUST(r, froe_scene_check(froe_tree_scene(again), NULL));
+    MUST(r, froe_tree_check(again, NULL));
     if (froe_tree_node(again, froe_tree_root(again)).child[0].id1) {
         froe_node_info info;
         TELL(r, info = froe_tree_node(again, froe_tree_root(again)));

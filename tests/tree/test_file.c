@@ -415,10 +415,11 @@ static void files_of_other_versions_are_refused(void **state) {
         forge_checksums(bytes, size);
         spill("other.froe", bytes, size);
         assert_int_equal(froe_tree_open("other.froe", NULL, &tree, &why), FROE_E_FORMAT);
-        snprintf(expected, sizeof expected,
-                 "other.froe: It is a tree file of version %u, and this froe reads version 4: %sbuild it again from its "
-                 "scene.",
-                 versions[i], versions[i] > 4 ? "open it with a newer froe, or " : "");
+        snprintf(
+            expected, sizeof expected,
+            "other.froe: It is a tree file of version %u, and this froe reads version 4: %sbuild it again from its "
+            "scene.",
+            versions[i], versions[i] > 4 ? "open it with a newer froe, or " : "");
         assert_string_equal(why.message, expected);
     }
     free(bytes);

@@ -72,7 +72,8 @@ froe_status packed_count_range(froe_query *query, const double *lo, const double
 /** Some of them, at least one if there is any. FROE_E_MEMORY. */
 froe_status packed_any(froe_query *query, const double *lo, const double *hi);
 /** The first segment above (1) or below (-1) each of `count` points, through it counts: that of lowest id where it
- * meets several at one point; FROE_NONE if there is none. Finite points. FROE_E_MEMORY, also where a leaf is not good. */
+ * meets several at one point; FROE_NONE if there is none. Finite points. FROE_E_MEMORY, also for a leaf that is not
+ * good. */
 froe_status packed_vertical(froe_query *query, const double *points, size_t count, int direction, uint32_t *objects);
 /** Checks a point to look up or down from. */
 froe_status query_vertical_check(const froe_query *query, const double *point, int direction, froe_diagnostic *diag);

@@ -103,8 +103,8 @@ uint32_t packed_count(const froe_tree *t);
 /** Does the block of a leaf of the plane begin at `*blocks`, with room for its pieces before the sentinel? Moves
  * *blocks behind it. */
 bool packed_takes_place(const froe_tree *t, const tree_node *leaf, uint32_t *blocks);
-/** What is wrong in the block of a leaf of the plane, as a clause, or NULL. The nodes have been checked, and objects can
- * be looked up. *owners, objects that begin before it, is moved on. O(height + pieces). */
+/** What is wrong in the block of a leaf of the plane, as a clause, or NULL. The nodes have been checked. *owners,
+ * objects that begin before it, is moved on. O(height + pieces). */
 const char *packed_leaf_fault(const froe_tree *t, uint32_t node, uint32_t *owners);
 /** Checks what is special of a packed tree whose nodes have been checked (tree/validate.h). */
 froe_status packed_validate(const froe_tree *t, froe_diagnostic *diag);

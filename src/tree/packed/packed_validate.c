@@ -68,8 +68,8 @@ froe_status packed_validate(const froe_tree *t, froe_diagnostic *diag) {
     while (!status && tree_walk_next(&walk)) {
         const tree_node *n = t->nodes + walk.node;
         if (!tree_is_leaf(n)) continue;
-        const char *why = packed_takes_place(t, n, &c.blocks) ? packed_leaf_fault(t, walk.node, &c.owners)
-                                                              : "a block out of place";
+        const char *why =
+            packed_takes_place(t, n, &c.blocks) ? packed_leaf_fault(t, walk.node, &c.owners) : "a block out of place";
         if (why) status = bad_block(&c, walk.node, why);
     }
     if (tree_walk_end(&walk)) return support_fail_memory(diag);

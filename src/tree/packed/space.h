@@ -86,8 +86,8 @@ bool space_is_tame(const double *lo, const double *hi);
 uint32_t space_sort(space_item *items, uint32_t count);
 /** Writes header, ids and rows of items that have been sorted to a zeroed block. */
 void space_write(space_header *block, const froe_scene *s, const space_item *items, uint32_t count, uint32_t triangles);
-/** What is wrong in the block of a leaf, as a clause, or NULL. Objects can be looked up; the block begins before the
- * sentinel. *size: blocks that it takes. O(pieces). */
+/** What is wrong in the block of a leaf, as a clause, or NULL. It begins before the sentinel. *size: blocks that it
+ * takes. O(pieces). */
 const char *space_leaf_fault(const froe_tree *t, uint32_t block, uint32_t *size);
 /** Checks what is special of a packed tree of space whose nodes have been checked (tree/validate.h). */
 froe_status space_validate(const froe_tree *t, froe_diagnostic *diag);
