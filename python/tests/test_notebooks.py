@@ -1,6 +1,8 @@
 """The notebooks of docs/tutorials/python run, print what they show, and draw something; scripts/check-notebooks says
 how. So the tests below it: a notebook that raises, prints something else or draws nothing is found."""
 
+import importlib.util
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -27,6 +29,20 @@ def test_there_are_notebooks():
 def test_notebook(path):
     status, printed = check(path)
     assert status == 0 and printed == "", printed
+
+
+@pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
+def test_page_of_the_site_shows_every_cell(path, tmp_path):
+    spec = importlib.util.spec_from_file_location("notebooks", ROOT / "scripts/site/notebooks.py")
+    script = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(script)
+    page = script.as_markdown(path, tmp_path)
+    cells = nbformat.read(path, as_version=4).cells
+    shown = [kind for cell in cells for output in cell.get("outputs", []) for kind in output.get("data", {})]
+    pictures = re.findall(r'<img class="drawn" src="([^"]+)"', page)
+    assert len(pictures) == len(set(pictures)) == sum(kind.startswith("image/") for kind in shown)
+    assert all((tmp_path / name).stat().st_size > 1000 for name in pictures)
+    assert all(cell.source.rstrip() in page for cell in cells)
 
 
 def notebook(path, *cells):
