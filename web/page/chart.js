@@ -184,3 +184,10 @@ export function colours() {
 export const isDark = () => matchMedia("(prefers-color-scheme: dark)").matches;
 /** The fill of cell n: neighbours by number differ. */
 export const cellColour = (n) => `oklch(${isDark() ? "0.33 0.045" : "0.92 0.045"} ${(n * 137.508 + 190) % 360})`;
+
+/** Begins a path along points from .. to; one of more than two is closed. */
+export function trace(context, points, from, to) {
+    context.beginPath();
+    for (let i = from; i < to; i++) context[i === from ? "moveTo" : "lineTo"](points[2 * i], points[2 * i + 1]);
+    if (to - from > 2) context.closePath();
+}

@@ -2,7 +2,7 @@
  *
  * The cuts come in the order of their depth. After `step` of them the cells are the nodes whose parent has been cut and
  * which themselves have not: the front. */
-import { cellColour, Chart, colours } from "../chart.js";
+import { cellColour, Chart, colours, trace } from "../chart.js";
 import { isCancelled, startFroe } from "../link.js";
 import { sceneFrom } from "../open.js";
 
@@ -158,7 +158,7 @@ export class Pane {
         for (const node of front) {
             const cell = cellOf[node];
             if (cell < 0) continue;
-            path(context, at, cells.starts[cells.faces[cell]], cells.starts[cells.faces[cell] + 1]);
+            trace(context, at, cells.starts[cells.faces[cell]], cells.starts[cells.faces[cell] + 1]);
             context.fillStyle = cellColour(node);
             context.fill();
         }
@@ -169,7 +169,7 @@ export class Pane {
             context.strokeStyle = look.soft;
             context.globalAlpha = 0.35;
             context.lineWidth = Math.max(0.5, 3 - nodes.depths[order[i]] * 0.3);
-            path(context, lines, cuts.starts[cut], cuts.starts[cut + 1]);
+            trace(context, lines, cuts.starts[cut], cuts.starts[cut + 1]);
             context.stroke();
         }
         context.globalAlpha = 1;
@@ -209,7 +209,7 @@ export class Pane {
         const list = this.#listOfHovered();
         context.lineJoin = "round";
         for (const i of order) {
-            path(context, points, pieces.starts[i], pieces.starts[i + 1]);
+            trace(context, points, pieces.starts[i], pieces.starts[i + 1]);
             const cell = this.#cellOfNode(owner, pieces.nodes[i] - 1);
             context.fillStyle = i === this.#hovered ? look.hit : list.has(i) ? look.mark : cell < 0 ? look.card : cellColour(cell);
             context.fill();
@@ -224,7 +224,7 @@ export class Pane {
         for (let f = cells.faces[cell]; f < cells.faces[cell + 1]; f++) this.#stroke(context, box, cells.starts[f], cells.starts[f + 1], look.soft, 1);
         if (cutOf[last] < 0) return;
         const cut = this.chart.project(cuts.coords);
-        path(context, cut, cuts.starts[cutOf[last]], cuts.starts[cutOf[last] + 1]);
+        trace(context, cut, cuts.starts[cutOf[last]], cuts.starts[cutOf[last] + 1]);
         context.fillStyle = look.hit;
         context.globalAlpha = 0.25;
         context.fill();
@@ -248,7 +248,7 @@ export class Pane {
         return new Set(Array.from({ length: nodes.pieceCounts[node] }, (_, i) => from + i));
     }
     #stroke(context, points, from, to, colour, width) {
-        path(context, points, from, to);
+        trace(context, points, from, to);
         context.strokeStyle = colour;
         context.lineWidth = width;
         context.stroke();
@@ -264,11 +264,6 @@ async function groupNames(scene) {
     return { nameOf: (object) => names[arrays.groups?.[object]]?.name ?? "" };
 }
 
-function path(context, points, from, to) {
-    context.beginPath();
-    for (let i = from; i < to; i++) context[i === from ? "moveTo" : "lineTo"](points[2 * i], points[2 * i + 1]);
-    if (to - from > 2) context.closePath();
-}
 function inside(at, from, to, x, y) {
     let odd = false;
     for (let i = from, j = to - 1; i < to; j = i++) {
