@@ -203,6 +203,8 @@ typedef struct froe_kinetic_options {
     const uint32_t *order; /**< all objects, the first to cut first; NULL: random. Motion must not depend on it */
     uint64_t epoch; /**< a fresh random order after so many events, against motion that adapts itself to the order;
                          0 (default): never. Not with `order` */
+    uint64_t swap;  /**< two random objects change places in the order after each so many events, for the same reason;
+                         `order` may be given. 0 (default): never. In the plane */
     froe_progress_fn *progress; /**< may be NULL: see froe_kinetic_watch() */
     void *user;                 /**< for progress */
     bool augmented; /**< a segment that turns upright costs nothing, however many it crosses: walls are named in its

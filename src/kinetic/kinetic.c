@@ -194,6 +194,8 @@ froe_status froe_kinetic_new(froe_motion *motion, const froe_kinetic_options *op
     if (options->size != sizeof *options) return support_fail_defaults(diag, "froe_kinetic_defaults");
     if (motion->dim == 3 && options->augmented)
         return support_fail(diag, FROE_E_UNSUPPORTED, "A partition in space is not augmented.");
+    if (motion->dim == 3 && options->swap)
+        return support_fail(diag, FROE_E_UNSUPPORTED, "The order of a partition in space changes in epochs alone.");
     if (motion->bodies.count) return refuse_bodies(diag);
     froe_allocator memory = support_allocator(alloc);
     froe_kinetic *k;
@@ -251,10 +253,34 @@ double froe_kinetic_next(const froe_kinetic *k) {
     return time;
 }
 
-/* After enough events, a new random order for everything. */
-static void end_epoch(froe_kinetic *k) {
+static uint64_t events_so_far(const froe_kinetic *k) {
     uint64_t events = 0;
     for (int i = 0; i < FROE_EVENT_KINDS; i++) events += k->counts.events[i];
+    return events;
+}
+
+/* In the plane: two segments change places in the order. Both are taken out, and put in again. */
+static void swap_two(froe_kinetic *k) {
+    const uint64_t n = object_count(k), random = base_hash(k->options.seed, ++k->swaps, UINT32_MAX);
+    if (n < 2) return;
+    const uint32_t s = (uint32_t)(random % n), next = (uint32_t)((random >> 32) % (n - 1)), t = next + (next >= s);
+    change_remove(k, s), change_remove(k, t);
+    const uint64_t key = *key_of(k, s);
+    *key_of(k, s) = *key_of(k, t), *key_of(k, t) = key;
+    if (now_is_alive(&k->now, s)) change_insert(k, s);
+    if (now_is_alive(&k->now, t)) change_insert(k, t);
+}
+
+/* Random transpositions after so many events (Diaconis and Shahshahani, "Generating a random permutation with random
+ * transpositions", 1981: n log n / 2 of them make any order as good as random). */
+static void swap_order(froe_kinetic *k) {
+    if (!k->options.swap) return;
+    while (k->swaps < events_so_far(k) / k->options.swap && !k->call.stopped) swap_two(k);
+}
+
+/* After enough events, a new random order for everything. */
+static void end_epoch(froe_kinetic *k) {
+    const uint64_t events = events_so_far(k);
     if (!k->options.epoch || events - k->epoch_events < k->options.epoch) return;
     k->epoch++;
     for (uint32_t o = 0; o < object_count(k); o++) *key_of(k, o) = random_key(k, o) | edges_before(k);
@@ -278,7 +304,7 @@ froe_status froe_kinetic_advance(froe_kinetic *k, double time, froe_event_fn *vi
             return call_fail(&k->call, diag);
         bool go_on = event_step(k, tick, &watcher);
         status = kinetic_settle(k, diag);
-        if (!status) end_epoch(k), status = kinetic_settle(k, diag);
+        if (!status) end_epoch(k), swap_order(k), status = kinetic_settle(k, diag);
         if (!go_on && !status) return support_fail(diag, FROE_E_CANCELLED, "The visitor stopped the call.");
     }
     return status;

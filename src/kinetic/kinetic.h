@@ -25,6 +25,7 @@ struct froe_kinetic {
     event_state events;
     froe_kinetic_options options;
     uint64_t epoch, epoch_events; /**< orders drawn so far, events until the last */
+    uint64_t swaps;               /**< of two objects in the order, so far */
     froe_kinetic_stats counts;
 };
 

@@ -227,6 +227,36 @@ static void test_epochs(void **state) {
     froe_motion_free(m);
 }
 
+/* An order that is given, too; and lists of events and trees stay right. */
+static void test_swaps(void **state) {
+    (void)state;
+    enum { N = 24 };
+    uint32_t order[N];
+    uint64_t keys[N];
+    for (uint32_t i = 0; i < N; i++) order[i] = i;
+    for (size_t i = 0; i < MOVING_KINDS; i++) {
+        const moving_kind *kind = moving_kinds + i;
+        froe_motion *m = moving_new(kind, 2, NULL);
+        froe_kinetic_options o = froe_kinetic_defaults();
+        froe_kinetic *k = NULL;
+        size_t moved = 0;
+        o.swap = 3;
+        o.order = kind->count == N ? order : NULL;
+        o.augmented = augmented;
+        assert_int_equal(froe_kinetic_new(m, &o, NULL, &k, NULL), FROE_OK);
+        for (uint32_t s = 0; s < N && s < (uint32_t)kind->count; s++) keys[s] = ktree_segment_at(&k->tree, s)->key;
+        run(k, kind->name, 40, &(pattern_counter){0});
+        for (uint32_t s = 0; s < N && s < (uint32_t)kind->count; s++)
+            moved += ktree_segment_at(&k->tree, s)->key != keys[s];
+        const froe_kinetic_stats stats = froe_kinetic_statistics(k);
+        uint64_t events = 0;
+        for (int j = 0; j < FROE_EVENT_KINDS; j++) events += stats.events[j];
+        if (events >= 3 && !moved) fail_msg("%s: the order stayed", kind->name);
+        froe_kinetic_free(k);
+        froe_motion_free(m);
+    }
+}
+
 static void test_order(void **state) {
     (void)state;
     enum { N = 24 };
@@ -465,13 +495,21 @@ static int in_augmented(void **state) {
 /* With "ordinary" or "augmented" as argument: partitions of that kind alone. */
 int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_every_event),     cmocka_unit_test(test_coincidences),
-        cmocka_unit_test(test_long_ticks),      cmocka_unit_test(test_general_position),
-        cmocka_unit_test(test_reversal),        cmocka_unit_test(test_changes),
-        cmocka_unit_test(test_epochs),          cmocka_unit_test(test_order),
-        cmocka_unit_test(test_calls),           cmocka_unit_test(test_no_memory_per_event),
-        cmocka_unit_test(test_memory_runs_out), cmocka_unit_test(test_trials_within_pieces),
-        cmocka_unit_test(test_free_turns),      cmocka_unit_test(test_bound_turns),
+        cmocka_unit_test(test_every_event),
+        cmocka_unit_test(test_coincidences),
+        cmocka_unit_test(test_long_ticks),
+        cmocka_unit_test(test_general_position),
+        cmocka_unit_test(test_reversal),
+        cmocka_unit_test(test_changes),
+        cmocka_unit_test(test_epochs),
+        cmocka_unit_test(test_swaps),
+        cmocka_unit_test(test_order),
+        cmocka_unit_test(test_calls),
+        cmocka_unit_test(test_no_memory_per_event),
+        cmocka_unit_test(test_memory_runs_out),
+        cmocka_unit_test(test_trials_within_pieces),
+        cmocka_unit_test(test_free_turns),
+        cmocka_unit_test(test_bound_turns),
     };
     int failed = 0;
     if (argc < 2 || !strcmp(argv[1], "ordinary"))

@@ -405,7 +405,10 @@ static void what_is_not_there_is_refused(void **state) {
     o.augmented = true;
     assert_int_equal(froe_kinetic_new(m, &o, NULL, &none, NULL), FROE_E_UNSUPPORTED);
     assert_null(none);
-    o.augmented = false;
+    o.augmented = false, o.swap = 1;
+    assert_int_equal(froe_kinetic_new(m, &o, NULL, &none, NULL), FROE_E_UNSUPPORTED);
+    assert_null(none);
+    o.swap = 0;
     froe_motion *bodies = flying_body();
     assert_int_equal(froe_kinetic_new(bodies, &o, NULL, &none, NULL), FROE_E_UNSUPPORTED);
     assert_null(none);

@@ -69,6 +69,7 @@ static const web_member kinetic_members[] = {
     {"seed", WEB_UINT64, AT(seed), NULL},
     {"order", WEB_ADDRESS, AT(order), NULL},
     {"epoch", WEB_UINT64, AT(epoch), NULL},
+    {"swap", WEB_UINT64, AT(swap), NULL},
     {"augmented", WEB_BOOL, AT(augmented), NULL},
     {NULL, WEB_INT, 0, NULL},
 };

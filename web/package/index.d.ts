@@ -547,7 +547,7 @@ export class Motion extends Resource {
     /** All contacts, in the order of their beginnings. None is missed. */
     contacts(options?: { from?: number; to?: number; first?: boolean; apart?: boolean }): Contacts;
     /** A partition that follows the motion, at the beginning of the window. */
-    partition(options?: { seed?: number | bigint; order?: Numbers; epoch?: number; augmented?: boolean }): Kinetic;
+    partition(options?: { seed?: number | bigint; order?: Numbers; epoch?: number; swap?: number; augmented?: boolean }): Kinetic;
     /** The bytes of a file of OGC Moving Features JSON. */
     write(): Uint8Array;
 }

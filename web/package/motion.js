@@ -104,7 +104,7 @@ export class Motion extends Resource {
             core.records("web_contacts_of", [this[AT], core.options(arena, "contacts", options)], CONTACT, take));
     }
 
-    /** A partition that follows the motion, at the beginning of the window. Options: seed, order, epoch, augmented. */
+    /** A partition that follows the motion, at the beginning of the window. Options: seed, order, epoch, swap, augmented. */
     partition(options = {}) {
         const core = this[CORE], given = arraysOf({ order: Uint32Array }, options);
         checkLengths(given, ["order"], this.objectCount, "objects");
