@@ -395,7 +395,7 @@ const claim claims_motion[] = {
      .needs = "repair: the partition is made anew after each event",
      .without = {.bare = true}},
     {.source = "Agarwal et al., section 4",
-     .says = "open: an adversary who knows the order; here two segments change places in it after each event",
+     .says = "an open problem: motion that depends on the order; two segments change places in it after each event",
      .measured = "greatest height / log2 n at the end, from the worst order, half passing below the others, 32 to 256",
      .least = 1,
      .most = 6,

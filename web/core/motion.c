@@ -66,12 +66,9 @@ const web_kind web_contacts = {"contacts", sizeof(froe_contact_options), contact
 
 #define AT(member) offsetof(froe_kinetic_options, member)
 static const web_member kinetic_members[] = {
-    {"seed", WEB_UINT64, AT(seed), NULL},
-    {"order", WEB_ADDRESS, AT(order), NULL},
-    {"epoch", WEB_UINT64, AT(epoch), NULL},
-    {"swap", WEB_UINT64, AT(swap), NULL},
-    {"augmented", WEB_BOOL, AT(augmented), NULL},
-    {NULL, WEB_INT, 0, NULL},
+    {"seed", WEB_UINT64, AT(seed), NULL},         {"order", WEB_ADDRESS, AT(order), NULL},
+    {"epoch", WEB_UINT64, AT(epoch), NULL},       {"swap", WEB_UINT64, AT(swap), NULL},
+    {"augmented", WEB_BOOL, AT(augmented), NULL}, {NULL, WEB_INT, 0, NULL},
 };
 #undef AT
 static void kinetic_defaults(void *options) {
