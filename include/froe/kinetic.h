@@ -208,17 +208,20 @@ typedef struct froe_kinetic_options {
     froe_progress_fn *progress; /**< may be NULL: see froe_kinetic_watch() */
     void *user;                 /**< for progress */
     bool augmented; /**< a segment that turns upright costs nothing, however many it crosses: walls are named in its
-                         direction, not left and right. false (default) */
+                         direction, not left and right. false (default); not in space */
+    bool unchecked; /**< in space: the first contact of triangles is not looked for. Where triangles meet the partition
+                         is not what it should be from then on. false (default): it ends before that */
 } froe_kinetic_options;
 FROE_API froe_kinetic_options froe_kinetic_defaults(void);
 
 /** The partition at the first odd tick of the window; in space of triangles, as seen from above, along z. They must not
- * cross each other: from the instant on at which two of them meet (froe_motion_contacts() finds it), the partition is
- * not what it should be, and snapshots are refused where triangles cross. In space it is made anew where the plans of
- * more than one triangle in eight take other pieces at a tick, and questions are refused with FROE_E_UNSUPPORTED, as
- * are bodies; a snapshot answers questions. The motion must outlive it. Until it is freed, plans are changed and
- * objects added by the functions below only. FROE_E_ARG: motion, options or out is NULL. FROE_E_OPTIONS: the order is
- * not one, or the options are not from froe_kinetic_defaults(). FROE_E_UNSUPPORTED, FROE_E_MEMORY, FROE_E_CANCELLED.
+ * meet, but where they share a vertex: froe_kinetic_advance() ends before the first contact. In space the partition is
+ * made anew where the plans of more than one triangle in eight take other pieces at a tick, and questions are refused
+ * with FROE_E_UNSUPPORTED, as are bodies; a snapshot answers questions. The motion must outlive it. Until it is freed,
+ * plans are changed and objects added by the functions below only. FROE_E_ARG: motion, options or out is NULL.
+ * FROE_E_OPTIONS: the order is not one, or the options are not from froe_kinetic_defaults(). FROE_E_INPUT: two
+ * triangles meet at the start; both are named. FROE_E_UNSUPPORTED, FROE_E_MEMORY, FROE_E_CANCELLED. In space, unless
+ * `unchecked`, the failures of froe_motion_contacts(), and its time.
  * Expected O(n log^2 n + k log n) for n segments with k crossings. */
 FROE_API froe_status froe_kinetic_new(froe_motion *motion, const froe_kinetic_options *options,
                                       const froe_allocator *alloc, froe_kinetic **out, froe_diagnostic *diag);
@@ -245,7 +248,8 @@ typedef enum froe_event_kind {
     FROE_EVENT_PLAN,            /**< the flight of a segment takes another piece */
     FROE_EVENT_APPEAR,
     FROE_EVENT_DISAPPEAR,
-    FROE_EVENT_FLOP, /**< in space: a triangle turns over, as seen from above */
+    FROE_EVENT_FLOP,  /**< in space: a triangle turns over, as seen from above */
+    FROE_EVENT_TOUCH, /**< in space: two triangles meet, and the partition ends before that */
     FROE_EVENT_KINDS
 } froe_event_kind;
 FROE_API const char *froe_event_name(froe_event_kind kind);
@@ -268,8 +272,10 @@ typedef bool froe_event_fn(void *user, const froe_event *event);
 /** Lets time go on to `time`, rounded up to an odd tick, and keeps the partition right; `visit` (may be NULL) is called
  * for each event. FROE_E_ARG: the time is before the present or after the window. FROE_E_MEMORY: call again, or free
  * it. FROE_E_CANCELLED: `visit` returned false, and the partition is that right after the event; or the progress
- * function did, and it is that of some moment before `time`. Expected polylogarithmic in n for each event, if the
- * motion does not depend on the order, and no coordinate is beyond 2^480: then the partition is made anew for each. */
+ * function did, and it is that of some moment before `time`. FROE_E_INPUT: two triangles meet before that; they are
+ * named, `visit` is called for them, and the partition is that of the last tick before. Expected polylogarithmic in n
+ * for each event, if the motion does not depend on the order, and no coordinate is beyond 2^480: then the partition is
+ * made anew for each. */
 FROE_API froe_status froe_kinetic_advance(froe_kinetic *kinetic, double time, froe_event_fn *visit, void *user,
                                           froe_diagnostic *diag);
 /** For visitors, while they are called for an event: when it happened, between two doubles that are next to one another

@@ -12,9 +12,9 @@ froe_kinetic_options froe_kinetic_defaults(void) {
 }
 
 const char *froe_event_name(froe_event_kind kind) {
-    static const char *const names[] = {"vertices", "vertex-crossing", "crossings", "contact", "triple",
-                                        "turn",     "batch",           "plan",      "appear",  "disappear",
-                                        "flop"};
+    static const char *const names[] = {
+        "vertices", "vertex-crossing", "crossings", "contact", "triple", "turn", "batch",
+        "plan",     "appear",          "disappear", "flop",    "touch"};
     return kind < FROE_EVENT_KINDS ? names[kind] : NULL;
 }
 
@@ -184,7 +184,9 @@ static froe_status start(froe_kinetic *k, froe_diagnostic *diag) {
     }
     if (!k->call.stopped) surgery_restart(k);
     k->counts = (froe_kinetic_stats){0};
-    return k->call.stopped ? call_fail(&k->call, diag) : FROE_OK;
+    if (k->call.stopped) return call_fail(&k->call, diag);
+    status = touch_find(k, diag);
+    return !status && k->touch.known && k->touch.last < k->now.tick ? touch_refuse(k, diag) : status;
 }
 
 froe_status froe_kinetic_new(froe_motion *motion, const froe_kinetic_options *options, const froe_allocator *alloc,
@@ -299,6 +301,9 @@ froe_status froe_kinetic_advance(froe_kinetic *k, double time, froe_event_fn *vi
     const event_watcher watcher = {visit, user};
     const int64_t from = k->now.tick;
     froe_status status = kinetic_begin(k, diag);
+    if (!status) status = touch_find(k, diag);
+    const bool touching = k->touch.known && k->touch.last < tick;
+    if (touching) tick = k->touch.last > from ? k->touch.last : from;
     while (!status && k->now.tick < tick) {
         if (!base_progress(&k->call.task, (double)(k->now.tick - from) / (double)(tick - from)))
             return call_fail(&k->call, diag);
@@ -307,7 +312,9 @@ froe_status froe_kinetic_advance(froe_kinetic *k, double time, froe_event_fn *vi
         if (!status) end_epoch(k), swap_order(k), status = kinetic_settle(k, diag);
         if (!go_on && !status) return support_fail(diag, FROE_E_CANCELLED, "The visitor stopped the call.");
     }
-    return status;
+    if (status || !touching) return status;
+    touch_tell(k, &watcher);
+    return touch_refuse(k, diag);
 }
 
 /* ------------------------------------------------------------------ changes -- */
@@ -337,6 +344,10 @@ froe_status froe_kinetic_remove(froe_kinetic *k, uint32_t object, froe_diagnosti
     motion_object *o = k->now.motion->objects.data + object;
     const uint32_t segment = now_segment_of(&k->now, object), life = k->certs.segments.data[segment].life;
     if (o->last >= k->now.tick) o->last = k->now.tick - 1;
+    if (now_is_in_space(&k->now)) { /* it touches nothing any more */
+        o->death = now_time_of(&k->now, k->now.tick);
+        k->touch.known = false;
+    }
     if (life != FROE_NONE) cert_set_tick(&k->certs, life, NOW_NEVER);
     change_remove(k, segment);
     return kinetic_settle(k, diag);

@@ -11,6 +11,7 @@
 #include "kinetic/event/participants.h"
 #include "kinetic/event/surgery.h"
 #include "kinetic/now/now.h"
+#include "kinetic/touch.h"
 #include "kinetic/tree/ktree.h"
 
 struct froe_kinetic {
@@ -23,6 +24,7 @@ struct froe_kinetic {
     participants_table participants; /**< of the event that is handled */
     surgery_work surgery;
     event_state events;
+    touch_state touch;
     froe_kinetic_options options;
     uint64_t epoch, epoch_events; /**< orders drawn so far, events until the last */
     uint64_t swaps;               /**< of two objects in the order, so far */

@@ -57,7 +57,7 @@ static void test_every_event(void **state) {
         if (still != (counter.events == before)) fail_msg("%s: no events, or some", moving_kinds[i].name);
     }
     for (int j = 0; j < FROE_EVENT_KINDS; j++)
-        if (!kind_events[j] && j != FROE_EVENT_FLOP)
+        if (!kind_events[j] && j < FROE_EVENT_FLOP)
             fail_msg("no event of kind %s", froe_event_name((froe_event_kind)j));
     assert_true(counter.events >= 10000);
     expect_all_patterns(&counter);

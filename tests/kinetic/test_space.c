@@ -46,7 +46,7 @@ static void trees_are_those_of_cylindrical_after_every_event(void **state) {
             froe_kinetic_free(k);
             froe_motion_free(m);
         }
-    for (int j = 0; j < FROE_EVENT_KINDS; j++)
+    for (int j = 0; j < FROE_EVENT_TOUCH; j++)
         if (!counts.events[j]) fail_msg("no event of kind %s", froe_event_name((froe_event_kind)j));
     assert_true(counts.all >= 1200 && counts.compared >= 1200);
 }
@@ -346,6 +346,83 @@ static void a_triangle_that_leaves_leaves_the_tree_as_it_was(void **state) {
     froe_motion_free(m);
 }
 
+/* ----------------------------------------------------------------------- contacts -- */
+
+/* Two leaves, the second of which goes from a height to another, through the first or just so far as to touch it. */
+static froe_motion *falling(double from, double to) {
+    static const double plan[3][2] = {{0, 0}, {9, 0}, {0, 9}}, small[3][2] = {{1, 1}, {3, 1.5}, {1.5, 3}};
+    static const size_t starts[] = {0, 2, 4, 6, 8, 10, 12};
+    double times[12], coords[36];
+    for (size_t i = 0; i < 12; i++) {
+        const double *at = i < 6 ? plan[i / 2] : small[i / 2 - 3];
+        const double z = i < 6 ? 0 : (i % 2 ? to : from) + (i / 2 == 3 ? 0 : 1);
+        times[i] = i % 2 ? 8 : 0;
+        coords[3 * i] = at[0] + (i % 2 ? 0.125 : 0), coords[3 * i + 1] = at[1], coords[3 * i + 2] = z;
+    }
+    froe_motion_options w = froe_motion_defaults();
+    froe_moving b = froe_moving_defaults();
+    froe_motion *m = NULL;
+    w.dim = 3, w.begin = 0, w.end = 8, w.tick = 0x1p-16;
+    b.vertex_count = 6, b.count = 2, b.starts = starts, b.times = times, b.coords = coords;
+    assert_int_equal(froe_motion_new(&w, NULL, &m, NULL), FROE_OK);
+    assert_int_equal(froe_motion_add(m, &b, NULL), FROE_OK);
+    return m;
+}
+
+static void a_partition_ends_before_the_first_contact(void **state) {
+    static const double ways[3][3] = {{3, -3, 4}, {3, -5, 3}, {1, -7, 1}}; /* from, to, and when they meet */
+    space_counts counts = {0};
+    froe_diagnostic why = {0};
+    (void)state;
+    for (size_t i = 0; i < 3; i++) {
+        froe_motion *m = falling(ways[i][0], ways[i][1]);
+        froe_kinetic *k = start(m, i + 1);
+        assert_int_equal(froe_kinetic_advance(k, 8, space_count, &counts, &why), FROE_E_INPUT);
+        assert_non_null(strstr(why.message, "Triangles 0 and 1 meet between"));
+        assert_int_equal(counts.events[FROE_EVENT_TOUCH], i + 1);
+        const double time = froe_kinetic_time(k);
+        assert_true(time < ways[i][2] && time > ways[i][2] - 0x1p-14);
+        if (!space_is_alike(k, &counts, &why) || froe_kinetic_audit(k, &why)) fail_msg("%s", why.message);
+        assert_int_equal(froe_kinetic_advance(k, 8, NULL, NULL, NULL), FROE_E_INPUT); /* and stays there */
+        assert_true(froe_kinetic_time(k) == time);
+        assert_int_equal(froe_kinetic_remove(k, 0, NULL), FROE_OK); /* nothing is in the way any more */
+        assert_int_equal(froe_kinetic_advance(k, 8, NULL, NULL, NULL), FROE_OK);
+        assert_int_equal(froe_kinetic_audit(k, NULL), FROE_OK);
+        froe_kinetic_free(k);
+        froe_motion_free(m);
+    }
+}
+
+static void another_way_leads_past_a_contact(void **state) {
+    const double times[2] = {1, 8}, coords[6] = {1.015625, 1, 2.25, 1.125, 1, 9};
+    froe_motion *m = falling(3, -3);
+    froe_kinetic *k = start(m, 1);
+    (void)state;
+    assert_int_equal(froe_kinetic_advance(k, 1, NULL, NULL, NULL), FROE_OK);
+    assert_int_equal(froe_kinetic_replan(k, 3, 2, times, coords, NULL, NULL), FROE_OK);
+    assert_int_equal(froe_kinetic_advance(k, 5, NULL, NULL, NULL), FROE_OK); /* the other corners come later */
+    assert_int_equal(froe_kinetic_audit(k, NULL), FROE_OK);
+    assert_int_equal(froe_kinetic_advance(k, 8, NULL, NULL, NULL), FROE_E_INPUT);
+    froe_kinetic_free(k);
+    froe_motion_free(m);
+}
+
+static void what_meets_at_the_start_is_refused_unless_unchecked(void **state) {
+    froe_motion *m = falling(-0.5, 1);
+    froe_kinetic_options o = froe_kinetic_defaults();
+    froe_kinetic *k = NULL;
+    froe_diagnostic why = {0};
+    (void)state;
+    assert_int_equal(froe_kinetic_new(m, &o, NULL, &k, &why), FROE_E_INPUT);
+    assert_null(k);
+    assert_non_null(strstr(why.message, "Triangles 0 and 1 meet between"));
+    o.unchecked = true;
+    assert_int_equal(froe_kinetic_new(m, &o, NULL, &k, NULL), FROE_OK);
+    assert_int_equal(froe_kinetic_advance(k, 8, NULL, NULL, NULL), FROE_OK);
+    froe_kinetic_free(k);
+    froe_motion_free(m);
+}
+
 static froe_status with_memory(void *user, const froe_allocator *alloc) {
     froe_kinetic *k = NULL;
     froe_snapshot s = {0};
@@ -429,6 +506,9 @@ int main(void) {
         cmocka_unit_test(triangles_come_and_go_and_take_other_ways),
         cmocka_unit_test(back_again_the_tree_is_the_first),
         cmocka_unit_test(a_triangle_that_leaves_leaves_the_tree_as_it_was),
+        cmocka_unit_test(a_partition_ends_before_the_first_contact),
+        cmocka_unit_test(another_way_leads_past_a_contact),
+        cmocka_unit_test(what_meets_at_the_start_is_refused_unless_unchecked),
         cmocka_unit_test(memory_may_run_out),
         cmocka_unit_test(what_is_not_there_is_refused),
     };

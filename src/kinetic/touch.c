@@ -1,0 +1,53 @@
+/* touch.c: how far a partition in space can go. */
+#include "kinetic/touch.h"
+#include "base/floats.h"
+#include "kinetic/kinetic.h"
+#include "support/fail.h"
+
+static bool take_first(void *user, const froe_contact *contact) {
+    *(froe_contact *)user = *contact;
+    return false;
+}
+
+/* The last odd tick at which a time has not come yet. */
+static int64_t odd_tick_before(const now_state *now, double time) {
+    int64_t tick = motion_tick_before(now->motion, time);
+    if (now_time_of(now, tick) >= time) tick--;
+    return tick & 1 ? tick : tick - 1;
+}
+
+froe_status touch_find(froe_kinetic *k, froe_diagnostic *diag) {
+    touch_state *t = &k->touch;
+    const froe_motion *m = k->now.motion;
+    if (!now_is_in_space(&k->now) || k->options.unchecked) return FROE_OK;
+    if (t->known && t->edition == m->edition) return FROE_OK;
+    froe_contact_options o = froe_contact_defaults();
+    o.from = now_time_of(&k->now, k->now.tick), o.first = true, o.threads = 1;
+    o.progress = k->options.progress, o.user = k->options.user;
+    froe_contact first = {.a = FROE_NONE};
+    const froe_status status = froe_motion_contacts(m, &o, take_first, &first, diag);
+    if (status) return status;
+    *t = (touch_state){true, m->edition, NOW_NEVER, first};
+    if (first.a != FROE_NONE) t->last = odd_tick_before(&k->now, first.begin[0]);
+    return FROE_OK;
+}
+
+void touch_tell(froe_kinetic *k, const event_watcher *watcher) {
+    const froe_contact *c = &k->touch.first;
+    const froe_event event = {.kind = FROE_EVENT_TOUCH,
+                              .objects = {c->a, c->b},
+                              .object_count = 2,
+                              .tick = k->now.tick,
+                              .early = c->begin[0],
+                              .late = c->begin[1]};
+    k->counts.events[FROE_EVENT_TOUCH]++;
+    if (watcher->visit) base_callback(watcher->visit(watcher->user, &event));
+    now_catch_up(&k->now);
+}
+
+froe_status touch_refuse(const froe_kinetic *k, froe_diagnostic *diag) {
+    const froe_contact *c = &k->touch.first;
+    return support_fail_at(diag, FROE_E_INPUT, c->a, FROE_NONE, FROE_NONE,
+                           "Triangles %u and %u meet between %.17g and %.17g: the partition ends before that.", c->a,
+                           c->b, c->begin[0], c->begin[1]);
+}
