@@ -9,7 +9,7 @@ import geometries
 import geopandas
 import numpy as np
 import pytest
-from shapely.geometry import GeometryCollection, Point, box, mapping
+from shapely.geometry import GeometryCollection, Point, Polygon, box, mapping
 
 import froe
 import froe.compat.pyvista
@@ -140,3 +140,47 @@ def test_pictures_of_a_plotter_have_its_camera(tmp_path):
         assert head in (tmp_path / name).read_bytes()[:200]
     with pytest.raises(froe.errors.OptionError, match="tex"):
         froe.compat.pyvista.save_graphic(plotter(), tmp_path / "a.tex")
+
+
+def test_tables_bring_their_coordinate_system(tmp_path):
+    places = [Point(2.35, 48.86), box(0, 0, 1, 1)]
+    scene = froe.from_geopandas(geopandas.GeoDataFrame(geometry=places, crs="EPSG:4326"))
+    assert (scene.crs.kind, scene.crs.code, scene.crs.unit) == ("geographic", "EPSG:4326", "degree")
+    scene = froe.from_geopandas(geopandas.GeoSeries(places, crs="EPSG:32632"))
+    assert (scene.crs.kind, scene.crs.code, scene.crs.unit) == ("projected", "EPSG:32632", "metre")
+    assert scene.crs.wkt.startswith("PROJCRS") and "UTM zone 32N" in scene.crs.name
+    tree = scene.build()
+    assert tree.scene.crs == scene.crs == froe.tree._from_bytes(tree._core.to_bytes()).scene.crs  # files keep it
+    tree.scene.write(tmp_path / "a.geojson")
+    assert "EPSG" in (tmp_path / "a.geojson").read_text()
+    with pytest.raises(froe.errors.FrozenError):
+        scene.crs = None
+    assert froe.from_geopandas(geopandas.GeoSeries(places)).crs is None
+
+
+def test_borders_across_the_antimeridian_are_counted(tmp_path):
+    island = Polygon([(179, -17), (-179, -17), (-179, -16), (179, -16)])
+    here = box(0, 0, 1, 1)
+    assert froe.from_geopandas(geopandas.GeoSeries([island, here], crs="EPSG:4326")).across == 1
+    assert froe.from_geopandas(geopandas.GeoSeries([island, here], crs="EPSG:32632")).across == 0
+    assert froe.from_geopandas(geopandas.GeoSeries([island, here])).across == 0
+    path = tmp_path / "a.geojson"
+    for member, expected in (({}, 1), ({"crs": None}, 0)):
+        path.write_text(json.dumps({"type": "Feature", "properties": {}, "geometry": mapping(island), **member}))
+        assert froe.from_geojson(path).across == expected
+    assert froe.from_geojson(mapping(island)).crs is None
+    wrapped = froe.from_geopandas(geopandas.GeoSeries([here], crs="EPSG:4326"))
+    assert wrapped.across == 0
+
+
+def test_coordinate_systems_that_are_none():
+    scene = froe.points([[0, 0]])
+    wrong = {"round": froe.Crs("round"), "wkt": froe.Crs("other", wkt=5), "name": froe.Crs("other", "a\0b")}
+    for word, kind in wrong.items():
+        with pytest.raises((froe.errors.OptionError, froe.errors.ArrayError, froe.errors.ArgumentError), match=word):
+            scene.crs = kind
+    assert scene.crs is None
+    scene.crs = froe.Crs("other", "of a game", unit="inch")
+    assert scene.crs.name == "of a game"
+    scene.crs = None
+    assert scene.crs is None

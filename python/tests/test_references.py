@@ -36,6 +36,7 @@ def solid():
     motion.add([0] * 3, np.eye(3), [0, 1, 2, 3], bodies=[body] * 3)
 
 
+SCENE = froe.points([[0, 0]])
 MOTION = moving()
 KINETIC = MOTION.kinetic()
 TREE = froe.segments(SEGMENTS).build("autopartition", purpose="pieces")
@@ -47,6 +48,7 @@ CALLS = {
     "groups of a scene": lambda: TREE.scene.group_count,
     "arrays": lambda: TREE.scene.arrays(),
     "bounds": lambda: TREE.scene.bounds,
+    "crs": lambda: (setattr(SCENE, "crs", froe.Crs("other", "a")), SCENE.crs, SCENE.across),
     "defects": lambda: TREE.scene._core.defects(0, 1, 1, None),
     "density": lambda: TREE.scene._core.density(False, 0, 1, 1, None),
     "build": lambda: TREE.scene.build("kd", threads=1),

@@ -19,7 +19,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 SOURCES = ROOT / "python/src"
 # The pages: their titles and modules. The names of a module in OF_FROE are called as names of froe.
 PAGES = {
-    "scenes": ("Scenes", ["scene"]),
+    "scenes": ("Scenes", ["scene", "scene_parts"]),
     "trees": ("Trees and answers", ["tree", "parts", "answers", "report"]),
     "pictures": ("Pictures", ["pictures", "mpl"]),
     "motion": ("Motion", ["motion"]),
@@ -29,7 +29,7 @@ PAGES = {
     "measures": ("Measures", ["measure"]),
     "errors": ("Exceptions", ["errors"]),
 }
-OF_FROE = {"scene", "tree", "parts", "answers", "report", "pictures", "motion", *PAGES["adapters"][1]}
+OF_FROE = {"scene", "scene_parts", "tree", "parts", "answers", "report", "pictures", "motion", *PAGES["adapters"][1]}
 FOR_THE_EXTENSION = {"of_status", "of_name"}  # which calls them by these names
 WIDTH = 88
 FIELD = re.compile(r"^:(param|ivar|returns|raises|cost)(?: ([^:]+))?: ?", re.M)

@@ -17,12 +17,15 @@ froe_scene *core_scene_take(core_scene *self);
 froe_scene *core_scene_take_growing(core_scene *self);
 void core_scene_give(core_scene *self);
 
-/* Methods of the type: scene_view.c, measure.c. */
+/* Methods of the type: scene_view.c, scene_crs.c, measure.c. */
 PyObject *core_scene_add_group(PyObject *self, PyObject *const *args, Py_ssize_t count);
 PyObject *core_scene_group(PyObject *self, PyObject *const *args, Py_ssize_t count);
 PyObject *core_scene_counts(PyObject *self, PyObject *const *args, Py_ssize_t count);
 PyObject *core_scene_bounds(PyObject *self, PyObject *const *args, Py_ssize_t count);
 PyObject *core_scene_arrays(PyObject *self, PyObject *const *args, Py_ssize_t count);
+PyObject *core_scene_crs(PyObject *self, PyObject *const *args, Py_ssize_t count);
+PyObject *core_scene_set_crs(PyObject *self, PyObject *const *args, Py_ssize_t count);
+PyObject *core_scene_across(PyObject *self, PyObject *const *args, Py_ssize_t count);
 PyObject *core_scene_write(PyObject *self, PyObject *const *args, Py_ssize_t count);
 PyObject *core_measure_defects(PyObject *self, PyObject *const *args, Py_ssize_t count);
 PyObject *core_measure_fatness(PyObject *self, PyObject *const *args, Py_ssize_t count);

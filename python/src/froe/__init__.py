@@ -19,10 +19,7 @@ from .parts import Cells, Pieces
 from .pictures import Picture, RenderReport
 from .report import Promise, Report
 from .scene import (
-    Group,
-    ReadReport,
     Scene,
-    SceneArrays,
     boxes,
     compare,
     generate,
@@ -31,12 +28,14 @@ from .scene import (
     segments,
     triangles,
 )
+from .scene_parts import Crs, Group, ReadReport, SceneArrays
 from .tree import Tree, open
 
 __all__ = [
     "Answers",
     "Cells",
     "Contacts",
+    "Crs",
     "Error",
     "Events",
     "Group",

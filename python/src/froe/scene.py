@@ -4,94 +4,20 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _core
 from ._arrays import Doubles, Ids, Progress, doubles, rows, whole
-from .errors import ArrayError, UnsupportedError
+from .errors import ArrayError, OptionError, UnsupportedError
 from .report import Report
+from .scene_parts import Crs, Group, ReadReport, SceneArrays
 from .tree import Tree
 
-
 _POINT, _SEGMENT, _POLYGON, _BOX, _BALL, _HULL = range(6)  # froe_kind
-
-
-@dataclass(frozen=True)
-class Group:
-    """What the objects of one feature, mesh or layer of a file have in common.
-
-    :ivar name: its name, for example that of a country; "" where the file has none
-    :ivar material: of a mesh its material, of a map the layer
-    :ivar left, right: what is on the left and on the right of its segments, where the file says so; otherwise ""
-    :ivar colour: 0xRRGGBBAA, or 0 where it is unknown
-    """
-
-    name: str
-    material: str
-    left: str
-    right: str
-    colour: int
-
-
-@dataclass(frozen=True)
-class SceneArrays:
-    """A whole scene as arrays. Object ``i`` has the vertices ``corners[starts[i]:starts[i + 1]]``, whose places are the
-    rows of ``coords`` with these numbers.
-
-    :ivar coords: (vertices, dim) places; equal places are one vertex
-    :ivar kinds: of each object, as it was added: 0 point, 1 segment, 2 polygon, 3 box, 4 ball, 5 hull
-    :ivar forms: of each object, as it is: a segment without length is a point (0)
-    :ivar starts: one more than objects
-    :ivar corners: numbers of vertices; of a box its lower and upper corner, of a ball its centre
-    :ivar radii: of each object, 0 except for balls
-    :ivar tags: of each object, the number that the caller gave it, or 0
-    :ivar faces: of each object, the polygon that it is a part of, or -1
-    :ivar groups: of each object, its group, or -1
-    """
-
-    coords: Doubles
-    kinds: npt.NDArray[np.uint8]
-    forms: npt.NDArray[np.uint8]
-    starts: npt.NDArray[np.int64]
-    corners: Ids
-    radii: Doubles
-    tags: npt.NDArray[np.uint64]
-    faces: Ids
-    groups: Ids
-
-
-@dataclass(frozen=True)
-class ReadReport:
-    """How a file was read. Nothing is done to a scene that is not counted here.
-
-    :ivar format: for example ``"GeoJSON"``
-    :ivar precision: of the coordinates as they were read, ``"float64"`` or ``"float32"``
-    :ivar features: features, rows, or named parts of a model
-    :ivar groups: groups of the scene
-    :ivar triangulated: polygons of more than three corners that were split into triangles
-    :ivar closed: rings whose last edge was missing and was added
-    :ivar skipped: geometries that are empty, of no known type, or lines of one point
-    :ivar no_geometry: features without geometry
-    :ivar wrapped: features that were cut at the antimeridian
-    :ivar unread_library: of OBJ the first file of materials that is missing or unreadable, otherwise ""
-    :ivar no_degrees: the format promises longitudes and latitudes, and the numbers are none (beyond 180 or 90)
-    """
-
-    format: str
-    precision: str
-    features: int
-    groups: int
-    triangulated: int
-    closed: int
-    skipped: int
-    no_geometry: int
-    wrapped: int
-    unread_library: str
-    no_degrees: bool
+_CRS = ("unknown", "geographic", "projected", "other")  # froe_crs_kind
 
 
 class Scene:
@@ -171,6 +97,44 @@ class Scene:
         (0, 1)
         """
         return self._core.add_group(name, material, left, right, colour)
+
+    @property
+    def crs(self) -> Crs | None:
+        """The coordinate system, which may be set until a tree is built; None: unknown.
+
+        :raises OptionError: there is no such kind
+
+        >>> import froe
+        >>> scene = froe.points([[2.35, 48.86]])
+        >>> scene.crs = froe.Crs("geographic", code="EPSG:4326")
+        >>> scene.crs.kind
+        'geographic'
+        """
+        kind, wkt, name, code, unit = self._core.crs()
+        return Crs(_CRS[kind], name, code, unit, wkt) if kind else None  # type: ignore[arg-type]
+
+    @crs.setter
+    def crs(self, crs: Crs | None) -> None:
+        if crs is None:
+            self._core.set_crs(0, "", "", "", "")
+            return
+        if crs.kind not in _CRS[1:]:
+            raise OptionError(f"kind is {crs.kind!r}, and must be one of {', '.join(_CRS[1:])}.")
+        self._core.set_crs(_CRS.index(crs.kind), crs.wkt, crs.name, crs.code, crs.unit)
+
+    @property
+    def across(self) -> int:
+        """How many features in longitudes and latitudes have an edge that is wider than 180 degrees: as a rule their
+        border crosses the antimeridian, and such edges run around the whole Earth instead. ``froe.read`` with
+        ``wrap=True`` cuts them there. 0 where the coordinates are no degrees, or nothing is known of them.
+
+        >>> import froe
+        >>> scene = froe.segments([[179, 10, -179, 11], [5, 5, 6, 6]])
+        >>> scene.crs = froe.Crs("geographic")
+        >>> scene.across
+        1
+        """
+        return self._core.across()
 
     @property
     def group_count(self) -> int:

@@ -26,10 +26,14 @@ def from_geojson(source: Any, names: str | None = None) -> Scene:
 
     :param source: a path, a mapping, or an object with ``__geo_interface__``
     :param names: the property that names the groups
+    :returns: a scene; that of a file without the member ``crs`` has the coordinate system WGS 84
     :raises ValueError: it is not GeoJSON
     :cost: O(size of it), in a loop over the features; ``froe.read`` reads large files many times as fast
     """
-    if isinstance(source, (str, os.PathLike)):
+    from froe.scene_parts import Crs
+
+    is_file = isinstance(source, (str, os.PathLike))
+    if is_file:
         source = json.loads(Path(source).read_text(encoding="utf-8"))
     source = getattr(source, "__geo_interface__", source)
     try:
@@ -39,4 +43,7 @@ def from_geojson(source: Any, names: str | None = None) -> Scene:
     except (KeyError, TypeError) as why:
         raise ValueError(f"This is not GeoJSON: {why} is missing or of another type.") from why
     labels = None if names is None else [str(properties.get(names, "")) for _, properties in rows]
-    return of_mappings([geometry for geometry, _ in rows]).scene(labels)
+    scene = of_mappings([geometry for geometry, _ in rows]).scene(labels)
+    if is_file and "crs" not in source:
+        scene.crs = Crs("geographic", "WGS 84", "OGC:CRS84", "degree")
+    return scene
