@@ -4,6 +4,8 @@
  * web/core its arguments and, last, a diagnostic; a status other than FROE_OK becomes a FroeError. Structs are read
  * where web/core/layout.c asserts that their members are. */
 
+import { given, number, shown, text } from "./given.js";
+
 /** What a call could not do. `status` is a name of the C interface ("FROE_E_INPUT"); `object`, `corner` and `axis` tell
  * what it was about, or are null. */
 export class FroeError extends Error {
@@ -83,7 +85,7 @@ export class Core {
             room: (bytes) => { const at = this.malloc(bytes); taken.push(at); return at; },
             array: (values) => {
                 const at = arena.room(values.byteLength);
-                this.view(values.constructor, at, values.length).set(values);
+                this.view(Uint8Array, at, values.byteLength).set(new Uint8Array(values.buffer, values.byteOffset, values.byteLength));
                 return at;
             },
             text: (text) => {
@@ -155,10 +157,11 @@ export class Core {
     #kind(name) {
         if (!this.#kinds.has(name)) {
             const at = this.within((arena) => this.get("web_kind_of", arena.text(name)) >>> 0);
-            this.#kinds.set(name, { at, size: this.get("web_kind_size", at) });
+            this.#kinds.set(name, { at, size: at ? this.get("web_kind_size", at) : 0 });
         }
         return this.#kinds.get(name);
     }
+    #named(name, item) { return item !== null && typeof item === "object" && this.#kind(name).at !== 0; }
     /** A struct of options, its members by name: numbers, truths, texts and names of values, arrays as typed arrays,
      * vectors as arrays of three numbers, sets as arrays of names, structs of the kind `name` as arrays of objects. */
     options(arena, kind, options = {}) { return this.list(arena, kind, [options]); }
@@ -167,8 +170,7 @@ export class Core {
         const { at, size } = this.#kind(kind), room = arena.room(items.length * size);
         items.forEach((options, i) => {
             this.get("web_kind_defaults", at, room + i * size);
-            for (const [name, value] of Object.entries(options))
-                if (value !== undefined && value !== null) this.#set(arena, at, room + i * size, name, value);
+            for (const [name, value] of Object.entries(given(options))) this.#set(arena, at, room + i * size, name, value);
         });
         return room;
     }
@@ -177,19 +179,20 @@ export class Core {
         if (ArrayBuffer.isView(value)) set("address", name, arena.array(value));
         else if (typeof value === "string") set("text", name, arena.text(value));
         else if (["number", "bigint", "boolean"].includes(typeof value)) set("number", name, Number(value));
-        else if (!Array.isArray(value)) throw new TypeError(`The option ${name} cannot be of the type ${typeof value}.`);
-        else if (typeof value[0] === "object") set("address", name, this.list(arena, name, value));
-        else if (typeof value[0] === "number") value.forEach((part, i) => set("number", `${name}.${i}`, Number(part)));
+        else if (!Array.isArray(value)) throw new TypeError(`The option ${name} cannot be ${shown(value)}.`);
+        else if (this.#named(name, value[0])) set("address", name, this.list(arena, name, value));
+        else if (typeof value[0] === "number") value.forEach((part, i) => set("number", `${name}.${i}`, number(part, name)));
         else {
+            for (const part of value) text(part, `What ${name} lists`);
             set("number", name, 0);
-            for (const part of value) set("text", name, arena.text(String(part)));
+            for (const part of value) set("text", name, arena.text(part));
         }
     }
 
     /** Calls `body` in an empty folder of the module's own file system, with `put(name, bytes)`, which makes a file, and
      * `take(name)`, which gives the bytes of one. Both drop folders of names, as path(name) does. No file stays. */
     files(body) {
-        const { FS } = this.#wasm, folder = "/froe", path = (name) => name.replace(/.*[/\\]/, "") || "unnamed";
+        const { FS } = this.#wasm, folder = "/froe", path = (name) => text(name, "The name of a file").replace(/.*[/\\]/, "") || "unnamed";
         FS.mkdir(folder);
         FS.chdir(folder);
         try {

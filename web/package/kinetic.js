@@ -1,6 +1,6 @@
 /* kinetic.js: a partition that is kept right while its objects move */
-import { typed } from "./arrays.js";
 import { NONE } from "./core.js";
+import { doubles, given, number, whole } from "./given.js";
 import { AT, CORE, Resource } from "./resource.js";
 import { Tree } from "./tree.js";
 
@@ -39,20 +39,23 @@ export class Kinetic extends Resource {
                 late: core.column(Float64Array, at, count, EVENT, 80),
             };
         };
-        return core.records("web_advance", [this[AT], time, visit], EVENT, take);
+        return core.records("web_advance", [this[AT], number(time, "time"), visit], EVENT, take);
     }
     /** Lets time go on, and returns what happened: { kinds, objects, counts, edges, edgeCounts, ticks, early, late }.
      * Event i is of the kind EVENTS[kinds[i]], about the objects 4 i .. 4 i + 3 (0xffffffff where there are fewer than
      * counts[i]), and happened between early and late: the ticks around, or with `instants` two doubles next to one
      * another. In space it is about edges, too, as seen from above: edge 3 o + c goes on from corner c of object o. */
-    advance(time, { instants = false } = {}) { return this.#advance(time, instants ? VISIT.instants : VISIT.all); }
+    advance(time, options) {
+        const { instants } = given(options, { instants: false });
+        return this.#advance(time, instants ? VISIT.instants : VISIT.all);
+    }
     /** Lets time go on to the next event, at most to a time: the events of that tick, with their instants. */
     step(until = this.#end) { return this.#advance(until, VISIT.first); }
 
     /** Objects that were added to the motion meanwhile take part from now on. */
     update() { this[CORE].call("froe_kinetic_update", this[AT]); }
     /** Takes an object out, for good. */
-    remove(object) { this[CORE].call("froe_kinetic_remove", this[AT], object); }
+    remove(object) { this[CORE].call("froe_kinetic_remove", this[AT], whole(object, "object")); }
     /** Compares the partition with one made from scratch, or throws an error that says what is wrong. */
     audit() { this[CORE].call("froe_kinetic_audit", this[AT]); }
 
@@ -68,11 +71,7 @@ export class Kinetic extends Resource {
         });
     }
 
-    #point(arena, values, name) {
-        const numbers = typed(Float64Array, values, name);
-        if (numbers.length !== 2) throw new TypeError(`${name} does not have 2 numbers.`);
-        return arena.array(numbers);
-    }
+    #point(arena, values, name) { return arena.array(doubles(values, 2, name)); }
     /** Where a point is: { on, above, below }: a segment that it lies on, the next one above, the next one below; null:
      * none. */
     locate(point) {

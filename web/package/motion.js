@@ -1,5 +1,5 @@
 /* motion.js: objects that move, and when they meet */
-import { arraysOf, checkLengths, checkStarts } from "./arrays.js";
+import { arraysOf, checkLengths, checkStarts, number, whole } from "./given.js";
 import { addGroup, groupOf } from "./groups.js";
 import { Kinetic } from "./kinetic.js";
 import { AT, CORE, HANDLE, Handle, Resource } from "./resource.js";
@@ -37,11 +37,11 @@ export class Motion extends Resource {
      * between straight on at constant speed, or on the parabola with the control point controls[i] where that is not
      * NaN; one with one time stands still. Segments and triangles join the vertices in `vertices`, by default each once,
      * in order; births and deaths are the times when they appear and disappear. */
-    add(given) {
-        const options = arraysOf(MOVING, given), dim = this.dim;
+    add(batch) {
+        const options = arraysOf(MOVING, batch), dim = this.dim;
         for (const name of ["starts", "times", "coords"])
             if (!options[name]) throw new TypeError(`A batch of moving objects has ${name}.`);
-        options.vertexCount ??= Math.max(options.starts.length - 1, 0);
+        whole(options.vertexCount ??= Math.max(options.starts.length - 1, 0), "vertexCount");
         checkStarts(options.starts, options.vertexCount, options.times.length);
         checkLengths(options, ["coords", "controls"], dim * options.starts[options.vertexCount], "coordinates");
         checkLengths(options, ["bodies"], options.vertexCount, "vertices");
@@ -56,8 +56,8 @@ export class Motion extends Resource {
     }
     /** Adds a rigid body in space: where its centre is at each time, and how it is turned (quaternions x, y, z, w).
      * Returns its number, for `bodies`. */
-    addBody(given) {
-        const options = arraysOf(BODY, given);
+    addBody(body) {
+        const options = arraysOf(BODY, body);
         if (!options.times || !options.coords) throw new TypeError("A body has times and coords.");
         options.count = options.times.length;
         checkLengths(options, ["coords", "controls"], 3 * options.count, "coordinates");
@@ -66,7 +66,7 @@ export class Motion extends Resource {
             this[CORE].made("froe_motion_add_body", this[AT], this[CORE].options(arena, "body", options)));
     }
     addGroup(group) { return addGroup(this[CORE], "froe_motion_add_group", this[AT], group); }
-    group(i) { return groupOf(this[CORE], "froe_motion_group", this[AT], i); }
+    group(i) { return groupOf(this[CORE], "froe_motion_group", this[AT], i, this.groupCount); }
 
     /** The objects as arrays: vertices (2 or 3 each), births, deaths, groups and tags. */
     objects() {
@@ -82,7 +82,7 @@ export class Motion extends Resource {
     positions(time) {
         return this[CORE].within((arena) => {
             const count = this.dim * this.vertexCount, at = arena.room(8 * count);
-            this[CORE].get("web_positions", this[AT], time, at);
+            this[CORE].get("web_positions", this[AT], number(time, "time"), at);
             return this[CORE].copy(Float64Array, at, count);
         });
     }
@@ -106,10 +106,10 @@ export class Motion extends Resource {
 
     /** A partition that follows the motion, at the beginning of the window. Options: seed, order, epoch, swap, augmented. */
     partition(options = {}) {
-        const core = this[CORE], given = arraysOf({ order: Uint32Array }, options);
-        checkLengths(given, ["order"], this.objectCount, "objects");
+        const core = this[CORE], all = arraysOf({ order: Uint32Array }, options);
+        checkLengths(all, ["order"], this.objectCount, "objects");
         return core.within((arena) => new Kinetic(this, new Handle(core, "froe_kinetic_free",
-            core.made("froe_kinetic_new", this[AT], core.options(arena, "kinetic", given), 0), this[HANDLE])));
+            core.made("froe_kinetic_new", this[AT], core.options(arena, "kinetic", all), 0), this[HANDLE])));
     }
 
     /** The bytes of a file of OGC Moving Features JSON, which readMotion() takes. */

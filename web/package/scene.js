@@ -1,5 +1,5 @@
 /* scene.js: scenes, and how they become trees */
-import { arraysOf, checkLengths, checkStarts } from "./arrays.js";
+import { arraysOf, checkLengths, checkStarts, given, shown, text } from "./given.js";
 import { NONE } from "./core.js";
 import { addGroup, groupOf } from "./groups.js";
 import { AT, CORE, HANDLE, Handle, Resource } from "./resource.js";
@@ -29,9 +29,9 @@ export class Scene extends Resource {
     /** Adds objects of one kind: "point", "segment", "polygon", "box", "ball" or "hull". `coords` are points, one after
      * the other; object i has the corners starts[i] .. starts[i + 1], or as many as its kind has (polygons: 3); with
      * `indices` corner c is the point indices[c]. All objects are added, or none. */
-    add({ kind, count, ...given }) {
-        if (!Object.hasOwn(CORNERS, kind)) throw new TypeError(`There is no kind of objects called ${kind}.`);
-        const options = { kind, ...arraysOf(ARRAYS, given) };
+    add(batch) {
+        const { count, ...options } = arraysOf(ARRAYS, batch), { kind } = options;
+        if (!KINDS.includes(kind)) throw new TypeError(`There is no kind of objects called ${shown(kind)}.`);
         if (!options.coords) throw new TypeError("A batch of objects has coords.");
         const points = options.coords.length / this.dim;
         const corners = options.indices ? options.indices.length : points;
@@ -52,13 +52,13 @@ export class Scene extends Resource {
     /** Adds what objects may share: { name, material, left, right, colour }, colour being 0xRRGGBBAA. Returns its number,
      * for `groups`. */
     addGroup(group) { return addGroup(this[CORE], "froe_scene_add_group", this[AT], group); }
-    group(i) { return groupOf(this[CORE], "froe_scene_group", this[AT], i); }
+    group(i) { return groupOf(this[CORE], "froe_scene_group", this[AT], i, this.groupCount); }
 
     /** The axis that points up in pictures of a scene in space: 0, 1 or 2. */
     get up() { return this[CORE].get("froe_scene_up", this[AT]); }
     set up(axis) {
         if (this.dim !== 3 || ![0, 1, 2].includes(axis))
-            throw new RangeError(`The axis ${axis} of a scene of dimension ${this.dim} cannot point up in pictures.`);
+            throw new RangeError(`The axis ${shown(axis)} of a scene of dimension ${this.dim} cannot point up in pictures.`);
         this[CORE].call("froe_scene_set_up", this[AT], axis);
     }
 
@@ -109,15 +109,15 @@ export class Scene extends Resource {
     }
     /** The method that "auto" stands for, for a purpose: "pieces", "query" or "draw". */
     autoMethod(purpose = "pieces") {
-        return this[CORE].within((arena) => this[CORE].text("froe_method_auto", this[AT], arena.text(purpose)));
+        return this[CORE].within((arena) => this[CORE].text("froe_method_auto", this[AT], arena.text(text(purpose, "purpose"))));
     }
 
     /** A tree: options are method ("auto"), purpose ("pieces", "query", "draw"), settings ("name=value ..."), leaf, seed,
      * order and maxFragments. The scene cannot grow any more while it has a tree. */
     build(options = {}) {
-        const given = arraysOf({ order: Uint32Array }, options), core = this[CORE];
-        if (given.order) given.orderCount = given.order.length;
-        return core.within((arena) => Tree.made(core, core.made("froe_build", this[AT], core.options(arena, "build", given))));
+        const all = arraysOf({ order: Uint32Array }, options), core = this[CORE];
+        if (all.order) all.orderCount = all.order.length;
+        return core.within((arena) => Tree.made(core, core.made("froe_build", this[AT], core.options(arena, "build", all))));
     }
 
     /** The bytes of a file that read() takes: a name ends in .geojson, .json, .csv, .off or .obj. */

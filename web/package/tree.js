@@ -1,5 +1,5 @@
 /* tree.js: trees: what they consist of, their pictures, and their files */
-import { arraysOf, checkLengths, typed } from "./arrays.js";
+import { arraysOf, checkLengths, doubles, given, number, text, whole, word } from "./given.js";
 import { AT, CORE, Handle } from "./resource.js";
 import { Questions } from "./questions.js";
 import { Scene, boundsOf } from "./scene.js";
@@ -75,19 +75,18 @@ export class Tree extends Questions {
     }
     /* A box as two addresses: that which is given, or the bounds of the scene and a twentieth of it around them. */
     #box(arena, box) {
-        let { lo, hi } = arraysOf({ lo: Float64Array, hi: Float64Array }, box ?? this.bounds() ?? { lo: new Float64Array(this.dim),
-            hi: new Float64Array(this.dim).fill(1) });
+        const none = { lo: new Float64Array(this.dim), hi: new Float64Array(this.dim).fill(1) };
+        let { lo, hi } = given(box ?? this.bounds() ?? none, { lo: null, hi: null });
         if (!box) {
             const margins = lo.map((low, i) => (hi[i] - low) / 20 || 1);
             [lo, hi] = [lo.map((low, i) => low - margins[i]), hi.map((high, i) => high + margins[i])];
         }
-        if (lo?.length !== this.dim || hi?.length !== this.dim) throw new TypeError(`A box has ${this.dim} numbers in lo and in hi.`);
-        return [arena.array(lo), arena.array(hi)];
+        return [arena.array(doubles(lo, this.dim, "lo")), arena.array(doubles(hi, this.dim, "hi"))];
     }
     /** Regions of the leaves (with `inner` of all nodes, parents first), within a box: { nodes, depths, faces, starts,
      * coords }; cell i has the faces faces[i] .. faces[i + 1], and face f the corners starts[f] .. starts[f + 1]. */
-    cells({ box = null, inner = false } = {}) {
-        const core = this[CORE], take = ([dim, count, faces, corners, ...at]) => ({
+    cells(options) {
+        const { box, inner } = given(options, { box: null, inner: false }), core = this[CORE], take = ([dim, count, faces, corners, ...at]) => ({
             nodes: core.copy(Uint32Array, at[0], count),
             depths: core.copy(Uint32Array, at[1], count),
             faces: core.copy(Uint32Array, at[2], count + 1),
@@ -99,8 +98,8 @@ export class Tree extends Questions {
     }
     /** Cuts within a box, parents first: { nodes, depths, starts, coords }; cut i has the corners starts[i] ..
      * starts[i + 1], two in the plane. */
-    cuts({ box = null } = {}) {
-        const core = this[CORE], take = (words) => {
+    cuts(options) {
+        const { box } = given(options, { box: null }), core = this[CORE], take = (words) => {
             const column = (Type, i) => core.copy(Type, words[4 * i], words[4 * i + 1] / Type.BYTES_PER_ELEMENT);
             return { nodes: column(Uint32Array, 0), depths: column(Uint32Array, 1), starts: column(Uint32Array, 2),
                 coords: column(Float64Array, 3) };
@@ -111,19 +110,16 @@ export class Tree extends Questions {
 
     /* A picture: what `body` makes of the addresses of its options and of the numbers that it tells. */
     #picture(options, body) {
-        const core = this[CORE], given = arraysOf(RENDER, options);
-        if (given.sectionPlane && given.sectionPlane.length !== 4) throw new TypeError("sectionPlane does not have 4 numbers.");
-        for (const name of ["eye", "target", "up"]) {
-            if (!given[name]) continue;
-            given[name] = Array.from(typed(Float64Array, given[name], name));
-            if (given[name].length !== 3) throw new TypeError(`${name} does not have 3 numbers.`);
-        }
-        if (given.lineStyles) given.lineStyleCount = given.lineStyles.length;
-        if (!given.lineStyleCount) delete given.lineStyles;
-        checkLengths(given, ["opacity", "priorities"], core.get("froe_scene_group_count", this.#scene), "groups");
+        const core = this[CORE], all = arraysOf(RENDER, options);
+        if (all.sectionPlane) doubles(all.sectionPlane, 4, "sectionPlane");
+        for (const name of ["eye", "target", "up"]) if (all[name]) all[name] = Array.from(doubles(all[name], 3, name));
+        if (all.lineStyles !== undefined && !Array.isArray(all.lineStyles)) throw new TypeError("lineStyles is not an array of objects.");
+        all.lineStyleCount = all.lineStyles?.length ?? 0;
+        if (!all.lineStyleCount) delete all.lineStyles;
+        checkLengths(all, ["opacity", "priorities"], core.get("froe_scene_group_count", this.#scene), "groups");
         return core.within((arena) => {
             const numbers = arena.room(8 * (PICTURE.length + 1));
-            const bytes = body(arena, core.options(arena, "render", given), numbers);
+            const bytes = body(arena, core.options(arena, "render", all), numbers);
             const told = core.copy(Float64Array, numbers, PICTURE.length + 1);
             return { bytes, get text() { return new TextDecoder().decode(bytes); }, paint: PAINTS[told[PICTURE.length]],
                 ...Object.fromEntries(PICTURE.map((name, i) => [name, told[i]])) };
@@ -132,14 +128,16 @@ export class Tree extends Questions {
     /** A picture with hidden surfaces removed, exactly: { bytes, text, shapes, lines, dots, paths, patches, paint }.
      * `format`: "svg", "pdf", "eps", "csv" or "geojson"; the other options are those of froe_render_options in camelCase:
      * names for enumerations, an array of names for `lines`, arrays for `eye`, `target` and `up`. */
-    render({ format = "svg", ...options } = {}) {
-        const number = FORMATS.indexOf(format);
-        if (number < 0) throw new TypeError(`There are no pictures in the format ${format}.`);
-        return this.#picture(options, (arena, at, numbers) => this[CORE].bytes("web_render", this[AT], number, at, numbers));
+    render(options) {
+        const { format, ...more } = { format: "svg", ...given(options) }, place = word(format, FORMATS, "format");
+        return this.#picture(more, (arena, at, numbers) => this[CORE].bytes("web_render", this[AT], place, at, numbers));
     }
     /** One SVG that turns: `count` pictures of a turntable in `seconds` a round. Options as of render(). */
-    renderTurning({ count = 36, seconds = 12, ...options } = {}) {
-        return this.#picture(options, (arena, at, numbers) => this[CORE].files(({ path, take }) => {
+    renderTurning(options) {
+        const { count, seconds, ...more } = { count: 36, seconds: 12, ...given(options) };
+        whole(count, "count", 1, 10000);
+        number(seconds, "seconds");
+        return this.#picture(more, (arena, at, numbers) => this[CORE].files(({ path, take }) => {
             this[CORE].call("web_render_turning", this[AT], arena.text(path("turning.svg")), at, count, seconds, numbers);
             return take("turning.svg");
         }));
@@ -147,8 +145,7 @@ export class Tree extends Questions {
     /** A tree of the same scene whose first cut is plane[0] x + plane[1] y + plane[2] z = plane[3]; of its pictures the
      * options `section`, -1 or 1, and `sectionPlane` show one side. */
     section(plane) {
-        const core = this[CORE], numbers = typed(Float64Array, plane, "plane");
-        if (numbers.length !== this.dim + 1) throw new TypeError(`plane does not have ${this.dim + 1} numbers.`);
+        const core = this[CORE], numbers = doubles(plane, this.dim + 1, "plane");
         return core.within((arena) => Tree.made(core,
             core.made("froe_tree_section", this[AT], arena.array(numbers), core.options(arena, "build"))));
     }
@@ -158,16 +155,15 @@ export class Tree extends Questions {
     /** The bytes of a file for other programs, by the ending of the name: .geojson, .obj or .csv. `what`: "fragments",
      * "cells" or "cuts". */
     export(name, what = "fragments") {
-        const core = this[CORE], number = EXPORTS.indexOf(what);
-        if (number < 0) throw new TypeError(`Trees have no ${what} to be written.`);
+        const core = this[CORE], place = word(what, EXPORTS, "what");
         return core.files(({ path, take }) => core.within((arena) => {
-            core.call("froe_export", this[AT], arena.text(path(name)), number, core.options(arena, "export"));
+            core.call("froe_export", this[AT], arena.text(path(name)), place, core.options(arena, "export"));
             return take(name);
         }));
     }
     /** Proves that the tree is right, or throws an error that says what is not. */
-    audit({ exactOnly = false } = {}) {
-        const core = this[CORE];
+    audit(options) {
+        const core = this[CORE], { exactOnly } = given(options, { exactOnly: false });
         core.within((arena) => core.call("froe_tree_audit", this[AT], core.options(arena, "audit", { exactOnly })));
     }
 }
