@@ -245,11 +245,23 @@ def test_what_lies_in_a_group_is_refused_by_name():
     assert tree.query_groups(hulls=[[[1, 1], [3, 1], [2, 3]]], relation="covers").counts().tolist() == [1]
 
 
+def test_files_whose_end_is_wrong_open_and_are_refused_by_what_reads_it(tree, tmp_path):
+    saved = tree._core.to_bytes()
+    (tmp_path / "bad.froe").write_bytes(saved[:-1] + bytes([saved[-1] ^ 1]))
+    bad = froe.open(tmp_path / "bad.froe")
+    assert bad.report.objects == tree.report.objects
+    with pytest.raises(FormatError, match="corrupted"):
+        bad.save(tmp_path / "copy.froe")
+    with pytest.raises(FormatError, match="corrupted"):
+        bad.audit()
+    assert not (tmp_path / "copy.froe").exists()
+
+
 def test_files_that_are_no_trees(tree, tmp_path):
     saved = tree._core.to_bytes()
     version = bytearray(saved)
     version[8:12] = b"\xff\xff\xff\x7f"
-    for bad in (b"", b"x", saved[:100], b"nope" + saved[4:], bytes(version), saved[:-1] + bytes([saved[-1] ^ 1])):
+    for bad in (b"", b"x", saved[:100], b"nope" + saved[4:], bytes(version), saved + b"x"):
         (tmp_path / "bad.froe").write_bytes(bad)
         with pytest.raises(FormatError):
             froe.open(tmp_path / "bad.froe")

@@ -254,12 +254,13 @@ class Tree(Questions):
 
 
 def open(path: str | os.PathLike[str]) -> Tree:
-    """Opens a tree that ``Tree.save`` or ``froe build`` has written. The file is mapped into memory, and checked.
+    """Opens a tree that ``Tree.save`` or ``froe build`` has written. The file is mapped into memory, and what a call
+    reads is checked when it is first read. Of a corrupted file any later call may raise ``FormatError``.
 
     :param path: the file
     :raises FileError: the file cannot be opened
-    :raises FormatError: the file is no tree, truncated, corrupted, or of another version of froe
-    :cost: O(size of the file), to check it
+    :raises FormatError: the file is no tree, truncated, or of another version of froe
+    :cost: O(1)
 
     >>> import froe, tempfile, os
     >>> with tempfile.TemporaryDirectory() as folder:
