@@ -106,3 +106,12 @@ test("Cancel before there is a drawing leaves a way to go on", async () => {
     await drawn(page);
     await page.close();
 });
+
+test("without WebGL there is a drawing all the same", async () => {
+    const page = await at("");
+    await page.evaluateOnNewDocument(() => { HTMLCanvasElement.prototype.getContext = () => null; });
+    await page.goto("about:blank");
+    await page.goto(`${site.url}#draw?scene=bracket`);
+    await drawn(page);
+    await page.close();
+});

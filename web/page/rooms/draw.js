@@ -48,7 +48,7 @@ class DrawRoom {
     #own = false;       // is it a file that was dropped?
     #frame = 0;
     #timer = 0;
-    #preview;
+    #preview = null;
     #stopTurning;
     #resized;
     #controls;
@@ -57,7 +57,11 @@ class DrawRoom {
     constructor(host) {
         this.#host = host;
         this.#furnish();
-        this.#preview = new Preview(this.#parts.canvas);
+        try {
+            this.#preview = new Preview(this.#parts.canvas);
+        } catch (error) {
+            console.warn(error); // a browser without WebGL shows nothing while the model turns, and the drawing after it
+        }
         this.#stopTurning = turnable(this.#parts.canvas, () => host.state, (patch) => host.set(patch),
             () => (this.#model ? zoomOf(cameraOfState(host.state, this.#model), host.state, this.#model, pageOf(host.state.paper)) : 1));
         this.#resized = new ResizeObserver(() => this.#layOut());
@@ -97,6 +101,7 @@ class DrawRoom {
                 c.choice("scene", "Sample", [...Object.entries(MODELS).map(([id, { title }]) => [id, title]), ["file", "Own file"]]),
                 p.opener, p.credit),
             group("View",
+                h("p", { class: "soft" }, "Drag the model to turn it, or use the arrow keys. The wheel zooms after a click."),
                 h("div", { class: "buttons" }, Object.entries(VIEWS).map(([name, [turn, tilt]]) =>
                     button(name, () => set({ turn, tilt, zoom: 0, x: 0, y: 0 }))), button("Fit", () => set({ zoom: 0, x: 0, y: 0 }))),
                 c.switch("parallel", "Projection", [[false, "Perspective"], [true, "Parallel"]]), p.fov,
@@ -178,7 +183,7 @@ class DrawRoom {
 
     #showModel(model) {
         this.#model = { ...model, title: this.#title };
-        this.#preview.show(this.#model);
+        this.#preview?.show(this.#model);
         this.change([]);
     }
     #showTree(report, best) {
@@ -259,8 +264,8 @@ class DrawRoom {
         this.#frame = requestAnimationFrame(() => {
             this.#frame = 0;
             const { state } = this.#host;
-            this.#preview.style({ shading: state.shading, ownColours: state.colours === "own", lines: state.lines !== "none", section: planeOf(state, this.#model) });
-            this.#preview.draw(cameraOfState(state, this.#model), width, height, this.#model);
+            this.#preview?.style({ shading: state.shading, ownColours: state.colours === "own", lines: state.lines !== "none", section: planeOf(state, this.#model) });
+            this.#preview?.draw(cameraOfState(state, this.#model), width, height, this.#model);
         });
     }
 
@@ -288,7 +293,7 @@ class DrawRoom {
         this.#resized.disconnect();
         this.#stopTurning();
         this.#artist.close();
-        this.#preview.close();
+        this.#preview?.close();
         if (this.#parts.drawing.src.startsWith("blob:")) URL.revokeObjectURL(this.#parts.drawing.src);
     }
 }
