@@ -5,7 +5,7 @@ import { after, before, test as register } from "node:test";
 import { dropped, drawn, launch, modules, open, serve } from "./browser.mjs";
 
 const axe = readFileSync(modules.resolve("axe-core/axe.min.js"), "utf8");
-const test = (name, body) => register(name, { timeout: 90000 }, body);
+const test = (name, body) => register(name, { timeout: 180000 }, body);
 const ROOMS = ["draw?scene=bracket", "partition", "ask", "move"];
 let site, chromium;
 before(async () => { site = await serve(); chromium = await launch(); });
@@ -61,7 +61,7 @@ test("nothing is loaded from elsewhere, and samples when they are chosen", async
 });
 
 test("a hundred models take no more memory than ten", async () => {
-    const page = await at("#draw?scene=hills"), session = await page.createCDPSession();
+    const page = await at("#draw?scene=hills&paper=square", { width: 320, height: 400 }), session = await page.createCDPSession();
     await drawn(page);
     const points = Array.from({ length: 24 }, (_, i) => `v ${Math.cos(i)} ${Math.sin(i)} ${i % 5}\n`).join("");
     const faces = Array.from({ length: 22 }, (_, i) => `f ${i + 1} ${i + 2} ${i + 3}\n`).join("");

@@ -199,9 +199,10 @@ class DrawRoom {
             if (old.startsWith("blob:")) URL.revokeObjectURL(old);
         };
         p.drawing.src = url;
-        p.drawing.alt = `${this.#title}: ${count(picture.shapes)} shapes and ${count(picture.lines)} lines`;
+        const contents = [[picture.shapes, "shapes"], [picture.lines, "lines"]].filter(([n]) => n).map(([n, what]) => `${count(n)} ${what}`);
+        p.drawing.alt = `${this.#title}: ${contents.join(" and ")}`;
         p.command.textContent = commandOf(options, this.#host.state, this.#model, this.#file);
-        this.#host.say(h("span", {}, h("b", {}, "Exact. "), `${count(picture.shapes)} shapes, ${count(picture.lines)} lines, ${size(picture.bytes.length)}`),
+        this.#host.say(h("span", {}, h("b", {}, "Exact. "), [...contents, size(picture.bytes.length)].join(", ")),
             h("span", { class: "soft" }, `${(time / 1000).toFixed(2)} s, from ${count(this.#tree.fragments)} pieces of ${count(this.#tree.objects)} polygons`));
         if (this.#tree.objects <= QUICK_ENOUGH) this.#artist.improve().catch((error) => this.#fail(error));
     }
