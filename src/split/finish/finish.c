@@ -164,8 +164,7 @@ static froe_status choose_exactly(finish *f, const table_part *p, froe_cut *by, 
         bool good;
         const uint32_t piece = choose_piece(f, p, &prices, &cost, &good);
         if (search && !good) {
-            other.cost = INFINITY;
-            table_find_other(f, p, &prices, &other);
+            table_find_other(f, p, &prices, cost, &other);
             search = false;
             searches++;
         }

@@ -2,7 +2,8 @@
 #include "base/random.h"
 #include "split/finish/table.h"
 
-#define THIN 1e-5 /* as in score/view.c */
+#define THIN 1e-5  /* as in score/view.c */
+#define CHEAP 0.07 /* a cut that costs less than none by so much a piece is not bettered by planes across walls */
 
 typedef struct search {
     finish *f;
@@ -154,11 +155,12 @@ static void enter_across(search *s, table_mask marked) {
     }
 }
 
-void table_find_other(finish *f, const table_part *part, const table_prices *prices, table_other *out) {
+void table_find_other(finish *f, const table_part *part, const table_prices *prices, double cost, table_other *out) {
     search s = {f, part, prices, out};
+    out->cost = INFINITY;
     for (int axis = 0; axis < 3 && f->config->quantiles; axis++) enter_axis(&s, axis);
     const table_mask marked = f->t->marked & part->set;
     if (prices->strict || marked) table_pack_part(f->t, part->set);
     if (prices->strict) enter_edges(&s);
-    if (marked) enter_across(&s, marked);
+    if (marked && fmin(cost, out->cost) > -CHEAP * prices->m) enter_across(&s, marked);
 }

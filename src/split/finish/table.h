@@ -188,6 +188,6 @@ table_exact table_exact_of(const finish *f, const froe_cut *cut);
 /** Exact class of a piece. */
 int table_class(finish *f, table_exact *exact, uint32_t column);
 
-/** The best of the cuts of a part in space that are no supporting planes. */
-void table_find_other(finish *f, const table_part *part, const table_prices *prices, table_other *out);
+/** The best of the cuts of a part in space that are no supporting planes, of which the best has that cost. */
+void table_find_other(finish *f, const table_part *part, const table_prices *prices, double cost, table_other *out);
 #endif
