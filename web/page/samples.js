@@ -18,11 +18,30 @@ export const MAPS = {
     streets: { title: "Town plan", made: ["blocks", 1500], credit: "made up by froe" },
 };
 
+async function fetchSample(sample) {
+    const answer = await fetch(`samples/${sample.file}`);
+    if (!answer.ok) throw new Error(`${sample.title} could not be loaded, since the page is offline or incomplete.`);
+    return answer;
+}
+
 /** The source of a sample: see open.js. */
 export async function sampleSource(sample) {
     if (sample.made) return { name: sample.title, made: sample.made };
-    const answer = await fetch(`samples/${sample.file}`);
-    if (!answer.ok) throw new Error(`${sample.title} could not be loaded, since the page is offline or incomplete.`);
-    const blob = await answer.blob();
+    const blob = await (await fetchSample(sample)).blob();
     return { up: sample.up, ...await openFiles([new File([blob], sample.file)]) };
+}
+
+/** Motions. */
+export const MOTIONS = {
+    flight: { title: "Flights", made: ["moving", 40], credit: "made up by froe: short segments, straight from place to place" },
+    spin: { title: "Turning segments", made: ["moving-spin", 60], credit: "made up by froe" },
+    shapes: { title: "Polygons", made: ["moving-polygons", 60], credit: "made up by froe" },
+    cars: { title: "Cars in Bologna", file: "cars-bologna.mfjson", credit: "SUMO, the scenario of Bologna" },
+    boxes: { title: "Boxes that fall", made: ["moving-boxes", 120], credit: "made up by froe: contacts in space" },
+};
+
+/** The source of a motion: see move/follower.js. */
+export async function motionSource(sample) {
+    if (sample.made) return { name: sample.title, made: sample.made };
+    return { name: sample.file, bytes: new Uint8Array(await (await fetchSample(sample)).arrayBuffer()) };
 }

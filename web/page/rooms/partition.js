@@ -187,8 +187,8 @@ class PartitionRoom {
         p.steps.value = step;
         p.told.value = `${count(step)} of ${count(this.#most)}, to depth ${depth}`;
         p.steps.setAttribute("aria-valuetext", p.told.value);
-        if (this.#panes.some((pane) => pane.report)) this.#host.say(this.#panes.filter((pane) => pane.report).map((pane) =>
-            `${pane.report.method}: ${(pane.report.fragments / pane.report.objects).toFixed(2)} pieces for each object`).join(" · "));
+        if (this.#panes.some((pane) => pane.report)) this.#host.say(...this.#panes.filter((pane) => pane.report).map((pane) =>
+            h("span", {}, `${pane.report.method}: ${(pane.report.fragments / pane.report.objects).toFixed(2)} pieces for each object`)));
     }
 
     /* -- pieces --------------------------------------------------------------------- */

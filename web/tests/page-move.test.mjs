@@ -1,0 +1,68 @@
+// The room Move in Chromium: what happens is what the program lists, and time goes both ways. What browser.mjs needs,
+// and FROE_PROGRAM: the program froe.
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { after, before, test as register } from "node:test";
+import { launch, open, press, serve } from "./browser.mjs";
+
+const folder = mkdtempSync(join(tmpdir(), "froe-move-"));
+const test = (name, body) => register(name, { timeout: 60000 }, body);
+let site, chromium;
+before(async () => { site = await serve(); chromium = await launch(); });
+after(async () => { await chromium?.stop(); site?.stop(); rmSync(folder, { recursive: true }); });
+
+/* The room, once all that happens is listed. */
+async function room(state) {
+    const page = await open(chromium.browser, `${site.url}#move?${state}`);
+    await page.waitForFunction(() => / so far/.test(document.querySelector(".status").textContent));
+    return page;
+}
+const status = (page) => page.$eval(".status", (it) => it.textContent);
+const time = (page) => page.$eval(".timeline input", (it) => Number(it.value));
+
+test("as much happens as the program counts", async () => {
+    const motion = join(folder, "flights.mfjson");
+    execFileSync(process.env.FROE_PROGRAM, ["generate", "moving", "-n", "40", "-o", motion, "--quiet"]);
+    const told = JSON.parse(execFileSync(process.env.FROE_PROGRAM, ["simulate", motion, "--events", join(folder, "events.csv"), "--json"]));
+    const events = told.events.all, page = await room("scene=flight&time=1");
+    assert.ok((await status(page)).endsWith(`${events.toLocaleString("en")} of ${events.toLocaleString("en")} events so far`), `${await status(page)}: ${events}`);
+    assert.deepEqual(page.wrong, []);
+    await page.close();
+});
+
+test("time goes from event to event, forwards and back, and the address keeps it", async () => {
+    const page = await room("scene=spin&time=0.3");
+    assert.equal(await time(page), 0.3);
+    await press(page, ".map canvas", ["]", "]", "["]);
+    await page.waitForFunction(() => Number(document.querySelector(".timeline input").value) > 0.3 && /time=0.3/.test(location.hash));
+    const then = await page.$eval(".events [aria-current=true] strong", (it) => Number(it.textContent));
+    await page.$$eval("button", (all) => all.find((it) => it.textContent === "Event before").click());
+    await page.waitForFunction((old) => Number(document.querySelector(".events [aria-current=true] strong").textContent) < old, {}, then);
+    await page.close();
+});
+
+test("it plays, and pauses", async () => {
+    const page = await room("scene=flight&pace=4");
+    const click = (name) => page.$$eval("button", (all, text) => all.find((it) => it.textContent === text).click(), name);
+    await click("Play");
+    await page.waitForFunction(() => Number(document.querySelector(".timeline input").value) > 0.02);
+    await click("Pause");
+    const stood = await time(page);
+    await new Promise((resume) => setTimeout(resume, 200));
+    assert.equal(await time(page), stood);
+    assert.deepEqual(page.wrong, []);
+    await page.close();
+});
+
+test("boxes in space tell their contacts, and a file without motion is refused in a sentence", async () => {
+    const page = await room("scene=boxes");
+    assert.match(await status(page), /contacts so far$/);
+    writeFileSync(join(folder, "broken.mfjson"), "{}");
+    await (await page.$("input[type=file]")).uploadFile(join(folder, "broken.mfjson"));
+    await page.waitForSelector(".status.wrong");
+    assert.match(await status(page), /broken\.mfjson.*\.$/i);
+    await page.close();
+});
