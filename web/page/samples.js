@@ -37,7 +37,7 @@ export const MOTIONS = {
     spin: { title: "Turning segments", made: ["moving-spin", 60], credit: "made up by froe" },
     shapes: { title: "Polygons", made: ["moving-polygons", 60], credit: "made up by froe" },
     cars: { title: "Cars in Bologna", file: "cars-bologna.mfjson", credit: "SUMO, the scenario of Bologna" },
-    boxes: { title: "Boxes that fall", made: ["moving-boxes", 120], credit: "made up by froe: contacts in space" },
+    boxes: { title: "Boxes that fall", made: ["moving-boxes", 60], credit: "made up by froe: contacts in space" },
 };
 
 /** The source of a motion: see move/follower.js. */

@@ -46,7 +46,7 @@ class MoveRoom {
         this.#host = host;
         const p = this.#parts;
         p.canvas = h("canvas", { tabindex: 0, role: "img", "aria-label": "The moving objects. Arrow keys move the view, plus and minus zoom, 0 fits, [ and ] go to the event before and after." });
-        p.time = h("input", { type: "range", min: 0, max: 1, step: 0.0005, "aria-label": "Time", oninput: () => this.#host.set({ time: Number(p.time.value) }) });
+        p.time = h("input", { type: "range", min: 0, max: 1, step: "any", "aria-label": "Time", oninput: () => this.#host.set({ time: Number(p.time.value) }) });
         p.density = h("canvas", { class: "density", role: "img", "aria-label": "How much happens when" });
         p.play = button("Play", () => this.#play());
         p.work = h("div", { class: "work", hidden: true }, h("span", {}, "Reading"), button("Cancel", () => this.cancel()));
