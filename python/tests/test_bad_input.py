@@ -208,6 +208,7 @@ def test_a_closed_tree(tree):
         lambda: tree.join_groups(tree),
         lambda: tree.cells(),
         lambda: tree.pairs(),
+        lambda: tree.check(),
         lambda: tree.report,
         lambda: tree.scene,
         lambda: pickle.dumps(tree),
@@ -261,7 +262,7 @@ def test_files_that_are_no_trees(tree, tmp_path):
     saved = tree._core.to_bytes()
     version = bytearray(saved)
     version[8:12] = b"\xff\xff\xff\x7f"
-    for bad in (b"", b"x", saved[:100], b"nope" + saved[4:], bytes(version), saved + b"x"):
+    for bad in (b"", b"x", saved[:100], b"nope" + saved[4:], bytes(version), saved[:-1], saved + b"x"):
         (tmp_path / "bad.froe").write_bytes(bad)
         with pytest.raises(FormatError):
             froe.open(tmp_path / "bad.froe")
@@ -279,6 +280,22 @@ def test_files_that_are_no_trees(tree, tmp_path):
         froe.open(5)
     with pytest.raises(FileError):
         froe.read(tmp_path / "none.geojson")
+
+
+def test_files_in_which_a_bit_is_wrong(tree, tmp_path):
+    """What was not looked at when the file was opened is refused when it is read."""
+    saved = tree._core.to_bytes()
+    for place in range(0, len(saved), 3):
+        wrong = saved[:place] + bytes([saved[place] ^ 1 << place % 8]) + saved[place + 1 :]
+        with pytest.raises(FormatError):
+            froe.tree._from_bytes(wrong).check()
+        with pytest.raises(FormatError):
+            froe.tree._from_bytes(wrong).pairs()
+    (tmp_path / "bad.froe").write_bytes(wrong)
+    with pytest.raises(FormatError):
+        froe.open(tmp_path / "bad.froe").check()
+    (tmp_path / "good.froe").write_bytes(saved)
+    froe.open(tmp_path / "good.froe").check()
 
 
 def test_progress_that_stops_or_fails(tree):

@@ -137,6 +137,7 @@ static PyObject *scene(PyObject *object, PyObject *const *args, Py_ssize_t count
 static PyMethodDef methods[] = {
     CORE_METHOD("close", close_tree),
     CORE_METHOD("save", core_tree_save),
+    CORE_METHOD("check", core_tree_check),
     CORE_METHOD("to_bytes", core_tree_to_bytes),
     CORE_METHOD("dim", dim),
     CORE_METHOD("scene", scene),

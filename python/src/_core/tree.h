@@ -38,6 +38,7 @@ PyObject *core_ask_pairs(PyObject *self, PyObject *const *args, Py_ssize_t count
 PyObject *core_ask_rays(PyObject *self, PyObject *const *args, Py_ssize_t count);
 PyObject *core_ask_hit_places(PyObject *self, PyObject *const *args, Py_ssize_t count);
 PyObject *core_tree_save(PyObject *self, PyObject *const *args, Py_ssize_t count);
+PyObject *core_tree_check(PyObject *self, PyObject *const *args, Py_ssize_t count);
 PyObject *core_tree_to_bytes(PyObject *self, PyObject *const *args, Py_ssize_t count);
 PyObject *core_tree_report(PyObject *self, PyObject *const *args, Py_ssize_t count);
 PyObject *core_tree_audit(PyObject *self, PyObject *const *args, Py_ssize_t count);

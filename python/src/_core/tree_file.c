@@ -22,6 +22,20 @@ PyObject *core_tree_save(PyObject *object, PyObject *const *args, Py_ssize_t cou
     return done ? Py_NewRef(Py_None) : NULL;
 }
 
+/* check(): all of an opened tree */
+PyObject *core_tree_check(PyObject *object, PyObject *const *args, Py_ssize_t count) {
+    core_tree *self = (core_tree *)object;
+    (void)args;
+    if (!core_arguments("check", count, 0)) return NULL;
+    const froe_tree *tree = core_tree_use(self);
+    if (!tree) return NULL;
+    core_call call;
+    core_call_begin(&call, Py_None);
+    const bool done = core_call_end(&call, froe_tree_check(tree, &call.diag));
+    core_tree_leave(self);
+    return done ? Py_NewRef(Py_None) : NULL;
+}
+
 /* ------------------------------------------------------------------- bytes -- */
 
 typedef struct sink {

@@ -132,6 +132,17 @@ class Tree(Questions):
         """
         self._core.audit(exact_only, threads, progress)
 
+    def check(self) -> None:
+        """Checks all of an opened tree, its scene and the checksums of the file. It returns nothing when all is well.
+
+        :raises FormatError: the file is corrupted
+        :cost: O(size of the file); O(1) for a tree that was built, or has been found right
+
+        >>> import froe
+        >>> froe.points([[0, 0]]).build().check()
+        """
+        self._core.check()
+
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes the tree with its scene. The old file or the whole new one is there, whatever happens.
 
@@ -254,13 +265,13 @@ class Tree(Questions):
 
 
 def open(path: str | os.PathLike[str]) -> Tree:
-    """Opens a tree that ``Tree.save`` or ``froe build`` has written. The file is mapped into memory, and what a call
-    reads is checked when it is first read. Of a corrupted file any later call may raise ``FormatError``.
+    """Opens a tree that ``Tree.save`` or ``froe build`` has written. The file is mapped into memory, and its parts are
+    checked when they are first read, so that questions may raise FormatError, too. ``Tree.check`` checks all at once.
 
     :param path: the file
     :raises FileError: the file cannot be opened
     :raises FormatError: the file is no tree, truncated, or of another version of froe
-    :cost: O(1)
+    :cost: O(1); what is checked later costs O(size of the file) at most
 
     >>> import froe, tempfile, os
     >>> with tempfile.TemporaryDirectory() as folder:
