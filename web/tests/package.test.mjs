@@ -76,6 +76,12 @@ for (const [kind, froe] of kinds) {
         assert.throws(() => cross().query([0, 0, 1]), /boxes has 3 numbers/);
         assert.throws(() => froe.scene(2).add({ kind: "hull", coords: [0, 0], starts: [0, 5] }), /only 1 are given/);
         assert.throws(() => froe.scene(2).add({ kind: "ball", coords: [0, 0] }), /radii/);
+        // Numbers that an array of whole numbers would make others of.
+        assert.throws(() => froe.triangles([0, 0, 0, 1, 0, 0, 0, 1, 0], [0, 1, 2 ** 32 + 2]), /Number 2 of indices is 4294967298/);
+        assert.throws(() => froe.segments([0, 0, 1, 1], { groups: [-1] }), /Number 0 of groups is -1/);
+        assert.throws(() => froe.segments([0, 0, 1, 1], { tags: [2n ** 64n] }), /Number 0 of tags/);
+        assert.throws(() => froe.segments([0, 0, 1, "1"]), /Number 3 of coords is 1/);
+        assert.throws(() => cross().nearest([0, 0], { number: 2 }), /no option number/);
         const tree = cross();
         tree.free();
         tree.free();
