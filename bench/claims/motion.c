@@ -114,17 +114,18 @@ static froe_motion *layers(size_t n, size_t m) {
     double *times = bench_take(6 * n, sizeof *times), *coords = bench_take(18 * n, sizeof *coords);
     uint64_t state = 1;
     const double reach = 0.7 / sqrt((double)n);
+    double middle[2] = {0, 0}, drift[2] = {0, 0};
     for (size_t v = 0; v < 3 * n; v++) {
-        static double middle[2], drift[2];
+        const size_t triangle = v / 3;
         starts[v + 1] = 2 * v + 2;
         times[2 * v] = 0, times[2 * v + 1] = 1;
         for (size_t k = 0; k < 2; k++) {
             if (v % 3 == 0) middle[k] = bench_unit(&state), drift[k] = bench_unit(&state) - 0.5;
             const double at = middle[k] + reach * (2 * bench_unit(&state) - 1);
             const double go = drift[k] + reach * (2 * bench_unit(&state) - 1);
-            coords[6 * v + k] = at, coords[6 * v + 3 + k] = v / 3 < m ? at + go : at;
+            coords[6 * v + k] = at, coords[6 * v + 3 + k] = triangle < m ? at + go : at;
         }
-        coords[6 * v + 2] = coords[6 * v + 5] = (double)(v / 3) + 0.5 * bench_unit(&state);
+        coords[6 * v + 2] = coords[6 * v + 5] = (double)triangle + 0.5 * bench_unit(&state);
     }
     w.dim = 3, w.begin = 0, w.end = 2 / (double)n;
     b.vertex_count = 3 * n, b.starts = starts, b.times = times, b.coords = coords, b.count = n;

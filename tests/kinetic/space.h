@@ -262,9 +262,9 @@ static inline void space_plan(const space_kind *kind, space_data *d, size_t v) {
             const double away = kind->far ? ldexp(1, kind->far) : 0;
             d->coords[3 * (first + i) + k] = ldexp(p[k] + away, kind->scale);
             /* halfway in z, so that layers stay apart */
-            const int bend = k < 2 ? fuzz_int(&d->random, -kind->reach / 2, kind->reach / 2) : 0;
-            d->controls[3 * (first + i) + k] =
-                kind->curved ? ldexp((p[k] + q[k]) / 2 + bend + away, kind->scale) : (double)NAN;
+            const int middle = (p[k] + q[k]) / 2,
+                      bend = k < 2 ? fuzz_int(&d->random, -kind->reach / 2, kind->reach / 2) : 0;
+            d->controls[3 * (first + i) + k] = kind->curved ? ldexp(middle + bend + away, kind->scale) : (double)NAN;
         }
     }
     d->starts[v + 1] = first + legs + 1;
