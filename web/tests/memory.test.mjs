@@ -119,14 +119,14 @@ test("a page without memory throws, wherever that is, and goes on when there is 
         }
     };
     // What is full is emptied bit by bit, until the work can be done.
-    const ballast = [], corner = new Float64Array(2000);
-    while (without(() => ballast.push(froe.points(corner.map(() => ballast.length + Math.random())))));
+    const ballast = [], places = Float64Array.from({ length: 2000 }, (_, i) => i);
+    while (without(() => ballast.push(froe.points(places.map((x) => x + 2000 * ballast.length)))));
     assert.ok(ballast.length > 50);
     while (!without(() => assert.deepEqual(work(froe, 3000), right))) {
         steps.add(step);
         for (const scene of ballast.splice(-3)) scene.free();
     }
-    assert.ok(steps.size >= 5, [...steps].join());
+    assert.ok(steps.size >= 3, [...steps].join());
     for (const scene of ballast) scene.free();
     assert.deepEqual(work(froe, 3000), right);
 });
