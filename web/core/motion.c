@@ -164,6 +164,7 @@ WEB_EXPORT froe_status web_kinetic_order(froe_kinetic *kinetic, const double eye
     return web_bytes_end(out, froe_kinetic_order(kinetic, eye, take_fragment, out, diag), diag);
 }
 
+_Static_assert(FROE_EVENT_KINDS == 12, "EVENTS in package/kinetic.js names them");
 /** The counts of events by kind, then those in the order of KINETIC in package/motion.js. */
 WEB_EXPORT void web_kinetic_statistics(const froe_kinetic *kinetic, double out[FROE_EVENT_KINDS + 8]) {
     const froe_kinetic_stats s = froe_kinetic_statistics(kinetic);

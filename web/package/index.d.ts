@@ -33,7 +33,7 @@ export const CUTS: readonly ("none" | "axis" | "object" | "vertices" | "edge" | 
 /** Names of the numbers in `kinds` of events. */
 export const EVENTS: readonly EventKind[];
 export type EventKind = "vertices" | "vertex-crossing" | "crossings" | "contact" | "triple" | "turn" | "batch" | "plan"
-    | "appear" | "disappear" | "flop";
+    | "appear" | "disappear" | "flop" | "touch";
 
 /** Told the share done, 0 to 1, now and then while a call runs. If it returns false, the call ends with
  * FROE_E_CANCELLED; if it throws, with what it has thrown. */

@@ -6,7 +6,7 @@ import { Tree } from "./tree.js";
 
 /** Names of the numbers in `kinds` of events. */
 export const EVENTS = ["vertices", "vertex-crossing", "crossings", "contact", "triple", "turn", "batch", "plan", "appear",
-    "disappear", "flop"];
+    "disappear", "flop", "touch"];
 const STATISTICS = ["surgeries", "batches", "crowds", "restarts", "nodesTouched", "certificatesMade", "nodes", "certificates"];
 const EVENT = 88, FRAGMENT = 40, PLACE = 12, SNAPSHOT = 16; // bytes of web_event, web_fragment, froe_kinetic_place, ...
 const VISIT = { all: 0, instants: 1, first: 2 }; // as in web/core/motion.c
