@@ -45,6 +45,7 @@ export async function launch() {
 /** A page at an address; what its console says wrong is collected in `page.wrong`. */
 export async function open(browser, url, { width = 1280, height = 800, dark = false, still = false } = {}) {
     const page = await browser.newPage();
+    page.setDefaultTimeout(120000); // other tests run meanwhile, and browsers that draw without a graphics card
     page.wrong = [];
     page.on("console", (message) => { if (message.type() === "error") page.wrong.push(`${message.text()} ${message.location().url ?? ""}`); });
     page.on("pageerror", (error) => page.wrong.push(error.message));

@@ -9,7 +9,7 @@ import { dropped, drawn, launch, open, press, said, saved, serve, settled } from
 const data = (name) => readFileSync(new URL(`../../data/${name}`, import.meta.url));
 const text = (content) => Buffer.from(content);
 const folders = mkdtempSync(join(tmpdir(), "froe-files-"));
-const test = (name, body) => register(name, { timeout: 60000 }, body);
+const test = (name, body) => register(name, { timeout: 240000 }, body);
 let site, chromium, page;
 before(async () => {
     site = await serve();

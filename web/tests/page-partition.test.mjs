@@ -9,7 +9,7 @@ import { after, before, test as register } from "node:test";
 import { launch, open, press, serve } from "./browser.mjs";
 
 const folder = mkdtempSync(join(tmpdir(), "froe-partition-"));
-const test = (name, body) => register(name, { timeout: 60000 }, body);
+const test = (name, body) => register(name, { timeout: 240000 }, body);
 let site, chromium;
 before(async () => { site = await serve(); chromium = await launch(); });
 after(async () => { await chromium?.stop(); site?.stop(); rmSync(folder, { recursive: true }); });

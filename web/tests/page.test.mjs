@@ -9,7 +9,7 @@ import { after, before, test as register } from "node:test";
 import { drawn, launch, open, press, saved, serve, settled } from "./browser.mjs";
 
 const folders = mkdtempSync(join(tmpdir(), "froe-page-"));
-const test = (name, body) => register(name, { timeout: 60000 }, body);
+const test = (name, body) => register(name, { timeout: 240000 }, body);
 let site, chromium;
 before(async () => { site = await serve(); chromium = await launch(); });
 after(async () => { await chromium?.stop(); site?.stop(); rmSync(folders, { recursive: true }); });
