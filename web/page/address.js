@@ -7,13 +7,19 @@ export function readAddress(hash = location.hash) {
     return { room, query };
 }
 
-/** The defaults with what the query changes; what it does not know or cannot read, it leaves. */
-export function readState(query, defaults) {
+/** What a member of a state may be: a number between two, a whole one, one of several. */
+export const between = (min, max) => (value) => value >= min && value <= max;
+export const whole = (min, max) => (value) => Number.isInteger(value) && value >= min && value <= max;
+export const oneOf = (values) => (value) => values.includes(value);
+
+/** The defaults with what the query changes; what is not known, cannot be read or is not allowed stays as usual.
+ * `allowed` has a test for each member that is not just yes or no. */
+export function readState(query, defaults, allowed) {
     const state = { ...defaults };
     for (const [name, text] of new URLSearchParams(query)) {
         if (!Object.hasOwn(defaults, name)) continue;
         const value = parse(text, typeof defaults[name]);
-        if (value !== undefined) state[name] = value;
+        if (value !== undefined && (allowed[name]?.(value) ?? true)) state[name] = value;
     }
     return state;
 }

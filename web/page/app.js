@@ -25,7 +25,7 @@ function host(name, module) {
     main.replaceChildren(h("h1", { class: "unseen" }, `${module.title}: ${module.lead}`), stage, panel);
     let timer = 0;
     const it = {
-        stage, foot, panel, state: null,
+        stage, foot, panel, state: null, files: [],
         /** Changes the state, tells the room, and writes the address once it rests. */
         set(patch) {
             const changed = Object.keys(patch).filter((key) => it.state[key] !== patch[key]);
@@ -51,24 +51,30 @@ function host(name, module) {
         fail(error) {
             console.warn(error);
             status.classList.add("wrong");
-            status.replaceChildren(sentence(error));
+            status.replaceChildren(sentence(error, it.files));
+        },
+        /** Hands the room files that were dropped or chosen. */
+        take(files) {
+            it.files = files;
+            here?.room?.files(files);
         },
         leave() { clearTimeout(timer); },
     };
     return it;
 }
 
-/** The message of an error as a sentence; it may begin with the name of a file. */
-function sentence(error) {
+/** The message of an error as a sentence. It may begin with the name of a file, which stays as it is. */
+function sentence(error, files) {
     const text = String(error?.message ?? error).trim();
-    return text.replace(/^[a-z]+(?= )/, (word) => word[0].toUpperCase() + word.slice(1)) + (/[.!?]$/.test(text) ? "" : ".");
+    const begun = files.some(({ name }) => text.startsWith(name)) ? text : text.replace(/^[a-z]+(?= )/, (word) => word[0].toUpperCase() + word.slice(1));
+    return begun + (/[.!?]$/.test(text) ? "" : ".");
 }
 
 async function enter() {
     const { room: named, query } = readAddress();
     const name = Object.hasOwn(ROOMS, named) ? named : "draw";
     if (here?.name === name && here.room) {
-        const state = readState(query, here.module.defaults);
+        const state = readState(query, here.module.defaults, here.module.allowed);
         const changed = Object.keys(state).filter((key) => state[key] !== here.host.state[key]);
         Object.assign(here.host.state, state);
         if (changed.length) here.room.change(changed);
@@ -87,7 +93,7 @@ async function enter() {
     if (turn !== entering) return;
     document.title = `${module.title} · froe`;
     here = { name, module, host: host(name, module) };
-    here.host.state = readState(query, module.defaults);
+    here.host.state = readState(query, module.defaults, module.allowed);
     const room = await module.enter(here.host);
     if (turn === entering) here.room = room;
     else room.leave();
@@ -108,7 +114,7 @@ addEventListener("drop", (event) => {
     event.preventDefault();
     over = 0;
     document.body.classList.remove("over");
-    here?.room?.files?.([...event.dataTransfer.files]);
+    here?.host.take([...event.dataTransfer.files]);
 });
 
 /* -- offline ----------------------------------------------------------------- */

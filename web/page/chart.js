@@ -3,8 +3,14 @@
  * The view is part of the state of a room: zoom (1: all fits), x and y (how far it is shifted, in heights of the canvas),
  * and, in space, turn and tilt in degrees. Space is shown without perspective. */
 
+import { between } from "./address.js";
+
 export const VIEW = { turn: 31, tilt: 24, zoom: 1, x: 0, y: 0 };
 const MARGIN = 24, NEAREST = 4000, FARTHEST = 0.2;
+/** What its members may be: see address.js. */
+export const VIEWS = { turn: between(-180, 180), tilt: between(-90, 90), zoom: between(FARTHEST, NEAREST), x: between(-NEAREST, NEAREST), y: between(-NEAREST, NEAREST) };
+/** The view that a new scene begins with; how it is turned stays. */
+export const WHOLE = { zoom: VIEW.zoom, x: VIEW.x, y: VIEW.y };
 
 export class Chart {
     #canvas;
@@ -167,7 +173,7 @@ export class Chart {
             else if (arrow) (this.dim === 3 && !event.shiftKey ? turn(5 * arrow[0], 5 * arrow[1]) : shift(-20 * arrow[0], -20 * arrow[1])), event.preventDefault();
             else if ("+=".includes(event.key)) zoomAt(1.2, middle);
             else if (event.key === "-") zoomAt(1 / 1.2, middle);
-            else if (event.key === "0") change({ zoom: VIEW.zoom, x: VIEW.x, y: VIEW.y });
+            else if (event.key === "0") change(WHOLE);
         });
     }
 }

@@ -18,9 +18,9 @@ export class Controls {
     }
     #set(name, value) { this.#host.set({ [name]: value }); }
 
-    /** One of several, in a list: options are [value, text]. */
-    choice(name, label, options) {
-        const list = h("select", { onchange: () => this.#set(name, list.value) },
+    /** One of several, in a list: options are [value, text]. `also` is set with it. */
+    choice(name, label, options, also = {}) {
+        const list = h("select", { onchange: () => this.#host.set({ [name]: list.value, ...also }) },
             options.map(([value, text]) => h("option", { value }, text)));
         this.#bind((state) => { list.value = state[name]; });
         return h("label", { class: "field" }, h("span", {}, label), list);

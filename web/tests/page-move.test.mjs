@@ -17,7 +17,7 @@ after(async () => { await chromium?.stop(); site?.stop(); rmSync(folder, { recur
 /* The room, once all that happens is listed. */
 async function room(state) {
     const page = await open(chromium.browser, `${site.url}#move?${state}`);
-    await page.waitForFunction(() => / so far/.test(document.querySelector(".status").textContent));
+    await page.waitForFunction(() => / so far/.test(document.querySelector(".status")?.textContent));
     return page;
 }
 const status = (page) => page.$eval(".status", (it) => it.textContent);

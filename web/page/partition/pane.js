@@ -36,6 +36,14 @@ export class Pane {
         this.#worker = null;
     }
 
+    /** Ends what is being built, and shows nothing any more. */
+    clear() {
+        this.cancel();
+        this.#shown = null;
+        this.#hovered = -1;
+        this.chart.draw();
+    }
+
     get report() { return this.#shown?.report ?? null; }
     /** How many cuts there are. */
     get cutCount() { return this.#shown?.order.length ?? 0; }
@@ -55,7 +63,7 @@ export class Pane {
                 throw new Error(`This scene has ${objects.toLocaleString("en")} objects, and the page shows partitions of at most ${most.toLocaleString("en")}: froe draw does so of any number`);
             const tree = await scene.build({ method, ...(leaf ? { leaf } : {}) });
             const [report, nodes, pieces, cells, cuts, up, groups] = await Promise.all([tree.report(), tree.nodes(), tree.pieces(),
-                tree.cells({ inner: true }), tree.cuts(), report3(scene), groupNames(scene)]);
+                tree.cells({ inner: true }), tree.cuts(), upOf(scene), groupNames(scene)]);
             if (age !== this.#age) return undefined;
             this.#show({ report, nodes, pieces, cells, cuts, groups, bounds, up });
             this.#tell.built(this);
@@ -142,7 +150,7 @@ export class Pane {
 
     #paint(context) {
         if (!this.#shown) return;
-        const { nodes, rank, order, parentFront } = this.#shown, steps = this.#steps, look = colours();
+        const { nodes, rank, order } = this.#shown, steps = this.#steps, look = colours();
         const front = [];
         for (let i = 0; i < nodes.parents.length; i++) {
             const parent = nodes.parents[i];
@@ -150,7 +158,7 @@ export class Pane {
         }
         const last = steps ? order[steps - 1] : -1;
         if (this.chart.dim === 2) this.#paintPlane(context, look, front, last, steps);
-        else this.#paintSpace(context, look, front, last, parentFront);
+        else this.#paintSpace(context, look, front, last);
     }
     #paintPlane(context, look, front, last, steps) {
         const { cells, cellOf, cuts, cutOf, order, pieces, nodes } = this.#shown;
@@ -256,7 +264,7 @@ export class Pane {
 }
 
 /* The axis that points up, of a scene in space. */
-async function report3(scene) { return await scene.dim() === 3 ? scene.up() : 2; }
+async function upOf(scene) { return await scene.dim() === 3 ? scene.up() : 2; }
 
 async function groupNames(scene) {
     const [arrays, count] = await Promise.all([scene.arrays(), scene.groupCount()]);

@@ -1,29 +1,37 @@
 /* ask.js: the room Ask: a window, a ball, a ray or a point under the pointer, and what it meets */
+import { between, oneOf, whole } from "../address.js";
 import { answer, answerAll, box, KINDS, many } from "../ask/questions.js";
 import { peer } from "../ask/peers.js";
-import { Chart, colours, trace, VIEW } from "../chart.js";
-import { button, Controls, group, opener } from "../controls.js";
+import { Chart, colours, trace, VIEW, VIEWS, WHOLE } from "../chart.js";
+import { button, Controls, group } from "../controls.js";
 import { count, h } from "../dom.js";
 import { isCancelled, startFroe } from "../link.js";
 import { MAP_FILES, MODEL_FILES, openFiles, sceneFrom } from "../open.js";
 import { MAPS, MODELS, sampleSource } from "../samples.js";
+import { Scenes } from "../scenes.js";
 
 export const title = "Ask";
 export const lead = "what a window, a ball, a ray or a point meets.";
 export const defaults = { scene: "rooms", kind: "window", size: 0.15, k: 5, px: 0.5, py: 0.5, ox: 0.2, oy: 0.8, ...VIEW };
 
+const SAMPLES = { ...MAPS, ...MODELS };
+export const allowed = {
+    scene: oneOf([...Object.keys(SAMPLES), "file"]), kind: oneOf(Object.keys(KINDS)), size: between(0.005, 0.6), k: whole(1, 50),
+    px: between(0, 1), py: between(0, 1), ox: between(0, 1), oy: between(0, 1), ...VIEWS,
+};
+
 const MOST = 300000;     // objects that the page draws at each move of the pointer
 const MEASURED = 10000;  // questions by which the time of one is found
-const SAMPLES = { ...MAPS, ...MODELS };
 const LISTED = 12;       // answers that are named
 
 export async function enter(host) {
     const room = new AskRoom(host);
-    room.load();
+    room.scenes.load();
     return room;
 }
 
 class AskRoom {
+    scenes;
     #host;
     #controls;
     #chart;
@@ -34,12 +42,15 @@ class AskRoom {
     #answered = null;  // { question, ids, values, statistics }
     #asking = false;
     #late = false;     // was there a question meanwhile?
+    #base = null;      // the scene as it is seen now: { key, canvas, points, depths, near }
     #age = 0;
     #dark = matchMedia("(prefers-color-scheme: dark)");
     #redraw = () => this.#chart.draw();
 
     constructor(host) {
         this.#host = host;
+        this.scenes = new Scenes(host, { samples: SAMPLES, sampleSource, openFiles, usual: defaults.scene,
+            show: (read) => this.#open(read), fresh: WHOLE });
         const p = this.#parts;
         p.canvas = h("canvas", { tabindex: 0, role: "img", "aria-label": "The scene. The pointer or the arrow keys move the question, arrows with shift the scene; plus and minus zoom, 0 fits." });
         p.bar = h("progress", { max: 1, value: 0, "aria-label": "Progress" });
@@ -56,16 +67,13 @@ class AskRoom {
     }
     #settings(c) {
         const p = this.#parts;
-        p.credit = h("p", { class: "soft" });
         p.size = c.slider("size", "Size, of the whole", { min: 0.005, max: 0.6, step: 0.005, show: (x) => `${(100 * x).toFixed(1)} %` });
         p.k = c.slider("k", "How many", { min: 1, max: 50 });
         p.facts = h("dl", { class: "facts" });
         p.list = h("ol", { class: "found" });
         p.times = h("div", { class: "stack" });
         return [
-            group("Scene",
-                c.choice("scene", "Map or model", [...Object.entries(SAMPLES).map(([id, { title }]) => [id, title]), ["file", "Own file"]]),
-                opener("Open a file …", `${MAP_FILES},${MODEL_FILES}`, (files) => this.files(files)), p.credit),
+            this.scenes.group(c, "Scene", "Map or model", `${MAP_FILES},${MODEL_FILES}`),
             group("Question", c.switch("kind", "Kind", Object.entries(KINDS).map(([id, { title }]) => [id, title])), p.size, p.k,
                 h("p", { class: "soft" }, "Move the pointer over the picture. A click sets where a ray of the plane begins. Arrow keys move the question, too.")),
             group("Answer", p.facts, p.list),
@@ -75,26 +83,17 @@ class AskRoom {
 
     /* -- scenes ---------------------------------------------------------------------- */
 
-    async load() {
-        const sample = SAMPLES[this.#host.state.scene] ?? MAPS.rooms;
-        this.#parts.credit.textContent = `${sample.title}: ${sample.credit}.`;
-        await this.#open(() => sampleSource(sample));
-    }
-    async files(files) {
-        this.#host.set({ scene: "file", zoom: VIEW.zoom, x: VIEW.x, y: VIEW.y });
-        this.#parts.credit.textContent = `${files[0].name} stays in this browser; nothing is sent.`;
-        await this.#open(() => openFiles(files));
-    }
+    files(files) { this.scenes.take(files); }
     async #open(source) {
         this.#end();
         const age = this.#age, p = this.#parts;
         this.#host.say();
-        p.times.replaceChildren();
         p.work.hidden = false;
         p.bar.value = 0;
         try {
             const read = await source();
-            const worker = await startFroe((share) => { p.bar.value = share; });
+            if (age !== this.#age) return undefined;
+            const worker = await startFroe((share) => { if (age === this.#age) p.bar.value = share; });
             if (age !== this.#age) return worker.end();
             this.#worker = worker;
             const scene = await sceneFrom(worker.froe, read), objects = await scene.objectCount(), bounds = await scene.bounds();
@@ -126,11 +125,17 @@ class AskRoom {
         this.#worker?.end();
         this.#worker = this.#tree = this.#scene = this.#answered = null;
         this.#asking = this.#late = false;
+        this.#base = null;
+        const { facts, list, times } = this.#parts;
+        for (const part of [facts, list, times]) part.replaceChildren();
+        delete facts.dataset.asked;
+        delete facts.dataset.found;
+        this.#chart.draw();
     }
     cancel() {
         this.#end();
         this.#parts.work.hidden = true;
-        this.#host.say(h("span", {}, "Cancelled."), button("Build again", () => this.load()));
+        this.#host.say(h("span", {}, "Cancelled."), button("Build again", () => this.scenes.again()));
     }
 
     /* -- questions ------------------------------------------------------------------- */
@@ -259,12 +264,62 @@ class AskRoom {
 
     #paint(context) {
         if (!this.#scene) return;
-        const look = colours(), { dim, shapes } = this.#scene, found = new Set(this.#answered?.ids);
-        const depths = dim === 3 ? new Float64Array(shapes.coords.length / 3) : null, points = this.#chart.project(shapes.coords, depths);
-        const first = this.#answered?.question.kind === "ray" && this.#answered.ids.length ? this.#answered.ids[0] : -1;
-        if (dim === 2) this.#paintPlane(context, look, points, found, first);
-        else this.#paintSpace(context, look, points, depths, found, first);
+        const look = colours(), base = this.#seen(look), it = this.#answered, dots = devicePixelRatio || 1;
+        context.drawImage(base.canvas, 0, 0, base.canvas.width / dots, base.canvas.height / dots);
+        const first = it?.question.kind === "ray" && it.ids.length ? it.ids[0] : -1;
+        if (it) this.#paintFound(context, look, base, [...it.ids], first);
         this.#paintQuestion(context, look);
+    }
+    /* The scene without answers. It is drawn once for each view, since that of a large model takes longer than a frame. */
+    #seen(look) {
+        const { turn, tilt, zoom, x, y } = this.#host.state, { width, height } = this.#chart, dots = devicePixelRatio || 1;
+        const key = [turn, tilt, zoom, x, y, width, height, dots, look.ink].join();
+        if (this.#base?.key === key) return this.#base;
+        const { dim, shapes, objects } = this.#scene, canvas = new OffscreenCanvas(Math.round(width * dots), Math.round(height * dots)), context = canvas.getContext("2d");
+        const depths = dim === 3 ? new Float64Array(shapes.coords.length / 3) : null, points = this.#chart.project(shapes.coords, depths);
+        const order = Uint32Array.from({ length: objects }, (_, i) => i), near = depths ? this.#nearness(depths) : null;
+        if (near) order.sort((a, b) => near[a] - near[b]);
+        context.scale(dots, dots);
+        context.lineCap = context.lineJoin = "round";
+        if (near) this.#paintFaces(context, points, order, () => look.faint, look.soft);
+        else this.#paintLines(context, points, order, look.ink, 1);
+        this.#base = { key, canvas, points, near };
+        return this.#base;
+    }
+    /* How near each object is to the eye, by the middle of its corners. */
+    #nearness(depths) {
+        const { starts, corners } = this.#scene.shapes, near = new Float64Array(this.#scene.objects);
+        for (let i = 0; i < near.length; i++) {
+            for (let c = starts[i]; c < starts[i + 1]; c++) near[i] += depths[corners[c]];
+            near[i] /= starts[i + 1] - starts[i];
+        }
+        return near;
+    }
+    /* What was found lies over the scene: it is seen where something is before it, too. */
+    #paintFound(context, look, { points, near }, ids, first) {
+        context.lineCap = context.lineJoin = "round";
+        if (near) return this.#paintFaces(context, points, ids.sort((a, b) => near[a] - near[b]), (i) => (i === first ? look.hit : look.mark), look.card);
+        this.#paintLines(context, points, ids.filter((i) => i !== first), look.mark, 3);
+        if (first >= 0) this.#paintLines(context, points, [first], look.hit, 4);
+        return undefined;
+    }
+    #paintLines(context, points, ids, colour, width) {
+        context.beginPath();
+        for (const i of ids) this.#trace(context, points, i);
+        context.strokeStyle = colour;
+        context.lineWidth = width;
+        context.stroke();
+    }
+    #paintFaces(context, points, ids, colourOf, edge) {
+        context.strokeStyle = edge;
+        context.lineWidth = 0.4;
+        for (const i of ids) {
+            context.beginPath();
+            this.#trace(context, points, i);
+            context.fillStyle = colourOf(i);
+            context.fill();
+            context.stroke();
+        }
     }
     #trace(context, points, i) {
         const { starts, corners, kinds } = this.#scene.shapes, from = starts[i], to = starts[i + 1];
@@ -277,46 +332,15 @@ class AskRoom {
         } else for (let c = from; c < to; c++) context[c === from ? "moveTo" : "lineTo"](points[2 * corners[c]], points[2 * corners[c] + 1]);
         if (to - from > 2) context.closePath();
     }
-    #paintPlane(context, look, points, found, first) {
-        const { objects } = this.#scene, strokes = (colour, width, when) => {
-            context.beginPath();
-            for (let i = 0; i < objects; i++) if (when(i)) this.#trace(context, points, i);
-            context.strokeStyle = colour;
-            context.lineWidth = width;
-            context.stroke();
-        };
-        context.lineCap = "round";
-        strokes(look.ink, 1, (i) => !found.has(i));
-        strokes(look.mark, 3, (i) => found.has(i) && i !== first);
-        if (first >= 0) strokes(look.hit, 4, (i) => i === first);
-    }
-    #paintSpace(context, look, points, depths, found, first) {
-        const { shapes, objects } = this.#scene, near = new Float64Array(objects);
-        for (let i = 0; i < objects; i++) {
-            let sum = 0;
-            for (let c = shapes.starts[i]; c < shapes.starts[i + 1]; c++) sum += depths[shapes.corners[c]];
-            near[i] = sum / (shapes.starts[i + 1] - shapes.starts[i]);
-        }
-        context.lineJoin = "round";
-        for (const i of Uint32Array.from({ length: objects }, (_, i) => i).sort((a, b) => near[a] - near[b])) {
-            context.beginPath();
-            this.#trace(context, points, i);
-            context.fillStyle = i === first ? look.hit : found.has(i) ? look.mark : look.faint;
-            context.fill();
-            context.strokeStyle = look.soft;
-            context.lineWidth = 0.4;
-            context.stroke();
-        }
-    }
     #paintQuestion(context, look) {
         const question = this.#answered?.question, [x, y] = this.#pixel;
         context.strokeStyle = look.hit;
         context.fillStyle = look.hit;
         context.lineWidth = 1.5;
         if (question?.kind === "ray" && this.#scene.dim === 2) {
-            const [[ox, oy], far] = [this.#chart.project(question.origin), 1e5 / (Math.hypot(...question.direction) || 1)];
-            const end = this.#chart.project(question.origin.map((o, i) => o + question.direction[i] / Math.hypot(...question.direction) * this.#length() / this.#host.state.size * Math.min(4, far)));
-            trace(context, [ox, oy, end[0], end[1]], 0, 2);
+            const [ox, oy, tx, ty] = this.#chart.project([...question.origin, ...question.origin.map((o, i) => o + question.direction[i])]);
+            const beyond = 2 * (this.#chart.width + this.#chart.height) / (Math.hypot(tx - ox, ty - oy) || 1); // the edge of the picture
+            trace(context, [ox, oy, ox + beyond * (tx - ox), oy + beyond * (ty - oy)], 0, 2);
             context.stroke();
             context.beginPath();
             context.arc(ox, oy, 4, 0, 7);
@@ -371,15 +395,11 @@ class AskRoom {
     change(changed) {
         this.#controls.update();
         this.#showSettings();
-        const { scene } = this.#host.state, p = this.#parts;
-        if (changed.includes("scene") && scene !== "file") {
-            this.#host.set({ zoom: VIEW.zoom, x: VIEW.x, y: VIEW.y });
-            this.load();
-            return;
-        }
-        if (changed.includes("kind")) p.times.replaceChildren();
+        if (changed.includes("scene")) return this.scenes.load();
+        if (changed.includes("kind")) this.#parts.times.replaceChildren();
         this.#ask();
         this.#chart.draw();
+        return undefined;
     }
     #showSettings() {
         const { kind } = this.#host.state;

@@ -1,4 +1,5 @@
 /* draw.js: the room Draw: a model, turned; its exact drawing, as soon as it rests */
+import { between, oneOf } from "../address.js";
 import { button, Controls, group, opener } from "../controls.js";
 import { count, h, save, size } from "../dom.js";
 import { Artist } from "../draw/artist.js";
@@ -17,6 +18,16 @@ export const defaults = {
     scene: "house", turn: 31, tilt: 19, zoom: 0, x: 0, y: 0, up: "file", parallel: false, fov: 35,
     shading: "flat", colours: "file", lines: "all", width: 1, hidden: false, crease: 30,
     section: "none", at: 0.5, flip: false, paper: "wide", scale: "fit", unit: 1,
+};
+
+const SHADINGS = [["flat", "Light"], ["cel", "Light in four steps"], ["plain", "Colours alone"], ["white", "White"], ["none", "None: lines alone"]];
+const LINES = [["all", "Outlines and creases"], ["outlines", "Outlines"], ["mesh", "All edges"], ["none", "None"]];
+const names = (options) => oneOf(options.map(([name]) => name));
+export const allowed = {
+    scene: oneOf([...Object.keys(MODELS), "file"]), turn: between(-180, 180), tilt: between(-90, 90), zoom: between(0, 200), x: between(-1000, 1000), y: between(-1000, 1000),
+    up: oneOf(["file", "x", "y", "z"]), fov: between(10, 100), shading: names(SHADINGS), colours: oneOf(["file", "own"]), lines: names(LINES),
+    width: between(0.25, 4), crease: between(5, 90), section: oneOf(["none", "x", "y", "z"]), at: between(0, 1),
+    paper: oneOf(Object.keys(PAPERS)), scale: oneOf(["fit", ...SCALES.map(String)]), unit: names(UNITS),
 };
 
 const RESTS = 250;            // milliseconds without a turn, after which the drawing is made
@@ -88,7 +99,7 @@ class DrawRoom {
     #settings(c) {
         const p = this.#parts, { set } = this.#host, percent = (x) => `${Math.round(100 * x)} %`;
         p.credit = h("p", { class: "soft" });
-        p.opener = opener("Open a file …", MODEL_FILES, (files) => this.files(files));
+        p.opener = opener("Open a file …", MODEL_FILES, (files) => this.#host.take(files));
         p.section = h("div", { class: "stack" }, c.slider("at", "Where", { min: 0, max: 1, step: 0.01, show: percent }), c.toggle("flip", "Keep the other side"));
         p.fov = c.slider("fov", "Angle of view", { min: 10, max: 100, show: (x) => `${x}°` });
         p.scale = h("div", { class: "stack" }, c.choice("scale", "Scale", [["fit", "As fits"], ...SCALES.map((s) => [String(s), `1 : ${s}`])]),
@@ -107,10 +118,10 @@ class DrawRoom {
                 c.switch("parallel", "Projection", [[false, "Perspective"], [true, "Parallel"]]), p.fov,
                 c.switch("up", "Points up", [["file", "As the file says"], ["x", "x"], ["y", "y"], ["z", "z"]])),
             group("Faces",
-                c.choice("shading", "Shading", [["flat", "Light"], ["cel", "Light in four steps"], ["plain", "Colours alone"], ["white", "White"], ["none", "None: lines alone"]]),
+                c.choice("shading", "Shading", SHADINGS),
                 c.switch("colours", "Colours", [["file", "Of the file"], ["own", "froe's"]])),
             group("Lines",
-                c.choice("lines", "Kinds", [["all", "Outlines and creases"], ["outlines", "Outlines"], ["mesh", "All edges"], ["none", "None"]]),
+                c.choice("lines", "Kinds", LINES),
                 c.slider("width", "Width", { min: 0.25, max: 4, step: 0.25, show: (x) => `${x}` }),
                 c.slider("crease", "Creases from", { min: 5, max: 90, step: 5, show: (x) => `${x}°` }),
                 c.toggle("hidden", "Hidden lines, dashed")),

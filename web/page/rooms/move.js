@@ -1,14 +1,17 @@
 /* move.js: the room Move: objects that move, the partition that follows them, and what happens to it, event by event */
-import { cellColour, Chart, colours, trace, VIEW } from "../chart.js";
-import { button, Controls, group, opener } from "../controls.js";
+import { between, oneOf } from "../address.js";
+import { cellColour, Chart, colours, trace, VIEW, VIEWS, WHOLE } from "../chart.js";
+import { button, Controls, group } from "../controls.js";
 import { count, h } from "../dom.js";
 import { EVENTS } from "froe/kinetic.js";
 import { Follower, isCancelled } from "../move/follower.js";
 import { MOTIONS, motionSource } from "../samples.js";
+import { Scenes } from "../scenes.js";
 
 export const title = "Move";
 export const lead = "a partition that follows moving objects, event by event.";
 export const defaults = { scene: "flight", time: 0, pace: 1, cells: true, ...VIEW };
+export const allowed = { scene: oneOf([...Object.keys(MOTIONS), "file"]), time: between(0, 1), pace: between(0.1, 4), ...VIEWS };
 
 const LARGEST = 100e6;   // bytes of a file of moving objects
 const MOST = 20000;      // objects
@@ -22,11 +25,12 @@ const WORDS = { vertices: "an end passes over an end", "vertex-crossing": "an en
 
 export async function enter(host) {
     const room = new MoveRoom(host);
-    room.load();
+    room.scenes.load();
     return room;
 }
 
 class MoveRoom {
+    scenes;
     #host;
     #controls;
     #chart;
@@ -44,6 +48,8 @@ class MoveRoom {
 
     constructor(host) {
         this.#host = host;
+        this.scenes = new Scenes(host, { samples: MOTIONS, sampleSource: motionSource, openFiles: readMotion, usual: defaults.scene,
+            show: (read) => this.#open(read), fresh: { ...WHOLE, time: 0 } });
         const p = this.#parts;
         p.canvas = h("canvas", { tabindex: 0, role: "img", "aria-label": "The moving objects. Arrow keys move the view, plus and minus zoom, 0 fits, [ and ] go to the event before and after." });
         p.time = h("input", { type: "range", min: 0, max: 1, step: "any", "aria-label": "Time", oninput: () => this.#host.set({ time: Number(p.time.value) }) });
@@ -59,13 +65,11 @@ class MoveRoom {
     }
     #settings(c) {
         const p = this.#parts;
-        p.credit = h("p", { class: "soft" });
         p.cells = c.toggle("cells", "Cells of the partition");
         p.list = h("ol", { class: "events" });
         p.counts = h("dl", { class: "facts" });
         return [
-            group("Motion", c.choice("scene", "Motion", [...Object.entries(MOTIONS).map(([id, { title }]) => [id, title]), ["file", "Own file"]]),
-                opener("Open a file …", ".mfjson,.json", (files) => this.files(files)), p.credit),
+            this.scenes.group(c, "Motion", "Motion", ".mfjson,.json"),
             group("Play", c.slider("pace", "Pace", { min: 0.1, max: 4, step: 0.1, show: (x) => `${x} ×` }), p.cells,
                 h("div", { class: "buttons two" }, button("Event before", () => this.#toEvent(-1)), button("Event after", () => this.#toEvent(1)))),
             group("What happens", p.list), group("In all", p.counts),
@@ -74,36 +78,25 @@ class MoveRoom {
 
     /* -- motions ------------------------------------------------------------------------ */
 
-    async load() {
-        const sample = MOTIONS[this.#host.state.scene] ?? MOTIONS.flight;
-        this.#parts.credit.textContent = `${sample.title}: ${sample.credit}.`;
-        await this.#open(() => motionSource(sample));
-    }
-    async files([file]) {
-        this.#host.set({ scene: "file", time: 0, zoom: VIEW.zoom, x: VIEW.x, y: VIEW.y });
-        this.#parts.credit.textContent = `${file.name} stays in this browser; nothing is sent.`;
-        await this.#open(async () => {
-            if (file.size > LARGEST) throw new Error(`${file.name} has ${Math.round(file.size / 1e6)} MB, and the page reads motions of at most ${LARGEST / 1e6} MB`);
-            return { name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) };
-        });
-    }
+    files(files) { this.scenes.take(files); }
     async #open(source) {
         this.#end();
         const age = this.#age, follower = new Follower(), p = this.#parts;
         this.#follower = follower;
         this.#host.say();
         p.work.hidden = false;
-        p.list.replaceChildren();
-        p.counts.replaceChildren();
         try {
-            const read = await source(), motion = await follower.open(read);
+            const read = await source();
+            if (age !== this.#age) return;
+            const motion = await follower.open(read);
             if (age !== this.#age) return;
             const objects = motion.births.length;
             if (!objects) throw new Error("Nothing moves in this file");
             if (objects > MOST) throw new Error(`${count(objects)} objects move, and the page shows at most ${count(MOST)}: froe simulate takes any number`);
             this.#motion = { ...motion, corners: motion.vertices.length / objects };
             p.work.hidden = true;
-            await this.#fit();
+            await this.#fit(follower);
+            if (age !== this.#age) return;
             this.#show();
             this.#tell();
             const events = await follower.list();
@@ -119,10 +112,10 @@ class MoveRoom {
         }
     }
     /* The view holds everything at all times that are looked at here. */
-    async #fit() {
+    async #fit(follower) {
         const { dim, begin, end } = this.#motion, lo = new Array(dim).fill(Infinity), hi = new Array(dim).fill(-Infinity);
         for (let i = 0; i <= 24; i++) {
-            const { positions } = await this.#follower.at(begin + (end - begin) * i / 24, false);
+            const { positions } = await follower.at(begin + (end - begin) * i / 24, false);
             for (let k = 0; k < positions.length; k++) {
                 if (Number.isNaN(positions[k])) continue;
                 lo[k % dim] = Math.min(lo[k % dim], positions[k]);
@@ -137,12 +130,15 @@ class MoveRoom {
         this.#follower?.end();
         this.#follower = this.#motion = this.#shown = this.#events = null;
         this.#busy = this.#late = false;
+        this.#parts.list.replaceChildren();
+        this.#parts.counts.replaceChildren();
         this.#paintTimeline();
+        this.#chart.draw();
     }
     cancel() {
         this.#end();
         this.#parts.work.hidden = true;
-        this.#host.say(h("span", {}, "Cancelled."), button("Read again", () => this.load()));
+        this.#host.say(h("span", {}, "Cancelled."), button("Read again", () => this.scenes.again()));
     }
 
     /* -- time --------------------------------------------------------------------------- */
@@ -309,22 +305,26 @@ class MoveRoom {
 
     change(changed) {
         this.#controls.update();
-        if (changed.includes("scene") && this.#host.state.scene !== "file") {
-            this.#host.set({ time: 0, zoom: VIEW.zoom, x: VIEW.x, y: VIEW.y });
-            this.load();
-            return;
-        }
+        if (changed.includes("scene")) return this.scenes.load();
         if (changed.includes("time") || changed.includes("cells")) {
             this.#show();
             this.#tell();
         }
         this.#chart.draw();
+        return undefined;
     }
     leave() {
         this.#end();
         this.#dark.removeEventListener("change", this.#redraw);
         this.#chart.close();
     }
+}
+
+/* The source of a file of moving objects. */
+async function readMotion([file]) {
+    if (file.size > LARGEST) throw new Error(`${file.name} has ${Math.round(file.size / 1e6)} MB, and the page reads motions of at most ${LARGEST / 1e6} MB`);
+    if (!file.size) throw new Error(`${file.name} is empty.`);
+    return { name: file.name, bytes: new Uint8Array(await file.arrayBuffer()) };
 }
 
 /* How many times are at most `now`; times are sorted. */

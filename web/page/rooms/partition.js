@@ -1,10 +1,12 @@
 /* partition.js: the room Partition: how a map or a model is cut, cut by cut, by one method or by two side by side */
-import { VIEW } from "../chart.js";
-import { button, Controls, group, opener } from "../controls.js";
+import { oneOf, whole } from "../address.js";
+import { VIEW, VIEWS, WHOLE } from "../chart.js";
+import { button, Controls, group } from "../controls.js";
 import { count, h } from "../dom.js";
 import { MAP_FILES, MODEL_FILES, openFiles } from "../open.js";
 import { Pane } from "../partition/pane.js";
 import { MAPS, MODELS, sampleSource } from "../samples.js";
+import { Scenes } from "../scenes.js";
 
 export const title = "Partition";
 export const lead = "how a map or a model is cut into cells.";
@@ -17,24 +19,33 @@ const METHODS = [["auto", "As froe chooses"], ["grain", "grain: fewest pieces"],
     ["autopartition", "autopartition: along objects"], ["cylindrical", "cylindrical: walls"], ["paterson_yao", "paterson_yao: slabs"],
     ["kd", "kd: by medians"], ["quad", "quad: by halves"], ["grid", "grid"]];
 
+export const allowed = {
+    scene: oneOf([...Object.keys(SAMPLES), "file"]), method: oneOf(METHODS.map(([id]) => id)), second: oneOf(["none", ...METHODS.map(([id]) => id)]),
+    leaf: whole(0, 16), step: whole(-1, 1e9), ...VIEWS,
+};
+
 export async function enter(host) {
     const room = new PartitionRoom(host);
-    room.load();
+    room.scenes.load();
     return room;
 }
 
 class PartitionRoom {
+    scenes;
     #host;
     #controls;
     #parts = {};
     #panes = [];
     #source = null;
+    #age = 0;           // counts scenes: what belongs to an older one is dropped
     #playing = 0;
     #dark = matchMedia("(prefers-color-scheme: dark)");
     #redraw = () => { for (const pane of this.#panes) pane.chart.draw(); };
 
     constructor(host) {
         this.#host = host;
+        this.scenes = new Scenes(host, { samples: SAMPLES, sampleSource, openFiles, usual: defaults.scene,
+            show: (read) => this.#open(read), fresh: { ...WHOLE, step: -1 } });
         const p = this.#parts;
         p.bar = h("progress", { max: 1, value: 0, "aria-label": "Progress" });
         p.work = h("div", { class: "work", hidden: true }, h("span", {}, "Building"), p.bar, button("Cancel", () => this.cancel()));
@@ -46,16 +57,13 @@ class PartitionRoom {
     }
     #settings(c) {
         const p = this.#parts;
-        p.credit = h("p", { class: "soft" });
         p.steps = h("input", { type: "range", min: 0, step: 1, oninput: () => this.#host.set({ step: Number(p.steps.value) }) });
         p.told = h("output", {});
         p.play = button("Play", () => this.#play());
         p.number = h("input", { type: "number", min: 0, step: 1, placeholder: "number", oninput: () => this.#pick(p.number.value === "" ? -1 : Number(p.number.value)) });
         p.about = h("dl", { class: "facts" });
         return [
-            group("Scene",
-                c.choice("scene", "Map or model", [...Object.entries(SAMPLES).map(([id, { title }]) => [id, title]), ["file", "Own file"]]),
-                opener("Open a file …", `${MAP_FILES},${MODEL_FILES}`, (files) => this.files(files)), p.credit),
+            this.scenes.group(c, "Scene", "Map or model", `${MAP_FILES},${MODEL_FILES}`),
             group("Method", c.choice("method", "Method", METHODS), c.choice("second", "Beside it", [["none", "None"], ...METHODS]),
                 c.slider("leaf", "Objects in a leaf", { min: 0, max: 16, show: (n) => (n ? `up to ${n}` : "as usual") })),
             group("Cuts",
@@ -71,25 +79,36 @@ class PartitionRoom {
 
     /* -- scenes -------------------------------------------------------------------- */
 
-    async load() {
-        const sample = SAMPLES[this.#host.state.scene] ?? MAPS.plan;
-        this.#parts.credit.textContent = `${sample.title}: ${sample.credit}.`;
-        await this.#open(() => sampleSource(sample));
-    }
-    async files(files) {
-        this.#host.set({ scene: "file", step: -1, zoom: VIEW.zoom, x: VIEW.x, y: VIEW.y });
-        this.#parts.credit.textContent = `${files[0].name} stays in this browser; nothing is sent.`;
-        await this.#open(() => openFiles(files));
-    }
+    files(files) { this.scenes.take(files); }
     async #open(source) {
-        this.#halt();
+        this.#end();
+        const age = this.#age, p = this.#parts;
+        this.#host.say();
+        p.bar.value = 0;
+        p.work.hidden = false;
         try {
-            this.#source = await source();
+            const read = await source();
+            if (age !== this.#age) return;
+            this.#source = read;
             this.#furnishPanes();
             for (const pane of this.#panes) this.#build(pane);
         } catch (error) {
+            if (age !== this.#age) return;
+            p.work.hidden = true;
             this.#host.fail(error);
         }
+    }
+    /* Ends what is read and built. Nothing of it is shown any more. */
+    #end() {
+        this.#halt();
+        this.#age++;
+        this.#source = null;
+        this.#building.clear();
+        for (const pane of this.#panes) {
+            pane.clear();
+            pane.caption.replaceChildren();
+        }
+        this.#parts.about.replaceChildren();
     }
 
     /* As many pictures as methods. */
@@ -143,11 +162,9 @@ class PartitionRoom {
         this.#parts.work.hidden = this.#building.size === 0;
     }
     cancel() {
-        for (const pane of this.#panes) {
-            pane.cancel();
-            this.#done(pane);
-        }
-        this.#host.say(h("span", {}, "Cancelled."), button("Build again", () => { for (const pane of this.#panes) this.#build(pane); }));
+        this.#end();
+        this.#parts.work.hidden = true;
+        this.#host.say(h("span", {}, "Cancelled."), button("Build again", () => this.scenes.again()));
     }
 
     /* -- steps --------------------------------------------------------------------- */
@@ -214,11 +231,7 @@ class PartitionRoom {
 
     change(changed) {
         this.#controls.update();
-        if (changed.includes("scene") && this.#host.state.scene !== "file") {
-            this.#host.set({ step: -1, zoom: VIEW.zoom, x: VIEW.x, y: VIEW.y });
-            this.load();
-            return;
-        }
+        if (changed.includes("scene")) return this.scenes.load();
         if (this.#source && changed.some((name) => ["method", "second", "leaf"].includes(name))) {
             const before = this.#panes.map((pane) => pane.method);
             this.#furnishPanes();
@@ -226,9 +239,10 @@ class PartitionRoom {
         }
         for (const pane of this.#panes) pane.step = this.#host.state.step;
         if (changed.includes("step")) this.#tell();
+        return undefined;
     }
     leave() {
-        this.#halt();
+        this.#end();
         this.#dark.removeEventListener("change", this.#redraw);
         for (const pane of this.#panes) pane.close();
     }
