@@ -183,3 +183,66 @@ test("a picture keeps what is drawn where the window becomes another one", async
     assert.deepEqual(page.wrong, []);
     await page.close();
 });
+
+test("the timeline is as sharp after its window became another one", async () => {
+    const page = await at("#move?scene=spin");
+    await shown(page, "move");
+    await page.setViewport({ width: 500, height: 700 });
+    await page.waitForFunction(() => document.querySelector(".density").clientWidth < 450);
+    await new Promise((resume) => setTimeout(resume, 200));
+    const { width, drawn } = await page.$eval(".density", (it) => ({ width: it.width - it.clientWidth,
+        drawn: it.getContext("2d").getImageData(0, 0, it.width, it.height).data.some((byte) => byte) }));
+    assert.equal(width, 0);
+    assert.ok(drawn);
+    await page.close();
+});
+
+test("times of another kind of question are not shown", async () => {
+    const page = await at("#ask");
+    await shown(page, "ask");
+    await page.evaluate(() => {
+        [...document.querySelectorAll("button")].find((it) => it.textContent.startsWith("Measure")).click();
+        document.querySelector("input[value=ray]").click();
+    });
+    await new Promise((resume) => setTimeout(resume, 1500));
+    assert.equal(await page.$("tbody"), null);
+    await page.close();
+});
+
+test("one answer meets, several meet", async () => {
+    const page = await at("#ask?kind=near&k=1");
+    await shown(page, "ask");
+    assert.equal(await page.$eval(".facts dd", (it) => it.textContent), "1 is nearest");
+    await page.close();
+});
+
+for (const width of [1280, 320])
+    test(`the Tab key leads to all, and what has the focus is seen, ${width} pixels wide`, async () => {
+        for (const room of Object.keys(SHOWN)) {
+            const page = await at(`#${room}${room === "draw" ? "?scene=bracket" : ""}`, { width, height: 740 });
+            await shown(page, room);
+            const wanted = await page.evaluate(() => [...document.querySelectorAll(":is(button, input, select, summary, canvas[tabindex]):not([type=radio])")]
+                .filter((it) => it.checkVisibility({ visibilityProperty: true })).length);
+            const reached = new Set();
+            for (let i = 0; i < 80; i++) {
+                await page.keyboard.press("Tab");
+                const at = await page.evaluate(() => {
+                    const it = document.activeElement, box = (it.closest("label") ?? it).getBoundingClientRect();
+                    if (it === document.body) return null;
+                    const top = document.elementFromPoint(box.left + box.width / 2, box.top + Math.min(box.height / 2, 40));
+                    const around = [it, it.nextElementSibling, it.parentElement, it.closest(".sheet")].filter(Boolean);
+                    globalThis.tabbed ??= [];
+                    if (!globalThis.tabbed.includes(it)) globalThis.tabbed.push(it);
+                    return { index: globalThis.tabbed.indexOf(it), counts: it.matches(":is(button, input, select, summary, canvas):not([type=radio])"), text: it.outerHTML.slice(0, 90),
+                        covered: it.closest(".panel") && !(top && (it.contains(top) || top.contains(it) || it.closest("label")?.contains(top))),
+                        outlined: around.some((one) => getComputedStyle(one).outlineStyle !== "none") };
+                });
+                if (!at) break;
+                assert.ok(!at.covered, `${room}: covered: ${at.text}`);
+                assert.ok(at.outlined, `${room}: without an outline: ${at.text}`);
+                if (at.counts) reached.add(at.index);
+            }
+            assert.equal(reached.size, wanted, room);
+            await page.close();
+        }
+    });

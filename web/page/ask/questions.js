@@ -1,11 +1,11 @@
 /* questions.js: the kinds of questions of the room Ask, and others of the same kind to measure by */
 
-/** By name: what is said of them, and which programs of npm answer the like, in the plane and in space. */
+/** By name: what is said of them, of one answer and of several, and which programs of npm answer the like, in the plane and in space. */
 export const KINDS = {
-    window: { title: "Window", meet: "meet the window", peers: { 2: "flatbush" } },
-    ball: { title: "Ball", meet: "meet the ball", peers: {} },
-    ray: { title: "Ray", meet: "lie on the ray", peers: { 3: "three-mesh-bvh" } },
-    near: { title: "Nearest", meet: "are nearest", peers: { 2: "flatbush", 3: "three-mesh-bvh" } },
+    window: { title: "Window", meets: ["meets the window", "meet the window"], peers: { 2: "flatbush" } },
+    ball: { title: "Ball", meets: ["meets the ball", "meet the ball"], peers: {} },
+    ray: { title: "Ray", meets: ["lies on the ray", "lie on the ray"], peers: { 3: "three-mesh-bvh" } },
+    near: { title: "Nearest", meets: ["is nearest", "are nearest"], peers: { 2: "flatbush", 3: "three-mesh-bvh" } },
 };
 
 /** What a tree answers to a question { kind, at, size, k, origin, direction }: ids, values beside them or null. */

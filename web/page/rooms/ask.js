@@ -69,13 +69,14 @@ class AskRoom {
         const p = this.#parts;
         p.size = c.slider("size", "Size, of the whole", { min: 0.005, max: 0.6, step: 0.005, show: (x) => `${(100 * x).toFixed(1)} %` });
         p.k = c.slider("k", "How many", { min: 1, max: 50 });
+        p.hint = h("p", { class: "soft" }, "A click sets where the ray begins.");
         p.facts = h("dl", { class: "facts" });
         p.list = h("ol", { class: "found" });
         p.times = h("div", { class: "stack" });
         return [
             this.scenes.group(c, "Scene", "Map or model", `${MAP_FILES},${MODEL_FILES}`),
             group("Question", c.switch("kind", "Kind", Object.entries(KINDS).map(([id, { title }]) => [id, title])), p.size, p.k,
-                h("p", { class: "soft" }, "Move the pointer over the picture. A click sets where a ray of the plane begins. Arrow keys move the question, too.")),
+                h("p", { class: "soft" }, "Move the pointer over the picture, or use the arrow keys."), p.hint),
             group("Answer", p.facts, p.list),
             group("Time", button("Measure, beside programs of npm", () => this.measure()), p.times),
         ];
@@ -108,6 +109,7 @@ class AskRoom {
             this.#scene = { dim, objects, bounds, up, shapes, names, took, method: (await tree.report()).method };
             this.#chart.fit(bounds, up);
             this.#tellScene();
+            this.#showSettings();
             this.#ask();
         } catch (error) {
             if (age === this.#age && !isCancelled(error)) this.#host.fail(error);
@@ -207,14 +209,14 @@ class AskRoom {
         }
     }
     #tell() {
-        const p = this.#parts, it = this.#answered, { kind } = this.#host.state;
+        const p = this.#parts, it = this.#answered, kind = it?.question.kind;
         if (!it) {
             p.facts.replaceChildren(h("dt", {}, "Nothing"), h("dd", {}, "is under the pointer"));
             p.list.replaceChildren();
             return;
         }
         const { nodes, leaves, tests, exact } = it.statistics;
-        const facts = [["Objects", `${count(it.ids.length)} ${KINDS[kind].meet}`], ["Visited", `${count(nodes)} nodes, ${count(leaves)} leaves`],
+        const facts = [["Objects", `${count(it.ids.length)} ${KINDS[kind].meets[it.ids.length === 1 ? 0 : 1]}`], ["Visited", `${count(nodes)} nodes, ${count(leaves)} leaves`],
             ["Tested", `${count(tests)} objects, ${count(exact)} by exact numbers`]];
         p.facts.replaceChildren(...facts.flatMap(([term, told]) => [h("dt", {}, term), h("dd", {}, told)]));
         const ids = [...it.ids.subarray(0, LISTED)], { names, shapes } = this.#scene;
@@ -248,7 +250,7 @@ class AskRoom {
                 other.ask(kind, questions, more);
                 rows.push([name, other.what, await time(() => other.ask(kind, questions, more))]);
             }
-            if (age !== this.#age) return undefined;
+            if (age !== this.#age || kind !== this.#host.state.kind) return undefined;
             p.times.replaceChildren(h("table", {},
                 h("thead", {}, h("tr", {}, ["", "µs a question", "answers"].map((text) => h("th", {}, text)))),
                 h("tbody", {}, rows.map(([who, what, { each, found }]) =>
@@ -405,6 +407,7 @@ class AskRoom {
         const { kind } = this.#host.state;
         this.#parts.size.hidden = kind === "ray" || kind === "near";
         this.#parts.k.hidden = kind !== "near";
+        this.#parts.hint.hidden = kind !== "ray" || this.#scene?.dim !== 2;
     }
     leave() {
         this.#end();

@@ -44,6 +44,7 @@ class MoveRoom {
     #playing = 0;
     #age = 0;
     #dark = matchMedia("(prefers-color-scheme: dark)");
+    #resized = new ResizeObserver(() => this.#paintTimeline());
     #redraw = () => { this.#chart.draw(); this.#paintTimeline(); };
 
     constructor(host) {
@@ -62,6 +63,7 @@ class MoveRoom {
         this.#controls = new Controls(host);
         host.panel.append(...this.#settings(this.#controls));
         this.#dark.addEventListener("change", this.#redraw);
+        this.#resized.observe(p.density);
     }
     #settings(c) {
         const p = this.#parts;
@@ -316,6 +318,7 @@ class MoveRoom {
     leave() {
         this.#end();
         this.#dark.removeEventListener("change", this.#redraw);
+        this.#resized.disconnect();
         this.#chart.close();
     }
 }
