@@ -61,10 +61,14 @@ export class Chart {
         });
     }
 
-    /** The map from coordinates to pixels: rows of [per axis ..., constant] for x and y, and in space for the depth. */
+    /* The middle of the box. Coordinates are taken from it, so that pixels of what is far from the origin have their
+     * digits. */
+    get #middle() { return this.#box.lo.map((low, i) => low / 2 + this.#box.hi[i] / 2); }
+    /** The map from coordinates, less the middle, to pixels: rows of [per axis ..., constant] for x and y, and in space
+     * for the depth. */
     #matrix() {
         const { dim, lo, hi, up } = this.#box, { turn, tilt, zoom, x, y } = this.#view(), { width, height } = this;
-        const middle = lo.map((low, i) => low / 2 + hi[i] / 2), size = lo.map((low, i) => hi[i] - low);
+        const size = lo.map((low, i) => hi[i] - low);
         let rows;
         if (dim === 2) rows = [[1, 0], [0, 1]];
         else {
@@ -82,16 +86,16 @@ export class Chart {
             : Math.min(room(width), room(height)) / Math.hypot(...size));
         const at = [width / 2 + x * height, height / 2 - y * height];
         return rows.map((row, i) => {
-            const factor = i === 1 ? -scale : scale, scaled = row.map((r) => r * factor);
-            return [...scaled, (at[i] ?? 0) - scaled.reduce((sum, r, k) => sum + r * middle[k], 0)];
+            const factor = i === 1 ? -scale : scale;
+            return [...row.map((r) => r * factor), at[i] ?? 0];
         });
     }
     /** Pixels of coordinates, two for each point; in space `depths` are filled, larger is nearer. */
     project(coords, depths = null) {
-        const { dim } = this, rows = this.#matrix(), count = coords.length / dim, out = new Float64Array(2 * count);
+        const { dim } = this, rows = this.#matrix(), [mx, my, mz = 0] = this.#middle, count = coords.length / dim, out = new Float64Array(2 * count);
         const [[a, b, c, d], [e, f, g, h], depth] = dim === 2 ? rows.map(([p, q, r]) => [p, q, 0, r]) : rows;
         for (let i = 0; i < count; i++) {
-            const x = coords[dim * i], y = coords[dim * i + 1], z = dim === 3 ? coords[dim * i + 2] : 0;
+            const x = coords[dim * i] - mx, y = coords[dim * i + 1] - my, z = dim === 3 ? coords[dim * i + 2] - mz : 0;
             out[2 * i] = a * x + b * y + c * z + d;
             out[2 * i + 1] = e * x + f * y + g * z + h;
             if (depths) depths[i] = depth[0] * x + depth[1] * y + depth[2] * z;
@@ -100,16 +104,15 @@ export class Chart {
     }
     /** The point of the plane under a pixel. */
     unproject([px, py]) {
-        const [[a, , c], [, e, f]] = this.#matrix();
-        return [(px - c) / a, (py - f) / e];
+        const [[a, , c], [, e, f]] = this.#matrix(), [mx, my] = this.#middle;
+        return [mx + (px - c) / a, my + (py - f) / e];
     }
     /** In space: the ray into the picture under a pixel: { origin, direction }. */
     rayAt([px, py]) {
         const [right, down, depth] = this.#matrix(), scale = Math.hypot(...right.slice(0, 3)), { lo, hi } = this.#box;
         const u = (px - right[3]) / scale / scale, v = (py - down[3]) / scale / scale, far = Math.hypot(...lo.map((low, i) => hi[i] - low)) * 2;
-        const middle = lo.map((low, i) => low / 2 + hi[i] / 2), toward = depth.slice(0, 3).map((x) => x / scale);
-        const from = [0, 1, 2].map((i) => right[i] * u + down[i] * v), along = toward.reduce((sum, t, i) => sum + t * (middle[i] - from[i]), 0);
-        return { origin: from.map((x, i) => x + toward[i] * (along + far)), direction: toward.map((t) => -t) };
+        const toward = depth.slice(0, 3).map((x) => x / scale);
+        return { origin: this.#middle.map((x, i) => x + (right[i] * u + down[i] * v + toward[i] * far)), direction: toward.map((t) => -t) };
     }
 
     #listen(change, { point, drag, leave, key }) {

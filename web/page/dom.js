@@ -22,5 +22,7 @@ export function save(name, bytes, type) {
 
 /** 1234567 as 1,234,567. */
 export const count = (n) => n.toLocaleString("en");
+/** 1 piece, 2 pieces. */
+export const counted = (n, one, several = `${one}s`) => `${count(n)} ${n === 1 ? one : several}`;
 /** Bytes as 12 kB or 3.4 MB. */
 export const size = (bytes) => (bytes < 1e6 ? `${Math.ceil(bytes / 1000)} kB` : `${(bytes / 1e6).toFixed(1)} MB`);

@@ -174,7 +174,7 @@ test("a picture keeps what is drawn where the window becomes another one", async
         await page.evaluate((room) => { location.hash = `#${room}?scene=${room === "move" ? "spin" : "bracket"}`; }, room);
         await page.waitForFunction((title) => document.title.toLowerCase().startsWith(title), {}, room);
         await shown(page, room);
-        for (const [width, height] of [[320, 480], [200, 200], [1600, 500], [1280, 800]]) {
+        for (const [width, height] of [[320, 480], [200, 480], [1600, 500], [1280, 800]]) {
             await page.setViewport({ width, height });
             await new Promise((resume) => setTimeout(resume, 100));
             assert.ok(await page.evaluate(() => [...document.querySelectorAll(".stage canvas")].every((it) => it.clientWidth > 0)), `${room} ${width}`);
@@ -213,6 +213,17 @@ test("one answer meets, several meet", async () => {
     const page = await at("#ask?kind=near&k=1");
     await shown(page, "ask");
     assert.equal(await page.$eval(".facts dd", (it) => it.textContent), "1 is nearest");
+    await page.close();
+});
+
+test("far from the origin the question is where the pointer is, and one object is one", async () => {
+    const page = await at("#ask"), line = { type: "LineString", coordinates: [[1e15, 1e15], [1e15 + 1, 1e15 + 2]] };
+    await shown(page, "ask");
+    await dropped(page, { "far.geojson": Buffer.from(JSON.stringify({ type: "FeatureCollection", features: [{ type: "Feature", properties: {}, geometry: line }] })) });
+    await page.waitForFunction(() => /^1 object;/.test(document.querySelector(".status").textContent) && document.querySelector("[data-asked]"));
+    await new Promise((resume) => setTimeout(resume, 300));
+    const filled = await page.$eval(".map canvas", (it) => [-8, 8].map((x) => it.getContext("2d").getImageData(it.width / 2 + x, it.height / 2, 1, 1).data[3] > 0));
+    assert.deepEqual(filled, [true, true]);
     await page.close();
 });
 

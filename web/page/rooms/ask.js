@@ -4,7 +4,7 @@ import { answer, answerAll, box, KINDS, many } from "../ask/questions.js";
 import { peer } from "../ask/peers.js";
 import { Chart, colours, trace, VIEW, VIEWS, WHOLE } from "../chart.js";
 import { button, Controls, group } from "../controls.js";
-import { count, h } from "../dom.js";
+import { count, counted, h } from "../dom.js";
 import { isCancelled, startFroe } from "../link.js";
 import { MAP_FILES, MODEL_FILES, openFiles, sceneFrom } from "../open.js";
 import { MAPS, MODELS, sampleSource } from "../samples.js";
@@ -120,7 +120,7 @@ class AskRoom {
     }
     #tellScene() {
         const s = this.#scene;
-        this.#host.say(`${count(s.objects)} objects; the tree, by ${s.method}, was built in ${s.took.toFixed(0)} ms`);
+        this.#host.say(`${counted(s.objects, "object")}; the tree, by ${s.method}, was built in ${s.took.toFixed(0)} ms`);
     }
     #end() {
         this.#age++;
@@ -216,8 +216,8 @@ class AskRoom {
             return;
         }
         const { nodes, leaves, tests, exact } = it.statistics;
-        const facts = [["Objects", `${count(it.ids.length)} ${KINDS[kind].meets[it.ids.length === 1 ? 0 : 1]}`], ["Visited", `${count(nodes)} nodes, ${count(leaves)} leaves`],
-            ["Tested", `${count(tests)} objects, ${count(exact)} by exact numbers`]];
+        const facts = [["Objects", counted(it.ids.length, ...KINDS[kind].meets)], ["Visited", `${counted(nodes, "node")}, ${counted(leaves, "leaf", "leaves")}`],
+            ["Tested", `${counted(tests, "object")}, ${count(exact)} by exact numbers`]];
         p.facts.replaceChildren(...facts.flatMap(([term, told]) => [h("dt", {}, term), h("dd", {}, told)]));
         const ids = [...it.ids.subarray(0, LISTED)], { names, shapes } = this.#scene;
         const line = (id, i) => {

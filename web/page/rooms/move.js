@@ -2,7 +2,7 @@
 import { between, oneOf } from "../address.js";
 import { cellColour, Chart, colours, trace, VIEW, VIEWS, WHOLE } from "../chart.js";
 import { button, Controls, group } from "../controls.js";
-import { count, h } from "../dom.js";
+import { count, counted, h } from "../dom.js";
 import { EVENTS } from "froe/kinetic.js";
 import { Follower, isCancelled } from "../move/follower.js";
 import { MOTIONS, motionSource } from "../samples.js";
@@ -229,7 +229,7 @@ class MoveRoom {
         p.time.setAttribute("aria-valuetext", `time ${now.toPrecision(6)}`);
         p.cells.hidden = this.#motion.dim === 3;
         const { times, kinds } = this.#events ?? {};
-        this.#host.say(...[`Time ${now.toPrecision(6)}`, `${count(this.#motion.births.length)} objects`,
+        this.#host.say(...[`Time ${now.toPrecision(6)}`, counted(this.#motion.births.length, "object"),
             times ? `${count(after(times, now))} of ${count(times.length)} ${kinds ? "events" : "contacts"} so far` : "listing what happens …"].map((text) => h("span", {}, text)));
         if (!this.#events) return;
         const { objects, per } = this.#events, first = Math.max(0, after(times, now) - 1 - (AROUND >> 1)), lines = [];

@@ -2,7 +2,7 @@
 import { oneOf, whole } from "../address.js";
 import { VIEW, VIEWS, WHOLE } from "../chart.js";
 import { button, Controls, group } from "../controls.js";
-import { count, h } from "../dom.js";
+import { count, counted, h } from "../dom.js";
 import { MAP_FILES, MODEL_FILES, openFiles } from "../open.js";
 import { Pane } from "../partition/pane.js";
 import { MAPS, MODELS, sampleSource } from "../samples.js";
@@ -148,7 +148,7 @@ class PartitionRoom {
     }
     #built(pane) {
         const r = pane.report;
-        pane.caption.replaceChildren(h("strong", {}, r.method), ` ${count(r.fragments)} pieces of ${count(r.objects)} objects, ${count(r.leaves)} cells, depth ${r.height}`);
+        pane.caption.replaceChildren(h("strong", {}, r.method), ` ${counted(r.fragments, "piece")} of ${counted(r.objects, "object")}, ${counted(r.leaves, "cell")}, depth ${r.height}`);
         this.#done(pane);
         this.#tell();
         this.#tellPiece(pane, -1);
@@ -223,7 +223,7 @@ class PartitionRoom {
         const facts = [["Object", it.name ? `${it.object}, of ${it.name}` : String(it.object)],
             ["Part", it.whole ? "the whole object" : `one of ${it.siblings} pieces`],
             ["Lies", it.inCut ? `in cut ${count(it.cut)}, at depth ${it.depth}` : `in a cell at depth ${it.depth}`],
-            ["List", `${count(it.list)} ${it.list === 1 ? "piece" : "pieces"} at node ${count(it.node)}`]];
+            ["List", `${counted(it.list, "piece")} at node ${count(it.node)}`]];
         return p.about.replaceChildren(...facts.flatMap(([term, told]) => [h("dt", {}, term), h("dd", {}, told)]));
     }
 
