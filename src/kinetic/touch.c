@@ -27,7 +27,7 @@ froe_status touch_find(froe_kinetic *k, froe_diagnostic *diag) {
     froe_contact first = {.a = FROE_NONE};
     const froe_status status = froe_motion_contacts(m, &o, take_first, &first, diag);
     if (status) return status;
-    *t = (touch_state){true, m->edition, NOW_NEVER, first};
+    *t = (touch_state){.known = true, .edition = m->edition, .last = NOW_NEVER, .first = first};
     if (first.a != FROE_NONE) t->last = odd_tick_before(&k->now, first.begin[0]);
     return FROE_OK;
 }
@@ -41,7 +41,9 @@ void touch_tell(froe_kinetic *k, const event_watcher *watcher) {
                               .early = c->begin[0],
                               .late = c->begin[1]};
     k->counts.events[FROE_EVENT_TOUCH]++;
+    k->touch.reporting = true;
     if (watcher->visit) base_callback(watcher->visit(watcher->user, &event));
+    k->touch.reporting = false;
     now_catch_up(&k->now);
 }
 

@@ -217,6 +217,21 @@ static void bad_options_are_refused_and_calls_can_be_stopped(void **state) {
     froe_motion_free(m);
 }
 
+/* Without objects no coordinate and no time has a width. */
+static void a_motion_without_objects_has_no_contacts(void **state) {
+    (void)state;
+    for (unsigned dim = 2; dim <= 3; dim++) {
+        froe_motion_options w = froe_motion_defaults();
+        froe_motion *m = NULL;
+        int told = 0;
+        w.dim = dim, w.begin = 0, w.end = 8;
+        assert_int_equal(froe_motion_new(&w, NULL, &m, NULL), FROE_OK);
+        assert_int_equal(froe_motion_contacts(m, NULL, stop_at_once, &told, NULL), FROE_OK);
+        assert_int_equal(told, 0);
+        froe_motion_free(m);
+    }
+}
+
 /* The widest numbers that doubles make: the arena must hold whatever comes. */
 static void nasty_coordinates_stay_within_the_arena(void **state) {
     (void)state;
@@ -273,6 +288,7 @@ int main(void) {
         cmocka_unit_test(times_are_enclosed_and_the_first_is_found),
         cmocka_unit_test(objects_of_one_group_or_vertex_may_be_left_out),
         cmocka_unit_test(bad_options_are_refused_and_calls_can_be_stopped),
+        cmocka_unit_test(a_motion_without_objects_has_no_contacts),
         cmocka_unit_test(nasty_coordinates_stay_within_the_arena),
         cmocka_unit_test(every_allocation_may_fail),
     };

@@ -393,6 +393,51 @@ static void a_partition_ends_before_the_first_contact(void **state) {
     }
 }
 
+typedef struct touch_time {
+    froe_kinetic *partition;
+    double early, late, instant[2];
+    froe_status status;
+} touch_time;
+
+static bool ask_for_instant(void *user, const froe_event *event) {
+    touch_time *t = user;
+    if (event->kind != FROE_EVENT_TOUCH) return true;
+    t->early = event->early, t->late = event->late;
+    t->status = froe_kinetic_instant(t->partition, t->instant, NULL);
+    return true;
+}
+
+static void a_visitor_may_ask_when_the_first_contact_begins(void **state) {
+    froe_motion *m = falling(3, -5); /* they meet at 3 */
+    touch_time t = {.partition = start(m, 1), .status = FROE_E_CANCELLED};
+    (void)state;
+    assert_int_equal(froe_kinetic_advance(t.partition, 8, ask_for_instant, &t, NULL), FROE_E_INPUT);
+    assert_int_equal(t.status, FROE_OK);
+    assert_true(t.instant[0] == t.early && t.instant[1] == t.late && t.early <= 3 && t.late >= 3);
+    assert_int_equal(froe_kinetic_instant(t.partition, t.instant, NULL), FROE_E_ARG); /* it is over */
+    froe_kinetic_free(t.partition);
+    froe_motion_free(m);
+}
+
+static void a_partition_of_no_triangles_lasts(void **state) {
+    froe_motion_options w = froe_motion_defaults();
+    froe_motion *m = NULL;
+    (void)state;
+    w.dim = 3, w.begin = 0, w.end = 8;
+    assert_int_equal(froe_motion_new(&w, NULL, &m, NULL), FROE_OK);
+    froe_kinetic *k = start(m, 1);
+    assert_int_equal(froe_kinetic_advance(k, 8, NULL, NULL, NULL), FROE_OK);
+    assert_true(froe_kinetic_next(k) == (double)INFINITY);
+    assert_int_equal(froe_kinetic_audit(k, NULL), FROE_OK);
+    froe_snapshot now = {0};
+    const froe_snapshot_options o = froe_snapshot_defaults();
+    assert_int_equal(froe_kinetic_snapshot(k, &o, &now, NULL), FROE_OK);
+    assert_true(now.alike && !now.rounded);
+    froe_tree_free(now.tree);
+    froe_kinetic_free(k);
+    froe_motion_free(m);
+}
+
 static void another_way_leads_past_a_contact(void **state) {
     const double times[2] = {1, 8}, coords[6] = {1.015625, 1, 2.25, 1.125, 1, 9};
     froe_motion *m = falling(3, -3);
@@ -507,6 +552,8 @@ int main(void) {
         cmocka_unit_test(back_again_the_tree_is_the_first),
         cmocka_unit_test(a_triangle_that_leaves_leaves_the_tree_as_it_was),
         cmocka_unit_test(a_partition_ends_before_the_first_contact),
+        cmocka_unit_test(a_visitor_may_ask_when_the_first_contact_begins),
+        cmocka_unit_test(a_partition_of_no_triangles_lasts),
         cmocka_unit_test(another_way_leads_past_a_contact),
         cmocka_unit_test(what_meets_at_the_start_is_refused_unless_unchecked),
         cmocka_unit_test(memory_may_run_out),

@@ -20,7 +20,7 @@ froe_status meet_find(const froe_motion *m, meet_worker *worker, uint32_t p, uin
 static size_t widest(const froe_motion *m) {
     enum { SPARE_BITS = 64, CUT_BITS = 32 };
     const size_t coordinate = m->top > m->unit ? (size_t)(m->top - m->unit) : 1;
-    const size_t time = (size_t)(m->time_top - m->time_unit) + CUT_BITS;
+    const size_t time = (m->time_top > m->time_unit ? (size_t)(m->time_top - m->time_unit) : 1) + CUT_BITS;
     return ((m->dim == 2 ? 2 * coordinate + 8 * time : 7 * coordinate + 30 * time) + SPARE_BITS) / 64 + 3;
 }
 

@@ -65,6 +65,10 @@ static void refine(froe_kinetic *k, now_claim claim, double out[2]) {
 froe_status froe_kinetic_instant(froe_kinetic *k, double out[2], froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!k || !out) return support_fail_null(diag, __func__);
+    if (k->touch.reporting) {
+        out[0] = k->touch.first.begin[0], out[1] = k->touch.first.begin[1];
+        return FROE_OK;
+    }
     if (!k->events.reporting) return support_fail(diag, FROE_E_ARG, "No event is being reported.");
     now_catch_up(&k->now);
     num_arena *arena = &k->now.context.arena;
