@@ -68,7 +68,7 @@ export class Chart {
      * for the depth. */
     #matrix() {
         const { dim, lo, hi, up } = this.#box, { turn, tilt, zoom, x, y } = this.#view(), { width, height } = this;
-        const size = lo.map((low, i) => hi[i] - low);
+        const half = lo.map((low, i) => hi[i] / 2 - low / 2); // finite, where the whole may not be
         let rows;
         if (dim === 2) rows = [[1, 0], [0, 1]];
         else {
@@ -80,10 +80,10 @@ export class Chart {
             rows = [row(Math.cos(a), Math.sin(a), 0), row(-Math.sin(a) * Math.sin(b), Math.cos(a) * Math.sin(b), Math.cos(b)),
                 row(Math.sin(a) * Math.cos(b), -Math.cos(a) * Math.cos(b), Math.sin(b))];
         }
-        const extent = (row) => row.reduce((sum, factor, i) => sum + Math.abs(factor) * size[i], 0) || 1e-300;
-        const room = (pixels) => Math.max(1, pixels - 2 * MARGIN);
+        const extent = (row) => row.reduce((sum, factor, i) => sum + Math.abs(factor) * half[i], 0) || 1e-300;
+        const room = (pixels) => Math.max(1, pixels - 2 * MARGIN) / 2;
         const scale = zoom * (dim === 2 ? Math.min(room(width) / extent(rows[0]), room(height) / extent(rows[1]))
-            : Math.min(room(width), room(height)) / Math.hypot(...size));
+            : Math.min(room(width), room(height)) / Math.hypot(...half));
         const at = [width / 2 + x * height, height / 2 - y * height];
         return rows.map((row, i) => {
             const factor = i === 1 ? -scale : scale;

@@ -216,16 +216,17 @@ test("one answer meets, several meet", async () => {
     await page.close();
 });
 
-test("far from the origin the question is where the pointer is, and one object is one", async () => {
-    const page = await at("#ask"), line = { type: "LineString", coordinates: [[1e15, 1e15], [1e15 + 1, 1e15 + 2]] };
-    await shown(page, "ask");
-    await dropped(page, { "far.geojson": Buffer.from(JSON.stringify({ type: "FeatureCollection", features: [{ type: "Feature", properties: {}, geometry: line }] })) });
-    await page.waitForFunction(() => /^1 object;/.test(document.querySelector(".status").textContent) && document.querySelector("[data-asked]"));
-    await new Promise((resume) => setTimeout(resume, 300));
-    const filled = await page.$eval(".map canvas", (it) => [-8, 8].map((x) => it.getContext("2d").getImageData(it.width / 2 + x, it.height / 2, 1, 1).data[3] > 0));
-    assert.deepEqual(filled, [true, true]);
-    await page.close();
-});
+for (const [where, coordinates] of [["far from the origin", [[1e15, 1e15], [1e15 + 1, 1e15 + 2]]], ["in a scene as large as numbers are", [[-1e308, -1e308], [1e308, 1e308]]]])
+    test(`${where} the question is where the pointer is, and one object is one`, async () => {
+        const page = await at("#ask"), line = { type: "LineString", coordinates };
+        await shown(page, "ask");
+        await dropped(page, { "far.geojson": Buffer.from(JSON.stringify({ type: "FeatureCollection", features: [{ type: "Feature", properties: {}, geometry: line }] })) });
+        await page.waitForFunction(() => /^1 object;/.test(document.querySelector(".status").textContent) && document.querySelector("[data-asked]"));
+        await new Promise((resume) => setTimeout(resume, 300));
+        const filled = await page.$eval(".map canvas", (it) => [-8, 8].map((x) => it.getContext("2d").getImageData(it.width / 2 + x, it.height / 2, 1, 1).data[3] > 0));
+        assert.deepEqual(filled, [true, true]);
+        await page.close();
+    });
 
 for (const width of [1280, 320])
     test(`the Tab key leads to all, and what has the focus is seen, ${width} pixels wide`, async () => {

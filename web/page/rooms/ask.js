@@ -164,7 +164,7 @@ class AskRoom {
     get #pixel() { return [this.#host.state.px * this.#chart.width, this.#host.state.py * this.#chart.height]; }
     #length() {
         const { lo, hi } = this.#scene.bounds;
-        return this.#host.state.size * Math.max(...lo.map((low, i) => hi[i] - low));
+        return 2 * this.#host.state.size * Math.max(...lo.map((low, i) => hi[i] / 2 - low / 2)); // the whole may be no double
     }
 
     /* The question that the state puts. In space all but rays stand where the ray under the pointer meets the scene. */
