@@ -26,9 +26,10 @@ const FOLDERS = {
     plain: { start: () => import("./plain/froe.js"), url: () => new URL("./plain/froe.wasm", import.meta.url) },
 };
 
-/* Node has no fetch for files. */
+/* Node has no fetch for files, and before 19 no global that draws random numbers, of which names of files are made. */
 async function bytesOf(url) {
     if (url.protocol !== "file:") return {};
+    if (!globalThis.crypto) globalThis.crypto = (await import(/* webpackIgnore: true */ /* @vite-ignore */ "node:crypto")).webcrypto;
     const { readFile } = await import(/* webpackIgnore: true */ /* @vite-ignore */ "node:fs/promises");
     return { wasmBinary: await readFile(url) };
 }
