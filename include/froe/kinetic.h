@@ -214,14 +214,16 @@ typedef struct froe_kinetic_options {
 } froe_kinetic_options;
 FROE_API froe_kinetic_options froe_kinetic_defaults(void);
 
-/** The partition at the first odd tick of the window; in space of triangles, as seen from above, along z. They must not
- * meet, but where they share a vertex: froe_kinetic_advance() ends before the first contact. In space the partition is
- * made anew where the plans of more than one triangle in eight take other pieces at a tick, and questions are refused
- * with FROE_E_UNSUPPORTED, as are bodies; a snapshot answers questions. The motion must outlive it. Until it is freed,
- * plans are changed and objects added by the functions below only. FROE_E_ARG: motion, options or out is NULL.
- * FROE_E_OPTIONS: the order is not one, or the options are not from froe_kinetic_defaults(). FROE_E_INPUT: two
- * triangles meet at the start; both are named. FROE_E_UNSUPPORTED, FROE_E_MEMORY, FROE_E_CANCELLED. In space, unless
- * `unchecked`, the failures of froe_motion_contacts(), and its time.
+/** The partition at the first odd tick of the window; in space of triangles, as seen from above, along z. They must
+ * not meet, but where they share a vertex: froe_kinetic_advance() ends before the first contact. It does not notice
+ * when triangles that share a vertex pass through one another; from then on only froe_kinetic_audit() tells that
+ * the partition is wrong. In space the partition is made anew where the plans of more than one triangle in eight
+ * take other pieces at a tick, and questions are refused with FROE_E_UNSUPPORTED, as are bodies; a snapshot answers
+ * questions. The motion must outlive it. Until it is freed, plans are changed and objects added by the functions
+ * below only. FROE_E_ARG: motion, options or out is NULL. FROE_E_OPTIONS: the order is not one, or the options are
+ * not from froe_kinetic_defaults(). FROE_E_INPUT: two triangles meet at the start; both are named.
+ * FROE_E_UNSUPPORTED, FROE_E_MEMORY, FROE_E_CANCELLED. In space, unless `unchecked`, the failures of
+ * froe_motion_contacts(), and its time.
  * Expected O(n log^2 n + k log n) for n segments with k crossings. */
 FROE_API froe_status froe_kinetic_new(froe_motion *motion, const froe_kinetic_options *options,
                                       const froe_allocator *alloc, froe_kinetic **out, froe_diagnostic *diag);
@@ -369,7 +371,8 @@ typedef struct froe_snapshot {
     size_t rounded;      /**< vertices that are not where the tree has them, but less than a double's last place off */
     bool alike; /**< the tree has, node for node, the cuts of the partition, as if nothing had been rounded, and as if
                    the partition stood at the tick. Not where something coincides at the tick and not just after it, and
-                   not if there are segments without length: they are in the tree, and not in the partition */
+                   not if there are segments without length: they are in the tree, and not in the partition. Nor in
+                   space, if there are triangles without area: in the tree they are segments */
 } froe_snapshot;
 
 /** The present as an ordinary tree, for all other questions: the segments where they are at the tick itself, not just
