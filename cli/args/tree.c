@@ -89,3 +89,12 @@ int cli_open_tree(const cli_common *common, const cli_tree_args *args, const cha
     if (code) froe_tree_free(*tree);
     return code;
 }
+
+int cli_open_whole_tree(const cli_common *common, const cli_tree_args *args, const char *purpose, froe_tree **tree) {
+    froe_diagnostic diag;
+    const int code = cli_open_tree(common, args, purpose, tree);
+    const froe_status status = code ? FROE_OK : froe_tree_check(*tree, &diag);
+    if (!status) return code;
+    froe_tree_free(*tree);
+    return cli_fail_status(CLI_READING, args->scene.path, status, &diag);
+}

@@ -37,4 +37,7 @@ int cli_open_saved_tree(const cli_common *common, const cli_tree_args *args, fro
 /** Opens a saved tree, or reads a scene and builds a tree for `purpose` (one of froe_build_options), with progress
  * bars, and saves it where --save-tree says. Returns 0, or an exit code after saying why. */
 int cli_open_tree(const cli_common *common, const cli_tree_args *args, const char *purpose, froe_tree **tree);
+/** The same for commands that read all of the tree: a file that is wrong is refused by its own name, before anything is
+ * written. */
+int cli_open_whole_tree(const cli_common *common, const cli_tree_args *args, const char *purpose, froe_tree **tree);
 #endif

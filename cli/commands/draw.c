@@ -157,7 +157,7 @@ static int run_draw(const void *given) {
     if (!library.format_of(args->output.path, &format))
         return cli_fail(CLI_USE, args->output.name, "The ending of pictures is .svg, .pdf or .png.");
     froe_tree *tree;
-    code = cli_open_tree(&args->common, &args->tree, NULL, &tree);
+    code = cli_open_whole_tree(&args->common, &args->tree, NULL, &tree);
     if (code) return code;
     froe_draw_options o = library.defaults();
     cli_marks marks;

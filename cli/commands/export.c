@@ -41,7 +41,7 @@ static int run_export(const void *given) {
     cli_io io = {.export_map = froe_export};
     int code = 0;
     if (!froe_exports_own(args->output.path)) code = cli_open_io(&io);
-    if (!code) code = cli_open_tree(&args->common, &args->tree, NULL, &tree);
+    if (!code) code = cli_open_whole_tree(&args->common, &args->tree, NULL, &tree);
     if (code) return code;
     const size_t numbers = 2 * (size_t)froe_scene_dim(froe_tree_scene(tree));
     froe_export_options o = froe_export_defaults();
