@@ -234,7 +234,7 @@ for (const width of [1280, 320])
             const page = await at(`#${room}${room === "draw" ? "?scene=bracket" : ""}`, { width, height: 740 });
             await shown(page, room);
             const wanted = await page.evaluate(() => [...document.querySelectorAll(":is(button, input, select, summary, canvas[tabindex]):not([type=radio])")]
-                .filter((it) => it.checkVisibility({ visibilityProperty: true })).length);
+                .filter((it) => it.checkVisibility({ visibilityProperty: true }) && !it.closest(".work")).length); // work comes and goes
             const reached = new Set();
             for (let i = 0; i < 80; i++) {
                 await page.keyboard.press("Tab");
@@ -245,7 +245,7 @@ for (const width of [1280, 320])
                     const around = [it, it.nextElementSibling, it.parentElement, it.closest(".sheet")].filter(Boolean);
                     globalThis.tabbed ??= [];
                     if (!globalThis.tabbed.includes(it)) globalThis.tabbed.push(it);
-                    return { index: globalThis.tabbed.indexOf(it), counts: it.matches(":is(button, input, select, summary, canvas):not([type=radio])"), text: it.outerHTML.slice(0, 90),
+                    return { index: globalThis.tabbed.indexOf(it), counts: it.matches(":is(button, input, select, summary, canvas):not([type=radio])") && !it.closest(".work"), text: it.outerHTML.slice(0, 90),
                         covered: it.closest(".panel") && !(top && (it.contains(top) || top.contains(it) || it.closest("label")?.contains(top))),
                         outlined: around.some((one) => getComputedStyle(one).outlineStyle !== "none") };
                 });
