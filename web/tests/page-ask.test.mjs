@@ -51,6 +51,13 @@ test("a ray into a model meets what the program says, in its order", async () =>
     await page.close();
 });
 
+test("long names of groups stay within the settings", async () => {
+    const page = await room("scene=house&kind=ray");
+    assert.ok((await answer(page)).found);
+    assert.ok(await page.$eval(".panel", (panel) => panel.scrollWidth <= panel.clientWidth));
+    await page.close();
+});
+
 test("arrow keys move the question, and the address keeps it", async () => {
     const page = await room("scene=rooms"), before = await answer(page);
     await press(page, "canvas", ["ArrowRight", "ArrowRight", "ArrowDown"]);
