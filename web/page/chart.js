@@ -194,6 +194,17 @@ export const isDark = () => matchMedia("(prefers-color-scheme: dark)").matches;
 /** The fill of cell n: neighbours by number differ. */
 export const cellColour = (n) => `oklch(${isDark() ? "0.33 0.045" : "0.92 0.045"} ${(n * 137.508 + 190) % 360})`;
 
+/** How near each of several parts is to the eye, by the middle of its corners: part i has the depths starts[i] ..
+ * starts[i + 1], or those that `corners` numbers there. */
+export function nearness(depths, starts, corners = null) {
+    const near = new Float64Array(starts.length - 1);
+    for (let i = 0; i < near.length; i++) {
+        for (let c = starts[i]; c < starts[i + 1]; c++) near[i] += depths[corners ? corners[c] : c];
+        near[i] /= starts[i + 1] - starts[i];
+    }
+    return near;
+}
+
 /** Begins a path along points from .. to; one of more than two is closed. */
 export function trace(context, points, from, to) {
     context.beginPath();

@@ -59,6 +59,12 @@ export const group = (title, ...content) => h("section", { class: "group" }, h("
 
 export const button = (label, onclick, more = {}) => h("button", { type: "button", onclick, ...more }, label);
 
+/** What is being done, how much of it, and a button that ends it; hidden until something is: { box, what, bar }. */
+export function workOf(what, cancel) {
+    const bar = h("progress", { max: 1, value: 0, "aria-label": "Progress" }), text = h("span", {}, what);
+    return { box: h("div", { class: "work", hidden: true }, text, bar, button("Cancel", cancel)), what: text, bar };
+}
+
 /** A button that asks for files. */
 export function opener(label, accept, take) {
     const input = h("input", { type: "file", multiple: true, accept, class: "unseen", onchange: () => {

@@ -13,6 +13,9 @@ export function h(tag, given = {}, ...content) {
     return element;
 }
 
+/** The contents of a list of facts: [term, what is told of it], ... */
+export const factsOf = (facts) => facts.flatMap(([term, told]) => [h("dt", {}, term), h("dd", {}, told)]);
+
 /** Gives a file to whoever looks at the page. */
 export function save(name, bytes, type) {
     const url = URL.createObjectURL(new Blob([bytes], { type }));

@@ -69,6 +69,14 @@ function named(file, format, read) {
 
 const READERS = { glb: readGltf, gltf: readGltf, stl: readStl, ...Object.fromEntries(OWN.map((format) => [format, readOwn])) };
 
+/** How many groups are asked for their names. */
+export const NAMED = 5000;
+/** The groups of a scene in a worker, `most` of them at most. */
+export async function groupsOf(scene, most = Infinity) {
+    const count = await scene.groupCount();
+    return Promise.all(Array.from({ length: Math.min(count, most) }, (_, i) => scene.group(i)));
+}
+
 /** The scene of a source, in a worker. */
 export async function sceneFrom(froe, source) {
     const scene = await bareScene(froe, source);

@@ -2,7 +2,7 @@
  *
  * A worker builds a tree that is made for one picture, and draws. Another one then builds the tree with the fewest
  * pieces; when it is ready it takes over, and the first ends. Each is ended to cancel it. */
-import { sceneFrom } from "../open.js";
+import { groupsOf, sceneFrom } from "../open.js";
 import { isCancelled, startFroe } from "../link.js";
 
 /* A worker to come, which can be ended before it is there. */
@@ -203,8 +203,4 @@ async function modelOf(scene) {
     for (const { material } of groups) if (!materials.has(material)) materials.set(material, materials.size);
     return { arrays, groups, materials: groups.map(({ material }) => materials.get(material)), lo: [...bounds.lo], hi: [...bounds.hi],
         points: arrays.coords, up, objects };
-}
-async function groupsOf(scene) {
-    const count = await scene.groupCount();
-    return Promise.all(Array.from({ length: count }, (_, i) => scene.group(i)));
 }

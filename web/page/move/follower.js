@@ -2,7 +2,7 @@
  *
  * Two workers read the same motion. One goes through all of it at once and lists what happens. The other keeps the
  * partition at the time that is shown; it can only go on, and begins anew where time goes back. */
-import { isCancelled, startFroe } from "../link.js";
+import { startFroe } from "../link.js";
 
 /** Reads a motion in a worker: { name, made: [kind, n] } or { name, bytes }. */
 const motionOf = (froe, source) => (source.made ? froe.generateMotion(...source.made) : froe.readMotion(source.name, source.bytes));
@@ -16,7 +16,7 @@ export class Follower {
     #reached = -Infinity;
     #ended = false;
 
-    /** Reads the source; gives { dim, begin, end, vertices } (numbers of vertices of the objects). */
+    /** Reads the source; gives what its window() and objects() are, in one. */
     async open(source) {
         this.#source = source;
         this.#shower = await this.#start();
@@ -30,8 +30,8 @@ export class Follower {
         return worker;
     }
 
-    /** Everything that happens, by time: { what, times, objects }: events of the partition in the plane, contacts in
-     * space. `names` are those of kinds. */
+    /** Everything that happens, by time, { kinds, times, objects, per }: events of the partition in the plane; contacts in
+     * space, where `kinds` is null. Of each there are `per` objects, 0xffffffff where there are fewer. */
     async list() {
         this.#lister = await this.#start();
         const motion = await motionOf(this.#lister.froe, this.#source), { dim, end } = await motion.window();
@@ -70,4 +70,3 @@ export class Follower {
         this.#lister?.end();
     }
 }
-export { isCancelled };

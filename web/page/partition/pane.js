@@ -2,9 +2,10 @@
  *
  * The cuts come in the order of their depth. After `step` of them the cells are the nodes whose parent has been cut and
  * which themselves have not: the front. */
-import { cellColour, Chart, colours, trace } from "../chart.js";
+import { cellColour, Chart, colours, nearness, trace } from "../chart.js";
+import { count } from "../dom.js";
 import { isCancelled, startFroe } from "../link.js";
-import { sceneFrom } from "../open.js";
+import { groupsOf, NAMED, sceneFrom } from "../open.js";
 
 const NEAR = 8; // pixels from a line within which it is under the pointer
 
@@ -60,7 +61,7 @@ export class Pane {
             const scene = await sceneFrom(worker.froe, source), objects = await scene.objectCount(), bounds = await scene.bounds();
             if (!bounds) throw new Error("There are no objects in this scene");
             if (objects > most)
-                throw new Error(`This scene has ${objects.toLocaleString("en")} objects, and the page shows partitions of at most ${most.toLocaleString("en")}: froe draw does so of any number`);
+                throw new Error(`This scene has ${count(objects)} objects, and the page shows partitions of at most ${count(most)}: froe draw does so of any number`);
             const tree = await scene.build({ method, ...(leaf ? { leaf } : {}) });
             const [report, nodes, pieces, cells, cuts, up, groups] = await Promise.all([tree.report(), tree.nodes(), tree.pieces(),
                 tree.cells({ inner: true }), tree.cuts(), upOf(scene), groupNames(scene)]);
@@ -78,14 +79,14 @@ export class Pane {
         return undefined;
     }
     #show(shown) {
-        const { nodes, cuts, cells } = shown, count = nodes.parents.length;
-        const inner = Array.from({ length: count }, (_, i) => i).filter((i) => nodes.children[2 * i]);
+        const { nodes, cuts, cells } = shown, total = nodes.parents.length;
+        const inner = Array.from({ length: total }, (_, i) => i).filter((i) => nodes.children[2 * i]);
         shown.order = inner.sort((a, b) => nodes.depths[a] - nodes.depths[b] || a - b);
-        shown.rank = new Uint32Array(count).fill(inner.length);
+        shown.rank = new Uint32Array(total).fill(inner.length);
         shown.order.forEach((node, i) => { shown.rank[node] = i; });
-        shown.cellOf = new Int32Array(count).fill(-1);
+        shown.cellOf = new Int32Array(total).fill(-1);
         cells.nodes.forEach((node, i) => { shown.cellOf[node - 1] = i; });
-        shown.cutOf = new Int32Array(count).fill(-1);
+        shown.cutOf = new Int32Array(total).fill(-1);
         cuts.nodes.forEach((node, i) => { shown.cutOf[node - 1] = i; });
         this.#shown = shown;
         this.#hovered = -1;
@@ -203,17 +204,11 @@ export class Pane {
         context.stroke();
     }
     #paintSpace(context, look, front, last) {
-        const { pieces, nodes, cells, cellOf, cuts, cutOf } = this.#shown, count = pieces.objects.length;
+        const { pieces, nodes, cells, cellOf, cuts, cutOf } = this.#shown;
         const owner = new Int32Array(nodes.parents.length).fill(-1);
         for (const node of front) owner[node] = node;
         const depths = new Float64Array(pieces.coords.length / 3), points = this.chart.project(pieces.coords, depths);
-        const near = new Float64Array(count), order = Array.from({ length: count }, (_, i) => i);
-        for (let i = 0; i < count; i++) {
-            let sum = 0;
-            for (let c = pieces.starts[i]; c < pieces.starts[i + 1]; c++) sum += depths[c];
-            near[i] = sum / (pieces.starts[i + 1] - pieces.starts[i]);
-        }
-        order.sort((a, b) => near[a] - near[b]);
+        const near = nearness(depths, pieces.starts), order = Uint32Array.from(near, (_, i) => i).sort((a, b) => near[a] - near[b]);
         const list = this.#listOfHovered();
         context.lineJoin = "round";
         for (const i of order) {
@@ -239,7 +234,7 @@ export class Pane {
         context.globalAlpha = 1;
         this.#stroke(context, cut, cuts.starts[cutOf[last]], cuts.starts[cutOf[last] + 1], look.hit, 2);
     }
-    /* The node of the front above a node; -1: the cut has been made, and the piece lies in it. */
+    /* The node of the front above a node; -2: the cut has been made, and the piece lies in it. */
     #cellOfNode(owner, node) {
         const { parents } = this.#shown.nodes, way = [];
         while (owner[node] === -1 && parents[node]) {
@@ -267,9 +262,8 @@ export class Pane {
 async function upOf(scene) { return await scene.dim() === 3 ? scene.up() : 2; }
 
 async function groupNames(scene) {
-    const [arrays, count] = await Promise.all([scene.arrays(), scene.groupCount()]);
-    const names = await Promise.all(Array.from({ length: Math.min(count, 5000) }, (_, i) => scene.group(i)));
-    return { nameOf: (object) => names[arrays.groups?.[object]]?.name ?? "" };
+    const [arrays, groups] = await Promise.all([scene.arrays(), groupsOf(scene, NAMED)]);
+    return { nameOf: (object) => groups[arrays.groups[object]]?.name ?? "" };
 }
 
 function inside(at, from, to, x, y) {

@@ -2,11 +2,11 @@
 import { between, oneOf, whole } from "../address.js";
 import { answer, answerAll, box, KINDS, many } from "../ask/questions.js";
 import { peer } from "../ask/peers.js";
-import { Chart, colours, trace, VIEW, VIEWS, WHOLE } from "../chart.js";
-import { button, Controls, group } from "../controls.js";
-import { count, counted, h } from "../dom.js";
+import { Chart, colours, nearness, trace, VIEW, VIEWS, WHOLE } from "../chart.js";
+import { button, Controls, group, workOf } from "../controls.js";
+import { count, counted, factsOf, h } from "../dom.js";
 import { isCancelled, startFroe } from "../link.js";
-import { MAP_FILES, MODEL_FILES, openFiles, sceneFrom } from "../open.js";
+import { groupsOf, MAP_FILES, MODEL_FILES, NAMED, openFiles, sceneFrom } from "../open.js";
 import { MAPS, MODELS, sampleSource } from "../samples.js";
 import { Scenes } from "../scenes.js";
 
@@ -38,7 +38,7 @@ class AskRoom {
     #parts = {};
     #worker = null;
     #tree = null;
-    #scene = null;     // bounds, up, shapes and names of groups
+    #scene = null;     // bounds, up, shapes and groups
     #answered = null;  // { question, ids, values, statistics }
     #asking = false;
     #late = false;     // was there a question meanwhile?
@@ -53,8 +53,7 @@ class AskRoom {
             show: (read) => this.#open(read), fresh: WHOLE });
         const p = this.#parts;
         p.canvas = h("canvas", { tabindex: 0, role: "img", "aria-label": "The scene. The pointer or the arrow keys move the question, arrows with shift the scene; plus and minus zoom, 0 fits." });
-        p.bar = h("progress", { max: 1, value: 0, "aria-label": "Progress" });
-        p.work = h("div", { class: "work", hidden: true }, h("span", {}, "Building"), p.bar, button("Cancel", () => this.cancel()));
+        ({ box: p.work, bar: p.bar } = workOf("Building", () => this.cancel()));
         host.stage.prepend(h("div", { class: "map" }, p.canvas), p.work);
         this.#chart = new Chart(p.canvas, {
             view: () => host.state, change: (patch) => host.set(patch), paint: (context) => this.#paint(context),
@@ -102,11 +101,10 @@ class AskRoom {
             if (objects > MOST)
                 throw new Error(`This scene has ${count(objects)} objects, and the page asks scenes of at most ${count(MOST)}: the program froe asks any`);
             const began = performance.now(), tree = await scene.build({ purpose: "query" }), took = performance.now() - began;
-            const dim = await scene.dim(), [shapes, groups, up] = await Promise.all([scene.arrays(), scene.groupCount(), dim === 3 ? scene.up() : 2]);
-            const names = await Promise.all(Array.from({ length: Math.min(groups, 5000) }, (_, i) => scene.group(i)));
+            const dim = await scene.dim(), [shapes, groups, up] = await Promise.all([scene.arrays(), groupsOf(scene, NAMED), dim === 3 ? scene.up() : 2]);
             if (age !== this.#age) return undefined;
             this.#tree = tree;
-            this.#scene = { dim, objects, bounds, up, shapes, names, took, method: (await tree.report()).method };
+            this.#scene = { dim, objects, bounds, up, shapes, groups, took, method: (await tree.report()).method };
             this.#chart.fit(bounds, up);
             this.#tellScene();
             this.#showSettings();
@@ -190,8 +188,7 @@ class AskRoom {
         try {
             const question = await this.#question();
             if (question) {
-                await this.#tree.statistics();
-                const found = await answer(this.#tree, question), statistics = await this.#tree.statistics();
+                const [, found, statistics] = await Promise.all([this.#tree.statistics(), answer(this.#tree, question), this.#tree.statistics()]);
                 if (age === this.#age) this.#answered = { question, ...found, statistics };
             } else if (age === this.#age) this.#answered = null;
             if (age === this.#age) this.#tell();
@@ -211,17 +208,17 @@ class AskRoom {
     #tell() {
         const p = this.#parts, it = this.#answered, kind = it?.question.kind;
         if (!it) {
-            p.facts.replaceChildren(h("dt", {}, "Nothing"), h("dd", {}, "is under the pointer"));
+            p.facts.replaceChildren(...factsOf([["Nothing", "is under the pointer"]]));
             p.list.replaceChildren();
             return;
         }
         const { nodes, leaves, tests, exact } = it.statistics;
         const facts = [["Objects", counted(it.ids.length, ...KINDS[kind].meets)], ["Visited", `${counted(nodes, "node")}, ${counted(leaves, "leaf", "leaves")}`],
             ["Tested", `${counted(tests, "object")}, ${count(exact)} by exact numbers`]];
-        p.facts.replaceChildren(...facts.flatMap(([term, told]) => [h("dt", {}, term), h("dd", {}, told)]));
-        const ids = [...it.ids.subarray(0, LISTED)], { names, shapes } = this.#scene;
+        p.facts.replaceChildren(...factsOf(facts));
+        const ids = [...it.ids.subarray(0, LISTED)], { groups, shapes } = this.#scene;
         const line = (id, i) => {
-            const name = names[shapes.groups[id]]?.name, value = it.values ? `, ${kind === "ray" ? "t" : "distance"} ${it.values[i].toPrecision(5)}` : "";
+            const name = groups[shapes.groups[id]]?.name, value = it.values ? `, ${kind === "ray" ? "t" : "distance"} ${it.values[i].toPrecision(5)}` : "";
             return h("li", {}, `${id}${name ? `, of ${name}` : ""}${value}`);
         };
         p.facts.dataset.asked = JSON.stringify(it.question); // as froe was asked, with all digits
@@ -279,7 +276,7 @@ class AskRoom {
         if (this.#base?.key === key) return this.#base;
         const { dim, shapes, objects } = this.#scene, canvas = new OffscreenCanvas(Math.round(width * dots), Math.round(height * dots)), context = canvas.getContext("2d");
         const depths = dim === 3 ? new Float64Array(shapes.coords.length / 3) : null, points = this.#chart.project(shapes.coords, depths);
-        const order = Uint32Array.from({ length: objects }, (_, i) => i), near = depths ? this.#nearness(depths) : null;
+        const order = Uint32Array.from({ length: objects }, (_, i) => i), near = depths ? nearness(depths, shapes.starts, shapes.corners) : null;
         if (near) order.sort((a, b) => near[a] - near[b]);
         context.scale(dots, dots);
         context.lineCap = context.lineJoin = "round";
@@ -287,15 +284,6 @@ class AskRoom {
         else this.#paintLines(context, points, order, look.ink, 1);
         this.#base = { key, canvas, points, near };
         return this.#base;
-    }
-    /* How near each object is to the eye, by the middle of its corners. */
-    #nearness(depths) {
-        const { starts, corners } = this.#scene.shapes, near = new Float64Array(this.#scene.objects);
-        for (let i = 0; i < near.length; i++) {
-            for (let c = starts[i]; c < starts[i + 1]; c++) near[i] += depths[corners[c]];
-            near[i] /= starts[i + 1] - starts[i];
-        }
-        return near;
     }
     /* What was found lies over the scene: it is seen where something is before it, too. */
     #paintFound(context, look, { points, near }, ids, first) {

@@ -1,6 +1,6 @@
 /* draw.js: the room Draw: a model, turned; its exact drawing, as soon as it rests */
 import { between, oneOf } from "../address.js";
-import { button, Controls, group, opener } from "../controls.js";
+import { button, Controls, group, opener, workOf } from "../controls.js";
 import { count, h, save, size } from "../dom.js";
 import { Artist } from "../draw/artist.js";
 import { zoomOf } from "../draw/camera.js";
@@ -86,10 +86,7 @@ class DrawRoom {
         p.canvas = h("canvas", { tabindex: 0, role: "img", "aria-label": "The model. Arrow keys turn it, plus and minus zoom, 0 fits it to the page." });
         p.drawing = h("img", { class: "drawing", alt: "" });
         p.sheet = h("div", { class: "sheet" }, p.canvas, p.drawing);
-        p.bar = h("progress", { max: 1, value: 0, "aria-label": "Progress" });
-        p.what = h("span", {});
-        p.stop = button("Cancel", () => this.cancel());
-        p.work = h("div", { class: "work", hidden: true }, p.what, p.bar, p.stop);
+        ({ box: p.work, what: p.what, bar: p.bar } = workOf("", () => this.cancel()));
         p.desk = h("div", { class: "desk" }, p.sheet);
         stage.prepend(p.desk);
         foot.append(p.work);

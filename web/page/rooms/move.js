@@ -2,9 +2,10 @@
 import { between, oneOf } from "../address.js";
 import { cellColour, Chart, colours, trace, VIEW, VIEWS, WHOLE } from "../chart.js";
 import { button, Controls, group } from "../controls.js";
-import { count, counted, h } from "../dom.js";
+import { count, counted, factsOf, h } from "../dom.js";
 import { EVENTS } from "froe/kinetic.js";
-import { Follower, isCancelled } from "../move/follower.js";
+import { isCancelled } from "../link.js";
+import { Follower } from "../move/follower.js";
 import { MOTIONS, motionSource } from "../samples.js";
 import { Scenes } from "../scenes.js";
 
@@ -245,7 +246,7 @@ class MoveRoom {
         const { kinds, times } = this.#events, tally = new Map();
         if (kinds) for (const kind of kinds) tally.set(kind, (tally.get(kind) ?? 0) + 1);
         const facts = kinds ? [...tally].sort((a, b) => b[1] - a[1]).map(([kind, n]) => [WORDS[EVENTS[kind]], count(n)]) : [["contacts", count(times.length)]];
-        this.#parts.counts.replaceChildren(...facts.flatMap(([term, told]) => [h("dt", {}, term), h("dd", {}, told)]));
+        this.#parts.counts.replaceChildren(...factsOf(facts));
     }
 
     /* -- pictures ------------------------------------------------------------------------- */

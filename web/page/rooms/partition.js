@@ -1,8 +1,8 @@
 /* partition.js: the room Partition: how a map or a model is cut, cut by cut, by one method or by two side by side */
 import { oneOf, whole } from "../address.js";
 import { VIEW, VIEWS, WHOLE } from "../chart.js";
-import { button, Controls, group } from "../controls.js";
-import { count, counted, h } from "../dom.js";
+import { button, Controls, group, workOf } from "../controls.js";
+import { count, counted, factsOf, h } from "../dom.js";
 import { MAP_FILES, MODEL_FILES, openFiles } from "../open.js";
 import { Pane } from "../partition/pane.js";
 import { MAPS, MODELS, sampleSource } from "../samples.js";
@@ -47,8 +47,7 @@ class PartitionRoom {
         this.scenes = new Scenes(host, { samples: SAMPLES, sampleSource, openFiles, usual: defaults.scene,
             show: (read) => this.#open(read), fresh: { ...WHOLE, step: -1 } });
         const p = this.#parts;
-        p.bar = h("progress", { max: 1, value: 0, "aria-label": "Progress" });
-        p.work = h("div", { class: "work", hidden: true }, h("span", {}, "Building"), p.bar, button("Cancel", () => this.cancel()));
+        ({ box: p.work, bar: p.bar } = workOf("Building", () => this.cancel()));
         p.panes = h("div", { class: "panes" });
         host.stage.prepend(p.panes, p.work);
         this.#controls = new Controls(host);
@@ -224,7 +223,7 @@ class PartitionRoom {
             ["Part", it.whole ? "the whole object" : `one of ${it.siblings} pieces`],
             ["Lies", it.inCut ? `in cut ${count(it.cut)}, at depth ${it.depth}` : `in a cell at depth ${it.depth}`],
             ["List", `${counted(it.list, "piece")} at node ${count(it.node)}`]];
-        return p.about.replaceChildren(...facts.flatMap(([term, told]) => [h("dt", {}, term), h("dd", {}, told)]));
+        return p.about.replaceChildren(...factsOf(facts));
     }
 
     /* -- what the state says ---------------------------------------------------------- */
