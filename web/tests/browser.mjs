@@ -1,5 +1,6 @@
 // browser.mjs: the page in Chromium, for tests. FROE_PAGE: its folder; FROE_MODULES: the node_modules of
 // web/package-lock.json; CHROMIUM: the browser, where it is not the one of Debian.
+import assert from "node:assert/strict";
 import { createServer } from "node:http";
 import { readFile } from "node:fs/promises";
 import { createRequire } from "node:module";
@@ -107,4 +108,19 @@ export async function dropped(page, files) {
 export async function said(page) {
     await page.waitForFunction(() => document.querySelector(".status.wrong"));
     return page.$eval(".status", (status) => status.textContent);
+}
+
+/** What a page holds, once nothing is held that need not be: { heap, nodes, workers }. */
+export async function held(page) {
+    const session = await page.createCDPSession();
+    await session.send("HeapProfiler.collectGarbage");
+    const { JSHeapUsedSize } = await page.metrics(), { nodes } = await session.send("Memory.getDOMCounters");
+    await session.detach();
+    return { heap: JSHeapUsedSize, nodes, workers: page.workers().length };
+}
+/** A page holds no more than before, but for what comes and goes. */
+export function assertHeld(before, after) {
+    assert.ok(after.heap < before.heap + 2e6, `${before.heap} bytes grow to ${after.heap}`);
+    assert.ok(after.nodes < before.nodes + 200, `${before.nodes} nodes grow to ${after.nodes}`);
+    assert.ok(after.workers <= 2);
 }
