@@ -7,7 +7,7 @@ PREFIX ?= /usr/local
 export CMAKE_GENERATOR = $(if $(shell command -v ninja 2>/dev/null),Ninja,Unix Makefiles)
 
 .DEFAULT_GOAL := build
-.PHONY: help build demo test install uninstall bench build-bench bench-peers claims oracle mutations coverage bare docs python web single dist release-check site format lint clean
+.PHONY: help build demo test install uninstall bench build-bench bench-peers claims oracle mutations faults coverage mutate bare docs python web single dist release-check site format lint clean
 
 deps-%:
 	@scripts/deps $*
@@ -57,14 +57,34 @@ mutations: deps-test ## every bit of small tree files turned over, an hour: refu
 	@cmake --build $(BUILD) --parallel $(JOBS) --target test_conformance_mutations
 	@cd $(BUILD)/scratch/conformance-mutations && $(abspath $(BUILD))/tests/test_conformance_mutations all
 
-# Threads that count the same branch now and then spoil a count, and gcovr refuses negative ones; to count atomically
-# would make tests three times as long.
-coverage: deps-coverage ## which lines do the tests run? build/coverage/report/index.html
+faults: deps-test ## every allocation and every writing call of every command failing, and signals at each; an hour
+	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=Release -DFROE_TESTS=ON
+	@cmake --build $(BUILD) --parallel $(JOBS) --target test_cli_allocations test_cli_faults froe_faulty froe_faulty_core
+	@scripts/faults $(BUILD)
+
+# Tests that limit memory, stacks or sizes of files fail here, because counters need some; make test judges them.
+coverage: deps-coverage ## which branches do the tests take? Fails below scripts/coverage.thresholds
 	@cmake --preset coverage
 	@cmake --build --preset coverage --parallel $(JOBS)
-	@ctest --preset coverage --parallel $(JOBS)
-	@cmake -E make_directory build/coverage/report
-	@gcovr --root . --gcov-ignore-parse-errors --filter 'support/|src/|formats/|vector/|io/|draw/|cli/' --html-details build/coverage/report/index.html --print-summary build/coverage
+	@cmake -E rm -rf build/coverage/counts
+	-@ctest --preset coverage --quiet --parallel $(JOBS) --label-exclude 'project|docs|fuzz'
+	@scripts/coverage build/coverage
+
+mutate: coverage build ## would the tests notice a wrong operator? A sample of 400, about an hour
+	@cmake -S . -B build -DFROE_TESTS=ON
+	@cmake --build build --parallel $(JOBS)
+	@scripts/mutate
+
+# What is found is kept outside the project: scripts/fuzz says where.
+.PHONY: fuzz platforms
+HOURS ?= 1
+fuzz: deps-fuzz ## all fuzzers in turn for HOURS=n hours; a table of executions, places and findings
+	@cmake --preset fuzz
+	@cmake --build --preset fuzz --parallel $(JOBS)
+	@scripts/fuzz $(HOURS)
+
+platforms: deps-test ## trees, answers and pictures by other compilers, machines and checkers: the same hashes
+	@scripts/platforms --build $(BUILD)
 
 bare: deps-bare ## README.md word for word on a bare Debian 12, made for it and removed again; as root
 	@scripts/bare
@@ -89,7 +109,7 @@ dist: deps-dist ## all that a release consists of, with checksums: build/dist
 release-check: deps-bare dist ## may this commit be released? What was packed, tried on a bare machine; as root
 	@scripts/release-check $(BUILD)
 
-single: deps-test deps-lint ## froe as one source and one header, tested: build/single/froe.c, froe.h
+single: deps-test deps-single ## froe as one source and one header, tested: build/single/froe.c, froe.h
 	@scripts/single $(BUILD)
 
 format: deps-lint ## all sources as .clang-format says

@@ -1,5 +1,6 @@
 /* command.c: the registry of commands, and how one is run. */
 #include "command.h"
+#include "allowance.h"
 #include "args/output.h"
 #include "args/overwrite.h"
 #include "exit.h"
@@ -46,7 +47,8 @@ int cli_run(const cli_command *command, int argc, char **argv, json_t **report) 
         code = cli_flush();
     } else if (!code) {
         ((cli_common *)args)->report = report;
-        code = cli_check_overwrite(command->parts, args);
+        code = cli_limit(args);
+        if (!code) code = cli_check_overwrite(command->parts, args);
         if (!code) code = cli_output_open(command->parts, args);
         if (!code) code = cli_output_close(command->parts, args, command->run(args));
     }

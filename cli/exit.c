@@ -1,5 +1,6 @@
 /* exit.c: statuses to exit codes, in one table, and error messages. */
 #include "exit.h"
+#include "progress.h"
 #include "support/fail.h"
 #include <ctype.h>
 #include <errno.h>
@@ -42,8 +43,14 @@ int cli_fail_memory(void) {
     return cli_fail(CLI_RESOURCES, NULL, "Out of memory.");
 }
 
+int cli_fail_cancelled(const char *file) {
+    if (cli_late()) return cli_fail(CLI_RESOURCES, file, "It takes longer than --limit-time allows.");
+    return cli_fail(CLI_CANCELLED, file, "Cancelled.");
+}
+
 int cli_fail_file(int code, const char *file, const char *done) {
     const int error = errno;
+    if (error == ENOMEM) return cli_fail(CLI_RESOURCES, file, "Out of memory.");
     return cli_fail(code, file, "The file cannot be %s: %s.", done, support_errno(error).text);
 }
 
@@ -58,6 +65,7 @@ int cli_fail_unknown(const char *what, const char *name, const char *meant, cons
 }
 
 int cli_fail_status(cli_stage stage, const char *file, froe_status status, const froe_diagnostic *diag) {
+    if (status == FROE_E_CANCELLED) return cli_fail_cancelled(file);
     const int code = (unsigned)status < FROE_STATUS_COUNT ? codes[status][stage] : CLI_USE;
     if (!diag || diag->status != status || !diag->message[0])
         return cli_fail(code, file, "The call failed: %s.", froe_status_text(status));

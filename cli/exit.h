@@ -12,7 +12,7 @@ enum {
     CLI_USE = 2,         /**< bad use: command, option, method */
     CLI_INPUT = 3,       /**< bad input: a file or an object in it */
     CLI_RESOURCES = 4,   /**< out of memory, over a budget or a limit, or no room to write */
-    CLI_CANCELLED = 130, /**< Ctrl-C, as shells report it */
+    CLI_CANCELLED = 130, /**< Ctrl-C, as shells report it; after another signal main() adds its number to 128 */
     CLI_PIPE = 141       /**< what was to be read has no reader any more, as shells report it */
 };
 
@@ -24,6 +24,8 @@ typedef enum cli_stage { CLI_READING, CLI_WORKING, CLI_WRITING } cli_stage;
 int cli_fail(int code, const char *file, const char *sentence, ...) __attribute__((format(printf, 3, 4)));
 /** CLI_RESOURCES, for memory that was refused. */
 int cli_fail_memory(void);
+/** CLI_CANCELLED, or CLI_RESOURCES when the time of --limit-time has passed; file may be NULL. */
+int cli_fail_cancelled(const char *file);
 /** The same for a file that cannot be read or written (`done`), with the reason in errno. */
 int cli_fail_file(int code, const char *file, const char *done);
 /** CLI_USE, for an option of numbers that got `given` of them instead of `needed`. */

@@ -1,6 +1,7 @@
 /* files.c: files written as a whole. */
 #include "files.h"
 #include "exit.h"
+#include "report/report.h"
 #include "support/writer.h"
 #include <stdbool.h>
 #include <stdlib.h>
@@ -19,7 +20,7 @@ int cli_write_text(const char *path, cli_write_fn *fn, const void *user) {
     FILE *out = open_memstream(&text, &length);
     if (!out) return cli_fail_memory();
     fn(out, user);
-    const bool whole = !ferror(out);
+    const bool whole = !ferror(out) && !cli_report_short();
     const int code = fclose(out) || !whole ? cli_fail_memory() : cli_write_file(path, text, length);
     free(text);
     return code;

@@ -19,7 +19,7 @@ static const struct {
     {CLI_USE, "bad use: unknown command, option or method, a value out of range, a request that cannot be served"},
     {CLI_INPUT, "bad input: a file that cannot be read, is not what it claims to be, or holds a bad object"},
     {CLI_RESOURCES, "out of resources: memory, a budget, a limit, or an output that cannot be written"},
-    {CLI_CANCELLED, "cancelled by Ctrl-C"},
+    {CLI_CANCELLED, "cancelled by Ctrl-C; by another signal 128 and its number"},
 };
 enum { EXITS = sizeof exits / sizeof *exits };
 

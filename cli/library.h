@@ -9,10 +9,11 @@ typedef struct cli_io {
     __typeof__(froe_read) *read;
     __typeof__(froe_export_map) *export_map;
     __typeof__(froe_render_dxf) *render_dxf;
+    __typeof__(froe_read_animation) *read_animation;
 } cli_io;
 
 typedef struct cli_draw {
-    __typeof__(froe_draw_defaults) *defaults;
+    __typeof__(froe_draw_defaults_into) *defaults;
     __typeof__(froe_draw) *draw;
     __typeof__(froe_draw_write) *write;
     __typeof__(froe_draw_format_of) *format_of;

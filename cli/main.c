@@ -42,7 +42,10 @@ int main(int argc, char **argv) {
     const cli_command *command = cli_command_named(word);
     if (!command) return cli_refuse_command(word);
     cli_catch_signals();
+    cli_report_begin();
     const int code = cli_run(command, argc - 2, argv + 2, NULL);
-    if (code || !cli_interrupted()) return code;
-    return cli_fail(CLI_CANCELLED, NULL, "Cancelled when all was done, and what was written is whole.");
+    if (code == CLI_CANCELLED) return cli_signal_code();
+    if (code || !cli_interrupted() || cli_late()) return code;
+    (void)cli_fail(code, NULL, "Cancelled when all was done, and what was written is whole.");
+    return cli_signal_code();
 }

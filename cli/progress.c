@@ -1,30 +1,50 @@
-/* progress.c: the progress bar and the flag that Ctrl-C sets. A signal handler
+/* progress.c: the progress bar and the flag that signals set. A signal handler
  * can reach nothing but a static variable, so the flag is one; it lives here only. */
 #include "progress.h"
+#include "args/crash.h"
+#include "exit.h"
 #include <signal.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
-static volatile sig_atomic_t interrupted;
+static volatile sig_atomic_t interrupted; /* the number of the first signal */
 
-static void on_interrupt(int number) {
-    (void)number;
-    interrupted = 1;
+static void on_signal(int number) {
+    if (!interrupted) interrupted = number;
+}
+
+/* The time is up, and then again each second: a library that reads a file may not listen. */
+static void on_alarm(int number) {
+    if (interrupted == SIGALRM) cli_crash_late();
+    on_signal(number);
+}
+
+static void catch_signal(int number, void (*handler)(int), int flags) {
+    struct sigaction action, before;
+    memset(&action, 0, sizeof action);
+    action.sa_handler = handler;
+    action.sa_flags = flags;
+    if (sigaction(number, NULL, &before) == 0 && before.sa_handler != SIG_IGN) sigaction(number, &action, NULL);
 }
 
 void cli_catch_signals(void) {
-    struct sigaction action, before;
-    memset(&action, 0, sizeof action);
-    action.sa_handler = on_interrupt;
-    action.sa_flags = (int)SA_RESETHAND;
-    if (sigaction(SIGINT, NULL, &before) == 0 && before.sa_handler != SIG_IGN) sigaction(SIGINT, &action, NULL);
-    action.sa_handler = SIG_IGN; /* a file beyond the allowed size: write() fails instead */
-    sigaction(SIGXFSZ, &action, NULL);
+    static const int ends[] = {SIGINT, SIGTERM, SIGHUP};
+    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) catch_signal(ends[i], on_signal, (int)SA_RESETHAND);
+    catch_signal(SIGALRM, on_alarm, 0);
+    catch_signal(SIGXFSZ, SIG_IGN, 0); /* a file beyond the allowed size: write() fails instead */
 }
 
 bool cli_interrupted(void) {
     return interrupted != 0;
+}
+
+bool cli_late(void) {
+    return interrupted == SIGALRM;
+}
+
+int cli_signal_code(void) {
+    return interrupted ? 128 + (int)interrupted : CLI_CANCELLED;
 }
 
 cli_progress cli_progress_begin(const cli_common *common, const char *what) {

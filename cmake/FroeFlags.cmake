@@ -28,9 +28,8 @@ if(FROE_SANITIZE)
   add_compile_options(-fsanitize=${FROE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
   add_link_options(-fsanitize=${FROE_SANITIZE})
 endif()
-if(FROE_COVERAGE)
-  add_compile_options(--coverage)
-  add_link_options(--coverage)
+if(FROE_COVERAGE) # by clang; FroeCoverage.cmake says what is counted
+  add_link_options(-fprofile-instr-generate)
 endif()
 if(FROE_FUZZ)
   # clang, unlike gcc, objects to NULL + 0, which is where an empty array begins.

@@ -58,6 +58,7 @@ froe_fuzzer(open 6500)
 froe_fuzzer(scene 6400)
 froe_fuzzer(read 900)
 froe_fuzzer(motion 850)
+froe_fuzzer(shards 150)
 
 # Beside an oracle, which needs GMP.
 find_package(PkgConfig)

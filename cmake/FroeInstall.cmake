@@ -4,7 +4,13 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/froe)
 
 # froe_install(NAME): libraries of one part and its header
 function(froe_install name header)
-  install(TARGETS ${name} ${name}_static EXPORT froe
+  set(targets ${name} ${name}_static)
+  if(FROE_KINDS STREQUAL "static")
+    list(REMOVE_ITEM targets ${name})
+  elseif(FROE_KINDS STREQUAL "shared")
+    list(REMOVE_ITEM targets ${name}_static)
+  endif()
+  install(TARGETS ${targets} EXPORT froe
           LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
   install(FILES include/froe/${header}.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/froe)
 endfunction()
@@ -24,13 +30,17 @@ function(froe_pkgconfig file description requires requires_private libs_private)
   set(PC_REQUIRES ${requires})
   set(PC_REQUIRES_PRIVATE ${requires_private})
   set(PC_LIBS_PRIVATE ${libs_private})
+  if(FROE_KINDS STREQUAL "static") # nothing is private
+    set(PC_REQUIRES "${requires} ${requires_private}")
+    set(PC_LIBS ${libs_private})
+  endif()
   configure_file(cmake/froe.pc.in ${file}.pc @ONLY)
   install(FILES ${PROJECT_BINARY_DIR}/${file}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 endfunction()
 
 froe_install(froe froe)
 install(FILES include/froe/query.h include/froe/view.h include/froe/kinetic.h include/froe/measure.h include/froe/formats.h
-              include/froe/render.h include/froe/arrays.h
+              include/froe/render.h include/froe/arrays.h include/froe/shards.h include/froe/shard_parts.h
         DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/froe)
 froe_pkgconfig(froe "${PROJECT_DESCRIPTION}" "" "" "-lm -pthread")
 if(FROE_HAS_IO)

@@ -19,6 +19,15 @@ if(CMAKE_OBJCOPY AND NOT APPLE AND NOT FROE_SANITIZE AND NOT FROE_COVERAGE AND N
   set(FROE_LOCALIZE ON)
 endif()
 
+# Both kinds of libraries, or the one that BUILD_SHARED_LIBS asks for.
+set(FROE_KINDS shared static)
+if(DEFINED BUILD_SHARED_LIBS)
+  set(FROE_KINDS static)
+  if(BUILD_SHARED_LIBS)
+    set(FROE_KINDS shared)
+  endif()
+endif()
+
 function(froe_archive_objects out core)
   set(objects "")
   foreach(part ${core} ${ARGN})
@@ -65,6 +74,11 @@ function(froe_libraries name file)
     target_link_libraries(${name} PUBLIC ${need})
     target_link_libraries(${name}_static PUBLIC ${need}_static)
   endforeach()
+  if(NOT shared IN_LIST FROE_KINDS)
+    set_target_properties(${name} PROPERTIES EXCLUDE_FROM_ALL ON)
+  elseif(NOT static IN_LIST FROE_KINDS)
+    set_target_properties(${name}_static PROPERTIES EXCLUDE_FROM_ALL ON)
+  endif()
   foreach(target ${name} ${name}_static)
     target_include_directories(${target} PUBLIC
       $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)

@@ -8,7 +8,7 @@ pkg_check_modules(GMP REQUIRED IMPORTED_TARGET GLOBAL gmp)
 
 # A limit is ten times what a test takes on two cores, so that a busy machine fails none: seconds, up to ten where
 # nothing is said. Sanitizers, counters of lines and unoptimised code take longer by a factor.
-set(takes cli/build 20 cli/deep 15 cli/demo 20 cli/faults 15 cli/generate 15 cli/memory 20 cli/render 20
+set(takes cli/allocations 20 cli/build 20 cli/deep 15 cli/demo 20 cli/faults 15 cli/generate 15 cli/memory 20 cli/render 20
           docs/docs-reference-render 30 docs/docs-howto-gallery 20 docs/docs-tutorials-draw-a-model 15
           kinetic/live-ordinary 15 kinetic/live-augmented 15 query/range_eps-at_the_limits_they_keep_it_too 20)
 set(slower 1)
@@ -36,10 +36,14 @@ function(froe_test area name)
     list(GET takes ${found} seconds)
   endif()
   math(EXPR limit "10 * ${slower} * ${seconds}")
+  set(counts "") # which branches this test takes: scripts/coverage
+  if(FROE_COVERAGE)
+    set(counts ";LLVM_PROFILE_FILE=set:${PROJECT_BINARY_DIR}/counts/${area}-${name}-%m.profraw")
+  endif()
   add_test(NAME ${area}/${name} COMMAND ${ARGN} WORKING_DIRECTORY ${scratch})
   set_tests_properties(${area}/${name} PROPERTIES LABELS ${area} TIMEOUT ${limit}
     ENVIRONMENT_MODIFICATION
-    "UBSAN_OPTIONS=set:print_stacktrace=1;LSAN_OPTIONS=set:suppressions=${PROJECT_SOURCE_DIR}/cmake/lsan.supp:print_suppressions=0;TSAN_OPTIONS=set:suppressions=${PROJECT_SOURCE_DIR}/cmake/tsan.supp")
+    "UBSAN_OPTIONS=set:print_stacktrace=1;LSAN_OPTIONS=set:suppressions=${PROJECT_SOURCE_DIR}/cmake/lsan.supp:print_suppressions=0;TSAN_OPTIONS=set:suppressions=${PROJECT_SOURCE_DIR}/cmake/tsan.supp${counts}")
 endfunction()
 
 # The core and the parts with everything visible, and what tests share: oracles, failing allocators.
@@ -110,6 +114,8 @@ if(TARGET test_cli_plot) # figures are part of the program, which tests run othe
   target_include_directories(test_cli_plot PRIVATE cli)
 endif()
 
+target_link_options(test_base_pages PRIVATE -Wl,--wrap=mremap)
+
 # Outputs whose system calls fail: in the writer's own test, and in a program like froe (tests/faults).
 set(fault_options "")
 foreach(call open write fsync fchmod rename unlink readlink close getentropy)
@@ -118,18 +124,32 @@ endforeach()
 target_sources(test_files_writer PRIVATE tests/faults/faults.c)
 target_link_options(test_files_writer PRIVATE ${fault_options})
 if(FROE_HAS_CLI)
-  add_executable(froe_faulty tests/faults/faults.c $<TARGET_OBJECTS:froe_program> $<TARGET_OBJECTS:froe_support>)
-  set_target_properties(froe_faulty PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
-  target_link_options(froe_faulty PRIVATE ${fault_options})
+  foreach(call malloc calloc realloc strdup strndup fopen open_memstream getline mmap pthread_create cli_progress_step)
+    list(APPEND fault_options -Wl,--wrap=${call})
+  endforeach()
+  # With all libraries inside, so that faults reach them; and without, which starts ten times as fast.
+  add_executable(froe_faulty)
+  add_executable(froe_faulty_core)
   target_link_libraries(froe_faulty PRIVATE ${froe_program_linked})
-  set_property(TEST cli/faults APPEND PROPERTY ENVIRONMENT FROE_FAULTY=$<TARGET_FILE:froe_faulty>)
+  target_link_libraries(froe_faulty_core PRIVATE $<TARGET_OBJECTS:froe_cli_opened> froe_static PkgConfig::JANSSON m
+                                                 ${CMAKE_DL_LIBS})
+  foreach(target froe_faulty froe_faulty_core)
+    target_sources(${target} PRIVATE tests/faults/faults.c tests/faults/memory.c $<TARGET_OBJECTS:froe_program>
+                                     $<TARGET_OBJECTS:froe_support>)
+    set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+    target_link_options(${target} PRIVATE ${fault_options})
+  endforeach()
+  foreach(test faults allocations)
+    set_property(TEST cli/${test} APPEND PROPERTY ENVIRONMENT FROE_FAULTY=$<TARGET_FILE:froe_faulty>
+                 FROE_FAULTY_CORE=$<TARGET_FILE:froe_faulty_core>)
+  endforeach()
 endif()
 
 if(FROE_HAS_CLI)
   file(GLOB transcripts CONFIGURE_DEPENDS tests/cli/*.test)
   foreach(transcript ${transcripts})
     get_filename_component(name ${transcript} NAME_WE)
-    if(name STREQUAL "memory" AND FROE_SANITIZE) # a sanitizer cannot start within limits of memory
+    if(name MATCHES "^(memory|limits)$" AND FROE_SANITIZE) # a sanitizer cannot start within limits of memory
       continue()
     endif()
     froe_test(cli ${name} ${PROJECT_SOURCE_DIR}/scripts/transcript ${transcript})
@@ -158,6 +178,10 @@ froe_test(project names ${scripts}/check-names)
 froe_test(project messages ${scripts}/check-messages)
 froe_test(project prose ${scripts}/check-prose)
 froe_test(project root ${scripts}/check-root)
+froe_test(project ports ${scripts}/check-ports)
+froe_test(project reach ${scripts}/reach)
+froe_test(project abi ${scripts}/check-abi)
+set_tests_properties(project/abi PROPERTIES ENVIRONMENT CC=${CMAKE_C_COMPILER})
 file(GLOB transcripts CONFIGURE_DEPENDS tests/project/*.test)
 foreach(transcript ${transcripts})
   get_filename_component(name ${transcript} NAME_WE)

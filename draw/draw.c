@@ -12,19 +12,20 @@
 #include <math.h>
 #include <string.h>
 
-froe_draw_options froe_draw_defaults(void) {
-    return (froe_draw_options){.size = sizeof(froe_draw_options),
-                               .style = FROE_DRAW_AUTO,
-                               .width = 960,
-                               .margin = -1,
-                               .scale = 1,
-                               .background = DRAW_PAPER,
-                               .legend = true,
-                               .detail = -1,
-                               .axis = -1,
-                               .up = -1,
-                               .explode = 0.5,
-                               .explode_depth = 4};
+void froe_draw_defaults_into(froe_draw_options *out, size_t size) {
+    const froe_draw_options all = {.size = size,
+                                   .style = FROE_DRAW_AUTO,
+                                   .width = 960,
+                                   .margin = -1,
+                                   .scale = 1,
+                                   .background = DRAW_PAPER,
+                                   .legend = true,
+                                   .detail = -1,
+                                   .axis = -1,
+                                   .up = -1,
+                                   .explode = 0.5,
+                                   .explode_depth = 4};
+    support_defaults(out, size, &all, sizeof all);
 }
 
 const char *froe_draw_style_name(froe_draw_style style) {

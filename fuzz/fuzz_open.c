@@ -2,6 +2,7 @@
  * that what lies behind them is reached. What opens must be safe to look at and to ask, all of it, even when it is
  * wrong; and when it passes the audit its answers must agree. */
 #include "ask.h"
+#include "base/random.h"
 #include "look.h"
 #include "support/forge.h"
 #include <stdio.h>
@@ -88,6 +89,58 @@ static void check_bytes(const froe_tree *tree, const uint8_t *file, size_t size)
     if (right && left.size) abort();
 }
 
+/* ---------------------------------------------------------------- mutation -- */
+
+size_t LLVMFuzzerMutate(uint8_t *data, size_t size, size_t most) __attribute__((weak)); /* of libFuzzer */
+size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t most, unsigned seed);
+
+/* A word of a section becomes another one: of the same section, a neighbour, an end, a number of items. */
+static void change_word(uint8_t *words, size_t count, const file_section *table, uint64_t bits) {
+    static const uint32_t ends[] = {0, 1, UINT32_MAX, UINT32_MAX - 1, 0x7fffffff, 0x80000000, 0x7ff00000, 0x00100000};
+    uint32_t word, other;
+    uint8_t *at = words + 4 * (bits % count);
+    memcpy(&word, at, 4);
+    memcpy(&other, words + 4 * ((bits >> 16) % count), 4);
+    const file_section *s = table + (bits >> 32) % FILE_SECTIONS;
+    switch (bits >> 48 & 7) {
+    case 0:
+    case 1:
+        word = other;
+        break;
+    case 2:
+        word += 1 + (uint32_t)(bits >> 56);
+        break;
+    case 3:
+        word -= 1 + (uint32_t)(bits >> 56);
+        break;
+    case 4:
+        word = ends[bits >> 56 & 7];
+        break;
+    case 5:
+        word ^= UINT32_C(1) << (bits >> 56 & 31);
+        break;
+    default:
+        word = (uint32_t)(s->size / (s->item_size ? s->item_size : 1)) - (bits >> 56 & 1);
+    }
+    memcpy(at, &word, 4);
+}
+
+/* Of three mutations two change words within sections, so that a tree stays one; the others are libFuzzer's, which
+ * reach the questions behind the file as well. */
+size_t LLVMFuzzerCustomMutator(uint8_t *data, size_t size, size_t most, unsigned seed) {
+    file_section table[FILE_SECTIONS];
+    const size_t begin = sizeof(file_header), file = size_of_file(data, size);
+    if (seed % 3 == 0 || file < begin + sizeof table) return LLVMFuzzerMutate(data, size, most);
+    memcpy(table, data + begin, sizeof table);
+    for (uint64_t i = 0; i < 1 + seed / 3 % 3; i++) {
+        const uint64_t bits = base_hash(seed, 3, i);
+        const file_section *s = table + base_hash(seed, 4, i) % FILE_SECTIONS;
+        if (s->size >= 4 && s->offset < file && s->size <= file - s->offset)
+            change_word(data + s->offset, s->size / 4, table, bits);
+    }
+    return size;
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     char path[256];
     froe_tree *tree;
@@ -112,7 +165,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         ask(tree, false, &first); /* nothing has been checked yet but what these questions read */
         froe_tree_free(tree);
     }
-    if (froe_tree_open(path, NULL, &tree, NULL) == FROE_OK) {
+    if (froe_tree_open_copy(path, NULL, &tree, NULL) == FROE_OK) {
         look_at_all(tree, &questions);
         froe_tree_free(tree);
     }

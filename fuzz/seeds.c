@@ -1,6 +1,7 @@
 /* seeds.c: inputs for the fuzzers, made by the library as it is, so that they are of its formats.
  *
- *     seeds FOLDER     writes FOLDER/open, FOLDER/scene and, with io, FOLDER/read and FOLDER/motion */
+ *     seeds FOLDER     writes FOLDER/open, FOLDER/scene, FOLDER/shards and, with io,
+ *                      FOLDER/read and FOLDER/motion */
 #include "base/random.h"
 #include "support/samples.h"
 #include <froe/formats.h>
@@ -130,6 +131,14 @@ static void save_motions(output *out) {
     }
 }
 
+/* ----------------------------------------------------------------- manifests -- */
+
+static void save_manifest(output *out) {
+    static const char text[] =
+        "froe shards 1\ndimension 2\ncut 1 0.5\nshard 2 2 64 00000000000000ff 0 0 1 0.5\nshard 0\n";
+    put(path_of(out, "shards", "two"), "wb", text, sizeof text - 1);
+}
+
 int main(int argc, char **argv) {
     if (argc != 2) {
         fprintf(stderr, "usage: %s FOLDER\n", argv[0]);
@@ -142,5 +151,6 @@ int main(int argc, char **argv) {
     save_programs(&out);
     save_files(&out);
     save_motions(&out);
+    save_manifest(&out);
     return 0;
 }

@@ -16,7 +16,7 @@ static bool is_collection(const char *path) {
 froe_status froe_read(const char *path, const froe_read_options *options, froe_scene **out, froe_read_report *report,
                       froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
-    static const formats_readers libraries = {choose_library, io_read_ogr, true};
+    static const formats_readers libraries = {.choose = choose_library, .maps = io_read_ogr, .beyond = true};
     froe_status status = formats_check_reading("froe_read", path, options, out, diag);
     if (status) return status;
     froe_read_options o = options ? *options : froe_read_defaults();

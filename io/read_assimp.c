@@ -1,7 +1,8 @@
 /* read_assimp.c: solid models in all formats of assimp, as they are in the
  * file: no post-processing step of assimp runs, for those that weld, drop or split do
  * so within tolerances. Its coordinates are single precision; node transforms are
- * multiplied out in double. Nodes are walked with an explicit stack. */
+ * multiplied out in double. Nodes are listed with an explicit stack. */
+#include "assimp_nodes.h"
 #include "assimp_paint.h"
 #include "readers.h"
 #include <assimp/cimport.h>
@@ -32,12 +33,6 @@ bool io_assimp_recognise(const formats_source *source) {
 
 /* --------------------------------------------------------------- the walk -- */
 
-/* A node to visit, with the transform of its parent (rows of a 3 x 4 matrix). */
-typedef struct visit {
-    const struct aiNode *node;
-    double parent[12];
-} visit;
-
 /* What faces of a node with a material belong to: a group, or one for each colour. */
 typedef struct material_group {
     unsigned material;
@@ -49,7 +44,7 @@ typedef struct material_group {
 typedef struct model {
     const struct aiScene *scene;
     formats_sink *sink;
-    ARRAY(visit) stack;
+    io_nodes *nodes;
     ARRAY(double) points;         /* transformed vertices of a mesh, 3 each */
     ARRAY(double) corners;        /* of a face, 3 each */
     ARRAY(double) places;         /* of its texture, 2 each */
@@ -164,32 +159,49 @@ static froe_status read_paints(model *w, const char *path) {
     return status;
 }
 
-static froe_status push(model *w, const struct aiNode *node, const double *parent) {
-    visit next = {.node = node};
-    memcpy(next.parent, parent, sizeof next.parent);
-    return array_push(&w->sink->alloc, &w->stack, next) ? FROE_OK : support_fail_memory(w->sink->diag);
+void io_matrix_multiply(const double a[12], const double b[12], double out[12]) {
+    for (int i = 0; i < 12; ++i) {
+        const double *row = a + i / 4 * 4;
+        out[i] = row[0] * b[i % 4] + row[1] * b[4 + i % 4] + row[2] * b[8 + i % 4] + (i % 4 == 3 ? row[3] : 0);
+    }
 }
 
-static froe_status walk_nodes(model *w) {
+/* A node that is still to be listed. */
+typedef struct node_visit {
+    const struct aiNode *node;
+    size_t parent;
+} node_visit;
+
+static froe_status list_nodes(model *w) {
     static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
-    froe_status status = push(w, w->scene->mRootNode, identity);
-    while (!status && w->stack.count) {
-        const visit at = w->stack.data[--w->stack.count];
-        const struct aiNode *node = at.node;
-        const struct aiMatrix4x4 *t = &node->mTransformation;
+    ARRAY(node_visit) stack = {0};
+    const froe_allocator *alloc = &w->sink->alloc;
+    bool room = array_push(alloc, &stack, (node_visit){w->scene->mRootNode, SIZE_MAX});
+    while (room && stack.count) {
+        const node_visit at = stack.data[--stack.count];
+        const struct aiMatrix4x4 *t = &at.node->mTransformation;
         const double own[12] = {t->a1, t->a2, t->a3, t->a4, t->b1, t->b2, t->b3, t->b4, t->c1, t->c2, t->c3, t->c4};
-        double m[12];
-        for (int i = 0; i < 12; ++i) {
-            const double *row = at.parent + i / 4 * 4;
-            m[i] = row[0] * own[i % 4] + row[1] * own[4 + i % 4] + row[2] * own[8 + i % 4] + (i % 4 == 3 ? row[3] : 0);
-        }
-        if (node->mNumMeshes) {
-            status = formats_sink_feature(w->sink, w->sink->report.features);
-            w->sink->inside = node->mName.data;
-            leave_node_groups(w);
-        }
-        for (unsigned i = 0; i < node->mNumMeshes && !status; ++i) status = add_mesh(w, node, node->mMeshes[i], m);
-        for (unsigned i = node->mNumChildren; i-- > 0 && !status;) status = push(w, node->mChildren[i], m);
+        io_node node = {.node = at.node, .parent = at.parent};
+        io_matrix_multiply(at.parent == SIZE_MAX ? identity : w->nodes->data[at.parent].at, own, node.at);
+        room = array_push(alloc, w->nodes, node);
+        for (unsigned i = at.node->mNumChildren; i-- > 0 && room;)
+            room = array_push(alloc, &stack, (node_visit){at.node->mChildren[i], w->nodes->count - 1});
+    }
+    array_free(alloc, &stack);
+    return room ? FROE_OK : support_fail_memory(w->sink->diag);
+}
+
+static froe_status read_nodes(model *w) {
+    froe_status status = FROE_OK;
+    for (size_t n = 0; n < w->nodes->count && !status; n++) {
+        const struct aiNode *node = w->nodes->data[n].node;
+        w->nodes->data[n].first = w->sink->total;
+        if (!node->mNumMeshes) continue;
+        status = formats_sink_feature(w->sink, w->sink->report.features);
+        w->sink->inside = node->mName.data;
+        leave_node_groups(w);
+        for (unsigned i = 0; i < node->mNumMeshes && !status; ++i)
+            status = add_mesh(w, node, node->mMeshes[i], w->nodes->data[n].at);
     }
     return status;
 }
@@ -251,6 +263,14 @@ static int up_of(const struct aiScene *scene, const char *format) {
 }
 
 froe_status io_read_assimp(const formats_source *source, formats_sink *sink) {
+    io_nodes nodes = {0};
+    const froe_status status = io_read_arranged(source, sink, &nodes, NULL, NULL);
+    array_free(&sink->alloc, &nodes);
+    return status;
+}
+
+froe_status io_read_arranged(const formats_source *source, formats_sink *sink, io_nodes *nodes, io_arrange_fn *arrange,
+                             void *user) {
     froe_status status = formats_sink_open(sink, 3);
     if (!status) status = formats_sink_progress(sink, 0);
     if (status) return status;
@@ -259,7 +279,7 @@ froe_status io_read_assimp(const formats_source *source, formats_sink *sink) {
     if (!scene) status = refuse_import(source, sink);
     pthread_mutex_unlock(&import_lock);
     if (status) return status;
-    model w = {.scene = scene, .sink = sink};
+    model w = {.scene = scene, .sink = sink, .nodes = nodes};
     for (unsigned i = 0; i < scene->mNumMeshes; ++i) /* instances count once: only the progress bar depends on it */
         w.faces += scene->mMeshes[i]->mNumFaces ? scene->mMeshes[i]->mNumFaces : scene->mMeshes[i]->mNumVertices;
     char format[48];
@@ -277,10 +297,11 @@ froe_status io_read_assimp(const formats_source *source, formats_sink *sink) {
     sink->unit = "face";
     sink->report.layers = 1;
     status = read_paints(&w, source->file);
-    if (!status) status = scene->mRootNode ? walk_nodes(&w) : corrupt(&w, "The file has no nodes.");
+    if (!status) status = scene->mRootNode ? list_nodes(&w) : corrupt(&w, "The file has no nodes.");
+    if (!status && arrange) status = arrange(user, source, sink, scene, nodes);
+    if (!status) status = read_nodes(&w);
     if (!status) status = formats_sink_end_feature(sink);
     sink->inside = NULL; /* it belongs to assimp's scene */
-    array_free(&sink->alloc, &w.stack);
     array_free(&sink->alloc, &w.points);
     array_free(&sink->alloc, &w.corners);
     leave_node_groups(&w);

@@ -22,8 +22,9 @@ from setuptools.command.sdist import sdist
 HERE = Path(__file__).resolve().parent
 ROOT = HERE if (HERE / "support").is_dir() else HERE.parent  # a source distribution, or a checkout
 CORE = ("src", "formats", "vector", "support")
-EMBEDDED = ("support/page.css", "formats/motion/player.css", "formats/motion/player.js")
-VERSION = re.search(r"project\(froe VERSION ([0-9.]+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
+CMAKE = (ROOT / "CMakeLists.txt").read_text()
+EMBEDDED = re.search(r"froe_embed\(froe_core \S+ \S+ ([^)]+)\)", CMAKE).group(1).split()
+VERSION = re.search(r"project\(froe VERSION ([0-9.]+)", CMAKE).group(1)
 
 ARITHMETIC = ["-ffp-contract=off", "-fno-fast-math", "-fno-math-errno"]
 FLAGS = ["-std=c11", "-O3", "-g0", "-fvisibility=hidden", "-pthread"] + ARITHMETIC

@@ -1,13 +1,17 @@
 /* fail.c: sentences and details of failures. */
 #include "support/fail.h"
+#include "support/utf8.h"
 #include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 void support_one_line(char *text) {
-    for (; *text; text++)
-        if ((unsigned char)*text < ' ' || *text == 0x7f) *text = '?';
+    while (*text) {
+        const size_t length = support_utf8_length(text);
+        if (!length || (unsigned char)*text < ' ' || *text == 0x7f) *text = '?';
+        text += length ? length : 1;
+    }
 }
 
 static void fill(froe_diagnostic *diag, froe_status status, uint32_t object, uint32_t corner, uint32_t axis,
@@ -52,6 +56,11 @@ froe_status support_fail_null(froe_diagnostic *diag, const char *function) {
 
 froe_status support_fail_defaults(froe_diagnostic *diag, const char *maker) {
     return support_fail(diag, FROE_E_OPTIONS, "The options do not come from %s().", maker);
+}
+
+void support_defaults(void *out, size_t size, const void *all, size_t known) {
+    memcpy(out, all, size < known ? size : known);
+    if (size > known) memset((char *)out + known, 0, size - known);
 }
 
 const char *support_short(const char *path) {

@@ -25,6 +25,9 @@ froe_status support_fail_cancelled(froe_diagnostic *diag);
 froe_status support_fail_null(froe_diagnostic *diag, const char *function);
 /** FROE_E_OPTIONS: "The options do not come from MAKER()." */
 froe_status support_fail_defaults(froe_diagnostic *diag, const char *maker);
+/** What MAKER_into() does: writes the first `size` bytes of `all`, of `known` bytes, to `out`. A program that was
+ * compiled when the struct was shorter has no room for more; what a newer program has beyond them becomes 0. */
+void support_defaults(void *out, size_t size, const void *all, size_t known);
 /** FROE_E_IO, or FROE_E_MEMORY where `error` is ENOMEM: "PATH: The file cannot be DONE: REASON.", of an errno value. */
 froe_status support_fail_file(froe_diagnostic *diag, const char *done, const char *path, int error);
 /** FROE_E_IO for an input that is not a regular file: "PATH: It is a directory, not a file.", or a device. */
@@ -33,8 +36,8 @@ froe_status support_fail_irregular(froe_diagnostic *diag, const char *path, bool
 froe_status support_fail_ending(froe_diagnostic *diag, froe_status status, const char *path, const char *what,
                                 const char *endings);
 
-/** Replaces control characters, which a message may quote from a file or have from its name, by question marks: they
- * would end the line, or command a terminal. support_fail() does so. */
+/** Replaces control characters, which would end the line or command a terminal, and bytes that are no UTF-8, such as
+ * the first of a character at which a long name was cut, by question marks. support_fail() does so. */
 void support_one_line(char *text);
 /** The end of a path, short enough to leave room for the reason in a diagnostic. */
 const char *support_short(const char *path);

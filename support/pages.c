@@ -3,6 +3,9 @@
 #include "support/pages.h"
 #include <stdint.h>
 #include <sys/mman.h>
+#ifdef __linux__
+#include <sys/syscall.h>
+#endif
 #include <unistd.h>
 
 #if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
@@ -39,12 +42,14 @@ static void *map_aligned(size_t length) {
     return at + before;
 }
 
-/* Page tables of 2 MB move as they are, as both addresses are multiples of that. */
+/* Page tables of 2 MB move as they are, as both addresses are multiples of that. The system is called without the
+ * function mremap(), in whose place some libraries put one of four arguments (UCX, for MPI): without the fifth the
+ * mapping moves to any address, such as 0. Such a library is not told that memory has moved, so that bytes which a
+ * program has let MPI send must not grow afterwards. */
 static void *move(void *ptr, size_t old_length, size_t length) {
     void *to = map_aligned(length);
     if (!to) return NULL;
-    void *moved = mremap(ptr, old_length, length, MREMAP_MAYMOVE | MREMAP_FIXED, to);
-    if (moved != MAP_FAILED) return moved;
+    if (syscall(SYS_mremap, ptr, old_length, length, MREMAP_MAYMOVE | MREMAP_FIXED, to) == (long)to) return to;
     munmap(to, length);
     return NULL;
 }

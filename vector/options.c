@@ -3,9 +3,9 @@
 #include "support/fail.h"
 #include "support/utf8.h"
 
-froe_render_options froe_render_defaults(void) {
-    return (froe_render_options){
-        .size = sizeof(froe_render_options),
+void froe_render_defaults_into(froe_render_options *out, size_t size) {
+    const froe_render_options all = {
+        .size = size,
         .camera = froe_camera_defaults(),
         .cel_levels = 4,
         .seam_width = 1,
@@ -18,6 +18,7 @@ froe_render_options froe_render_defaults(void) {
         .decimals = 2,
         .pixels = 1,
     };
+    support_defaults(out, size, &all, sizeof all);
 }
 
 const char *froe_shading_name(froe_shading shading) {

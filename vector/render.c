@@ -72,8 +72,7 @@ static froe_status find_picture(vector_render *r, froe_diagnostic *diag) {
     return froe_picture_new(r->tree, r->surface, &p, &r->picture, diag);
 }
 
-/* Everything but the bytes. Whatever its status, free_render() gives back what it has made. */
-static froe_status prepare(vector_render *r, const froe_camera *camera, froe_diagnostic *diag) {
+froe_status vector_prepare(vector_render *r, const froe_camera *camera, froe_diagnostic *diag) {
     r->alloc = support_allocator(r->options->alloc);
     froe_status status = froe_camera_place(camera, r->scene, &r->view, diag);
     if (!status) status = froe_surface_new(r->scene, &r->alloc, &r->surface, diag);
@@ -87,7 +86,7 @@ static froe_status prepare(vector_render *r, const froe_camera *camera, froe_dia
     return vector_sort_strokes(r) || vector_count_shown(r) ? support_fail_memory(diag) : FROE_OK;
 }
 
-static void free_render(vector_render *r) {
+void vector_free(vector_render *r) {
     support_free(&r->alloc, r->owners, froe_scene_object_count(r->scene) * sizeof *r->owners);
     if (r->order) support_free(&r->alloc, r->order, froe_picture_stroke_count(r->picture) * sizeof *r->order);
     froe_picture_free(r->picture);
@@ -105,7 +104,7 @@ static void free_render(vector_render *r) {
 
 static const char refused_sentence[] = "The receiver of the picture refused it.";
 
-static froe_status end_output(vector_output *output, froe_diagnostic *diag) {
+froe_status vector_end(vector_output *output, froe_diagnostic *diag) {
     const froe_status status = vector_flush(output);
     return status == FROE_E_MEMORY ? support_fail_memory(diag)
            : status                ? support_fail(diag, status, refused_sentence)
@@ -125,10 +124,10 @@ static froe_status write_picture(vector_render *r, froe_render_format format, ve
         put_svg, vector_pdf, vector_eps, vector_csv, vector_geojson};
     r->grid = vector_grid(r->options, format);
     r->lines_only = format == FROE_RENDER_CSV || format == FROE_RENDER_GEOJSON;
-    froe_status status = prepare(r, &r->options->camera, diag);
+    froe_status status = vector_prepare(r, &r->options->camera, diag);
     if (status) return status;
     writers[format](r, output);
-    status = end_output(output, diag);
+    status = vector_end(output, diag);
     r->report.bytes = output->count;
     return status;
 }
@@ -155,7 +154,7 @@ froe_status froe_render(const froe_tree *tree, const char *path, const froe_rend
     status = write_picture(&r, format, &output, diag);
     status = support_writer_close(&file, status);
     if (!status && report) *report = r.report;
-    free_render(&r);
+    vector_free(&r);
     return status;
 }
 
@@ -172,7 +171,7 @@ froe_status froe_render_write(const froe_tree *tree, froe_render_format format, 
     if (status) return status;
     status = write_picture(&r, format, &output, diag);
     if (!status && report) *report = r.report;
-    free_render(&r);
+    vector_free(&r);
     return status;
 }
 
@@ -198,10 +197,10 @@ froe_status froe_render_paths(const froe_tree *tree, double steps, froe_render_p
     r.grid = steps;
     froe_status status = vector_check(r.scene, r.options, diag);
     if (status) return status;
-    status = prepare(&r, &r.options->camera, diag);
+    status = vector_prepare(&r, &r.options->camera, diag);
     if (!status) vector_each_path(&r, hand_over, &to);
     if (!status && report) *report = r.report;
-    free_render(&r);
+    vector_free(&r);
     return status;
 }
 
@@ -215,7 +214,7 @@ froe_status froe_render_lines(const froe_tree *tree, froe_render_line_fn *fn, vo
     if (status) return status;
     r.lines_only = true;
     r.grid = vector_grid(r.options, FROE_RENDER_SVG);
-    status = prepare(&r, &r.options->camera, diag);
+    status = vector_prepare(&r, &r.options->camera, diag);
     const size_t count = status ? 0 : froe_picture_stroke_count(r.picture);
     bool more = true;
     for (size_t i = 0; more && i < count; i++) {
@@ -223,7 +222,7 @@ froe_status froe_render_lines(const froe_tree *tree, froe_render_line_fn *fn, vo
         more = !vector_stroke_shows(&r, &line) || support_callback(fn(user, &line));
     }
     if (!status && report) *report = r.report;
-    free_render(&r);
+    vector_free(&r);
     return status;
 }
 
@@ -247,16 +246,16 @@ froe_status froe_render_animation(const froe_tree *tree, const char *path, const
     for (size_t i = 0; !status && i < count; i++) {
         vector_render r = {.tree = tree, .scene = froe_tree_scene(tree), .options = o};
         r.grid = vector_grid(o, FROE_RENDER_SVG);
-        status = prepare(&r, cameras + i, diag);
+        status = vector_prepare(&r, cameras + i, diag);
         if (!status) {
             if (i == 0) vector_svg_begin(&r, &output);
             vector_svg_picture(&r, &output, &(vector_frame){i, count, seconds});
             if (i + 1 == count) vector_svg_end(&r, &output);
-            status = end_output(&output, diag);
+            status = vector_end(&output, diag);
         }
         r.report.paths += last.paths;
         last = r.report;
-        free_render(&r);
+        vector_free(&r);
     }
     status = support_writer_close(&file, status);
     last.bytes = output.count;

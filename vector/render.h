@@ -30,6 +30,15 @@ typedef struct vector_render {
     froe_render_report report;
 } vector_render;
 
+/* -------------------------------------------------------------------------- render.c -- */
+
+/** Everything but the bytes, of a render that has tree, scene, options and grid. Whatever its status, vector_free()
+ * gives back what it has made. */
+froe_status vector_prepare(vector_render *render, const froe_camera *camera, froe_diagnostic *diag);
+void vector_free(vector_render *render);
+/** The status of an output, with a sentence. */
+froe_status vector_end(vector_output *output, froe_diagnostic *diag);
+
 /* ---------------------------------------------------------------- options.c, shade.c -- */
 
 /** FROE_E_OPTIONS, unless every option is in its range. */
@@ -100,6 +109,14 @@ typedef struct vector_frame {
 void vector_svg_begin(const vector_render *render, vector_output *output);
 void vector_svg_picture(vector_render *render, vector_output *output, const vector_frame *frame);
 void vector_svg_end(const vector_render *render, vector_output *output);
+/** Writes each path by itself, and calls fn behind it, when its bytes have been handed over. False: fn was false. */
+bool vector_svg_each(vector_render *render, vector_output *output, bool (*fn)(void *user, bool lines), void *user);
+/** What lines are in, if there are no layers. */
+#define VECTOR_SVG_LINES "<g fill=\"none\" stroke=\"#1b2630\" stroke-linejoin=\"round\">\n"
+/** The style by which, where less motion is wanted, what is shown first stays. */
+#define VECTOR_SVG_STILL                                                                                               \
+    "<style>@media (prefers-reduced-motion: reduce) "                                                                  \
+    "{ .first { display: inline !important } .other { display: none !important } }</style>\n"
 void vector_pdf(vector_render *render, vector_output *output);
 void vector_eps(vector_render *render, vector_output *output);
 /** The lines of a picture as data. */

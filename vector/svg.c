@@ -273,9 +273,7 @@ static void enter_group(svg_writer *w, const froe_render_path *path) {
 static void put_times(vector_output *output, const vector_frame *f) {
     const vector_digits from = vector_real(6, (double)f->i / (double)f->count),
                         to = vector_real(6, (double)(f->i + 1) / (double)f->count);
-    if (f->i == 0)
-        vector_print(output, "<style>@media (prefers-reduced-motion: reduce) "
-                             "{ .first { display: inline !important } .other { display: none !important } }</style>\n");
+    if (f->i == 0) vector_print(output, VECTOR_SVG_STILL);
     vector_print(output,
                  "<g class=%s>\n<animate attributeName=\"display\" calcMode=\"discrete\" dur=\"%ss\" "
                  "repeatCount=\"indefinite\" ",
@@ -303,6 +301,23 @@ void vector_svg_picture(vector_render *render, vector_output *output, const vect
     enter_group(&w, NULL);
     if (frame->count > 1) put_text(&w, "</g>\n");
     array_free(&render->alloc, &w.rings);
+}
+
+bool vector_svg_each(vector_render *render, vector_output *output, bool (*fn)(void *user, bool lines), void *user) {
+    svg_writer w = {.render = render, .output = output, .group.object = FROE_NONE};
+    vector_cursor at = {0, 0};
+    bool more = true;
+    for (froe_render_path path; more && !output->status && vector_next_path(render, &at, &path);) {
+        w.at[0] = w.at[1] = 0;
+        if (path.lines)
+            put_strokes(&w, &path);
+        else
+            put_shapes(&w, &path);
+        vector_flush(output);
+        more = fn(user, path.lines);
+    }
+    array_free(&render->alloc, &w.rings);
+    return more;
 }
 
 /* Is there one scaled group around everything? Layers are scaled one by one. */

@@ -183,10 +183,14 @@ static void let_go(void *answers) {
 }
 
 static void ranges_together(index *x, const peer_questions *q, const froe_batch_options *o, peer_answers *out) {
-    froe_range *ranges = scratch(x, q->count, sizeof *ranges);
     froe_answers *all = bench_take(1, sizeof *all);
-    for (size_t i = 0; i < q->count; i++) ranges[i] = range_of(q, q->numbers + i * q->width);
-    bench_must(froe_batch_range(x->query, ranges, q->count, o, all, NULL), NULL);
+    if (q->work == PEER_WINDOW) {
+        bench_must(froe_batch_boxes(x->query, q->numbers, q->count, o, all, NULL), NULL);
+    } else {
+        froe_range *ranges = scratch(x, q->count, sizeof *ranges);
+        for (size_t i = 0; i < q->count; i++) ranges[i] = range_of(q, q->numbers + i * q->width);
+        bench_must(froe_batch_range(x->query, ranges, q->count, o, all, NULL), NULL);
+    }
     for (size_t i = 0; i < q->count; i++) out->ends[i] = all->starts[i + 1];
     out->used = all->starts[q->count];
     out->given = all->ids, out->owner = all, out->let_go = let_go;

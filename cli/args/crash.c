@@ -16,15 +16,12 @@ enum { SIGNALS = sizeof signals / sizeof *signals };
 static struct {
     char name[4096]; /* of the file */
     cli_spool spool;
+    volatile sig_atomic_t reading;
     struct sigaction before[SIGNALS];
     char stack[1 << 16]; /* for the handler: the program's own may be full */
 } crash_guard;
 
-static void on_crash(int number) {
-    static const char said[] =
-        ": The library that reads this format crashed. The file is broken, beyond the library, or needs more memory "
-        "than there is.\n";
-    (void)number;
+_Noreturn static void end(int code, const char *said) {
     const char *name = crash_guard.name;
     const bool told = write(STDERR_FILENO, "froe: ", strlen("froe: ")) > 0 &&
                       write(STDERR_FILENO, name, strlen(name)) > 0 && write(STDERR_FILENO, said, strlen(said)) > 0;
@@ -32,7 +29,32 @@ static void on_crash(int number) {
         unlink(crash_guard.spool.copy);
         rmdir(crash_guard.spool.folder);
     }
-    _exit(told ? CLI_INPUT : CLI_RESOURCES);
+    _exit(told ? code : CLI_RESOURCES);
+}
+
+static void on_crash(int number) {
+    (void)number;
+    end(CLI_INPUT,
+        ": The library that reads this format crashed. The file is broken, beyond the library, or needs more "
+        "memory than there is.\n");
+}
+
+static void on_lost_page(int number) {
+    (void)number;
+    end(CLI_INPUT, ": The file was shortened while it was being read.\n");
+}
+
+void cli_crash_late(void) {
+    if (crash_guard.reading) end(CLI_RESOURCES, ": It takes longer than --limit-time allows.\n");
+}
+
+void cli_crash_mapped(const char *name) {
+    struct sigaction action;
+    snprintf(crash_guard.name, sizeof crash_guard.name, "%s", name);
+    support_one_line(crash_guard.name);
+    memset(&action, 0, sizeof action);
+    action.sa_handler = on_lost_page;
+    sigaction(SIGBUS, &action, NULL);
 }
 
 void cli_crash_begin(const cli_spool *spool) {
@@ -45,8 +67,11 @@ void cli_crash_begin(const cli_spool *spool) {
     action.sa_handler = on_crash;
     action.sa_flags = (int)SA_RESETHAND | (sigaltstack(&own, NULL) ? 0 : SA_ONSTACK);
     for (int i = 0; i < SIGNALS; i++) sigaction(signals[i], &action, &crash_guard.before[i]);
+    crash_guard.reading = 1;
 }
 
 void cli_crash_end(void) {
+    crash_guard.reading = 0;
+    crash_guard.spool.folder[0] = '\0'; /* the spool's owner removes it */
     for (int i = 0; i < SIGNALS; i++) sigaction(signals[i], &crash_guard.before[i], NULL);
 }

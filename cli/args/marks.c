@@ -67,7 +67,7 @@ static int read_capsules(const char *path, bool ball, froe_scene *scene) {
     size_t name = 0;
     while (name < rows.columns && !support_equal_nocase(rows.names[name], "name")) name++;
     while (!code && (row = cli_rows_next(&rows, values)) != CLI_ROWS_END) {
-        if (row == CLI_ROWS_FAILED) code = CLI_INPUT;
+        if (row == CLI_ROWS_FAILED) code = rows.code;
         if (row == CLI_ROW_BAD) code = fail_row(&rows, rows.sentence);
         if (row != CLI_ROW_READ) continue;
         froe_diagnostic diag = {0};

@@ -17,6 +17,10 @@ const cli_option cli_common_options[] = {
     {"seed", 0, CLI_WHOLE, offsetof(cli_common, seed), "S", .help = "seed of all random choices (default 1)"},
     {"threads", 0, CLI_WHOLE, offsetof(cli_common, threads), "T",
      .help = "threads to use; no answer depends on it (default 0: one per processor)", .max = 1024},
+    {"limit-memory", 0, CLI_WHOLE, offsetof(cli_common, limit_memory), "MB",
+     .help = "end when more memory is needed, in megabytes beside program and libraries", .min = 1, .max = 1000000000},
+    {"limit-time", 0, CLI_WHOLE, offsetof(cli_common, limit_time), "S", .help = "end after so many seconds", .min = 1,
+     .max = 1000000000},
     {"help", 'h', CLI_FLAG, offsetof(cli_common, help), .help = "print this text"},
     {0},
 };

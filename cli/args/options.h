@@ -76,7 +76,8 @@ typedef struct cli_part {
 typedef struct cli_common {
     bool help, json, quiet;
     uint64_t seed, threads;
-    json_t **report; /**< set by cli_run(): receives the report too, or NULL */
+    uint64_t limit_memory, limit_time; /**< megabytes, seconds; 0: none */
+    json_t **report;                   /**< set by cli_run(): receives the report too, or NULL */
 } cli_common;
 extern const cli_option cli_common_options[];
 #define CLI_COMMON_DEFAULTS                                                                                            \

@@ -5,6 +5,7 @@
 #include "exit.h"
 #include "library.h"
 #include "progress.h"
+#include <froe/shards.h>
 #include <stdio.h>
 
 static const char *const faces[] = {[FROE_FACES_TRIANGLES] = "triangles", [FROE_FACES_POLYGONS] = "polygons", NULL};
@@ -65,6 +66,9 @@ static void warn(const cli_common *common, const char *name, const froe_read_rep
 int cli_read_scene(const cli_common *common, const cli_scene_args *args, froe_scene **scene, froe_read_report *report) {
     cli_spool spool;
     cli_io io = {0};
+    if (froe_is_shards(args->path))
+        return cli_fail(CLI_USE, args->path,
+                        "It is a folder of shards, which check, range, locate, ray, near and pairs take.");
     int code = cli_spool_open(args->path, args->format, &spool);
     if (code) return code;
     const bool own = froe_reads_own(spool.path); /* without GDAL and assimp */

@@ -1,6 +1,7 @@
 /* tree.c: see tree.h. */
 #include "args/tree.h"
 #include "args/budget.h"
+#include "args/crash.h"
 #include "args/method.h"
 #include "exit.h"
 #include "files.h"
@@ -10,7 +11,7 @@
 
 const cli_option cli_tree_options[] = {
     {NULL, 0, CLI_TEXT, offsetof(cli_tree_args, scene.path), "SCENE",
-     .help = "map, model or CSV file; or a tree that froe build saved", .required = true, .file = CLI_READ},
+     .help = "map, model or CSV file; or what froe build saved", .required = true, .file = CLI_READ},
     {0},
 };
 
@@ -28,7 +29,8 @@ bool cli_is_saved_tree(const char *path) {
     return froe_is_tree(path) || !strcmp(support_path_extension(path).text, "froe");
 }
 
-int cli_open_saved_tree(const cli_common *common, const cli_tree_args *args, froe_tree **tree) {
+/* Fails where options are given that are for building a tree. `what` is what there is instead. */
+static int refuse_building(const cli_tree_args *args, const char *what) {
     const struct {
         bool given;
         const char *name;
@@ -42,12 +44,26 @@ int cli_open_saved_tree(const cli_common *common, const cli_tree_args *args, fro
                    {args->save, "save-tree"}};
     for (size_t i = 0; i < sizeof options / sizeof *options; i++)
         if (options[i].given)
-            return cli_fail(CLI_USE, args->scene.path,
-                            "The file is a saved tree, and --%s is for files from which a tree is built.",
-                            options[i].name);
+            return cli_fail(CLI_USE, args->scene.path, "The %s, and --%s is for files from which a tree is built.",
+                            what, options[i].name);
+    return 0;
+}
+
+int cli_open_shards(const cli_tree_args *args, froe_shards **shards) {
     froe_diagnostic diag;
+    const int code = refuse_building(args, "folder is one of shards");
+    if (code) return code;
+    const froe_status status = froe_shards_open(args->scene.path, NULL, shards, &diag);
+    return status ? cli_fail_status(CLI_READING, args->scene.path, status, &diag) : 0;
+}
+
+int cli_open_saved_tree(const cli_common *common, const cli_tree_args *args, froe_tree **tree) {
+    froe_diagnostic diag;
+    const int code = refuse_building(args, "file is a saved tree");
+    if (code) return code;
     const froe_status status = froe_tree_open(args->scene.path, NULL, tree, &diag);
     if (status) return cli_fail_status(CLI_READING, args->scene.path, status, &diag);
+    cli_crash_mapped(args->scene.path);
     cli_warn_scene(common, args->scene.path, froe_tree_scene(*tree));
     return 0;
 }

@@ -3,6 +3,7 @@
 #define FROE_CLI_TREE_H
 #include "args/budget.h"
 #include "args/scene.h"
+#include <froe/shards.h>
 
 typedef struct cli_tree_args {
     cli_scene_args scene; /**< faces: -1 when not given */
@@ -23,6 +24,8 @@ extern const cli_option cli_tree_build_options[];
         "Building its tree", cli_tree_build_options, offsetof(T, tree)                                                 \
     }
 
+/** Opens the folder of shards that SCENE is, see froe_is_shards(). Returns 0, or an exit code after saying why. */
+int cli_open_shards(const cli_tree_args *args, froe_shards **shards);
 /** Builds the tree of a scene that was read from `path`, with a progress bar, and the seed, the threads and the budget
  * of the command line. What else is wanted stands in `o`. Returns 0, or an exit code after saying why. */
 int cli_build_tree(const cli_common *common, const char *path, uint64_t max_fragments, froe_scene *scene,

@@ -8,6 +8,7 @@
 #include "exit.h"
 #include "files.h"
 #include "report/tree_report.h"
+#include "shards/build_shards.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,6 +17,7 @@ typedef struct build_args {
     cli_common common;
     cli_scene_args scene;
     cli_output output;
+    cli_shards_args shards;
     const char *method, *order;
     char *settings;
     uint64_t leaf, max_fragments;
@@ -51,6 +53,7 @@ static const cli_option options[] = {
 static const cli_part parts[] = {
     {"Scene", cli_scene_options, offsetof(build_args, scene)},
     {"Build", options, 0},
+    {"Folders", cli_shards_options, offsetof(build_args, shards)},
     {"Options", cli_common_options, 0},
     {0},
 };
@@ -81,12 +84,27 @@ static int build(const build_args *args, froe_scene *scene, froe_tree **tree) {
     return code;
 }
 
+/* With --shards. */
+static int build_folder(const build_args *args) {
+    if (!args->shards.shards) return cli_fail(CLI_USE, NULL, "--memory: It needs --shards.");
+    if (args->order || args->split_intersections || args->max_fragments != CLI_BUDGET_OWN)
+        return cli_fail(CLI_USE, NULL, "--shards: It excludes --order, --split-intersections and --max-fragments.");
+    froe_shards_options o = froe_shards_defaults();
+    o.method = args->method;
+    o.settings = args->settings;
+    o.leaf = (uint32_t)args->leaf;
+    o.seed = args->common.seed;
+    o.threads = (unsigned)args->common.threads;
+    return cli_build_shards(&args->common, &args->scene, &args->shards, &args->output, o);
+}
+
 static int run_build(const void *given) {
     const build_args *args = given;
     froe_scene *scene;
     froe_tree *tree = NULL;
     froe_read_report reader;
     int code = cli_check_method(args->method, true);
+    if (!code && (args->shards.shards || args->shards.memory)) return build_folder(args);
     if (!code) code = cli_read_scene(&args->common, &args->scene, &scene, &reader);
     if (code) return code;
     const double start = cli_seconds();
@@ -105,9 +123,16 @@ const cli_command cli_command_build = {
     .about = CLI_SCENE_ABOUT
     "\n\nThe report counts nodes, leaves and fragments (pieces in all leaf and in-cut lists), says what the method "
     "promises beside what came out, and how the exact predicates got their answers. The same scene, options and seed "
-    "give the same tree, bit for bit, on any machine and with any number of threads.",
+    "give the same tree, bit for bit, on any machine and with any number of threads.\n\n"
+    "With --shards, a folder of trees takes the place of one tree, for more objects than memory holds. The commands "
+    "check, range, locate, ray, near and pairs take the folder as they take a tree. Their answers are the same, with "
+    "objects called by their tags. A CSV without names of groups is read in one pass, in the memory of --memory; other "
+    "files are read as a whole first. The trees are those that serve queries best, unless --method says otherwise. "
+    "What "
+    "was in the folder stays until the new one is whole.",
     .examples = "froe build floor.geojson -o floor.froe\n"
                 "froe build house.glb --method autopartition --leaf 0 --json\n"
+                "froe build planet.csv --shards auto --memory 4G -o planet.froes\n"
                 "froe build map.gpkg --layer roads --where \"lanes > 2\" -o roads.froe\n",
     .parts = parts,
     .defaults =

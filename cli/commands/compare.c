@@ -181,7 +181,7 @@ static int run_compare(const void *given) {
     if (comparison)
         code = write(args, comparison);
     else if (!code)
-        code = cli_interrupted() ? cli_fail(CLI_CANCELLED, NULL, "Cancelled.") : cli_fail_memory();
+        code = cli_interrupted() ? cli_fail_cancelled(NULL) : cli_fail_memory();
     for (size_t i = 0; i < args->scenes.count; i++) froe_scene_free(scenes[i]);
     return code;
 }

@@ -159,7 +159,8 @@ static int run_draw(const void *given) {
     froe_tree *tree;
     code = cli_open_whole_tree(&args->common, &args->tree, NULL, &tree);
     if (code) return code;
-    froe_draw_options o = library.defaults();
+    froe_draw_options o;
+    library.defaults(&o, sizeof o);
     cli_marks marks;
     const int dim = froe_scene_dim(froe_tree_scene(tree));
     code = cli_marks_read(&args->common, args->marks, dim, &marks);

@@ -26,6 +26,54 @@ static const cli_part parts[] = {CLI_TREE_PART(locate_args),         {"Locate", 
                                  CLI_QUERY_PARTS(locate_args),       CLI_TREE_BUILD_PARTS(locate_args),
                                  {"Options", cli_common_options, 0}, {0}};
 
+/* The same of a folder: objects, then the other groups that the point lies in. */
+static void put_all_finds(froe_shards *shards, const froe_finds *objects, const froe_finds *groups, cli_table *out) {
+    for (size_t i = 0; i < objects->questions; i++) {
+        for (size_t j = objects->starts[i]; j < objects->starts[i + 1]; j++)
+            cli_table_put(
+                out, &(cli_answer){
+                         .at = i, .object = objects->items[j].object, .group = FROE_NONE, .find = &objects->items[j]});
+        for (size_t j = groups->starts ? groups->starts[i] : 0; groups->starts && j < groups->starts[i + 1]; j++) {
+            const froe_find *group = &groups->items[j];
+            bool told = false; /* does one of the objects belong to the group? */
+            for (size_t k = objects->starts[i]; k < objects->starts[i + 1] && !told; k++) {
+                const froe_tree *tree; /* it is open, since it has answered */
+                told = !froe_shards_tree(shards, objects->items[k].shard, &tree, NULL) &&
+                       froe_scene_object(froe_tree_scene(tree), objects->items[k].object).group == group->tag;
+            }
+            if (!told)
+                cli_table_put(
+                    out, &(cli_answer){.at = i, .object = FROE_NONE, .group = (uint32_t)group->tag, .find = group});
+        }
+    }
+}
+
+/* A block of points asked of a folder. */
+static froe_status answer_by_shards(const locate_args *args, const cli_asked *asked, const cli_block *block,
+                                    cli_table *out, froe_diagnostic *diag) {
+    const double *points = cli_block_numbers(block);
+    const bool areas = asked->dim == 2 && froe_scene_group_count(asked->scene) > 0;
+    froe_find firsts[CLI_BLOCK];
+    froe_finds objects = {0}, groups = {0};
+    froe_status status = FROE_OK;
+    if (args->above || args->below) {
+        status = froe_shards_vertical(asked->shards, points, block->count, args->above ? 1 : -1, &asked->batch, firsts,
+                                      diag);
+        if (!status) cli_table_put_firsts(out, firsts, block->count, args->query.count);
+        return status;
+    }
+    if (!args->groups) status = froe_shards_locate(asked->shards, points, block->count, &asked->batch, &objects, diag);
+    if (!status && (args->groups || (areas && !args->query.count)))
+        status = froe_shards_groups(asked->shards, points, block->count, &asked->batch, &groups, diag);
+    if (!status && (args->groups || args->query.count))
+        cli_table_put_finds(out, args->groups ? &groups : &objects, args->query.count);
+    else if (!status)
+        put_all_finds(asked->shards, &objects, &groups, out);
+    froe_finds_free(&objects);
+    froe_finds_free(&groups);
+    return status;
+}
+
 /* Objects with the groups they belong to, then the other groups that the point lies in. */
 static void put_all(const froe_scene *scene, const froe_answers *objects, const froe_answers *groups, cli_table *out) {
     for (size_t i = 0; i < objects->queries; i++) {
@@ -45,6 +93,7 @@ static void put_all(const froe_scene *scene, const froe_answers *objects, const 
 static froe_status answer_point(const void *given, const cli_asked *asked, const cli_block *block, cli_table *out,
                                 froe_diagnostic *diag) {
     const locate_args *args = given;
+    if (asked->shards) return answer_by_shards(args, asked, block, out, diag);
     const bool areas = asked->dim == 2 && froe_scene_group_count(asked->scene) > 0;
     froe_answers objects = {0}, groups = {0};
     froe_status status =
@@ -65,6 +114,7 @@ static froe_status answer_point(const void *given, const cli_asked *asked, const
 static froe_status answer_groups(const void *given, const cli_asked *asked, const cli_block *block, cli_table *out,
                                  froe_diagnostic *diag) {
     const locate_args *args = given;
+    if (asked->shards) return answer_by_shards(args, asked, block, out, diag);
     froe_answers groups = {0};
     const froe_status status =
         froe_batch_groups(asked->query, cli_block_numbers(block), block->count, &asked->batch, &groups, diag);
@@ -78,6 +128,7 @@ static froe_status answer_groups(const void *given, const cli_asked *asked, cons
 static froe_status answer_vertical(const void *given, const cli_asked *asked, const cli_block *block, cli_table *out,
                                    froe_diagnostic *diag) {
     const locate_args *args = given;
+    if (asked->shards) return answer_by_shards(args, asked, block, out, diag);
     uint32_t objects[CLI_BLOCK];
     const froe_status status = froe_batch_vertical(asked->query, cli_block_numbers(block), block->count,
                                                    args->above ? 1 : -1, &asked->batch, objects, diag);

@@ -111,7 +111,8 @@ static int draw(const cli_common *common, const char *path, froe_scene *scene, c
     cli_draw library;
     const int code = cli_open_draw(&library);
     if (code) return code;
-    froe_draw_options o = library.defaults();
+    froe_draw_options o;
+    library.defaults(&o, sizeof o);
     froe_build_options b = froe_build_defaults();
     cli_progress bar = cli_progress_begin(common, "drawing");
     froe_tree *tree = NULL;

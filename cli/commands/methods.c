@@ -94,7 +94,7 @@ static int run_methods(const void *given) {
     for (size_t i = 0; (m = froe_method_at(i)) != NULL; i++) {
         if (args->name && strcmp(args->name, m->name) != 0) continue;
         found++;
-        if (list) {
+        if (args->common.json) {
             json_array_append_new(list, method_json(m));
         } else if (!args->common.quiet) {
             if (found > 1) putchar('\n');
@@ -105,7 +105,7 @@ static int run_methods(const void *given) {
         json_decref(list);
         return cli_fail_unknown("method", args->name, NULL, "froe methods lists what there is.");
     }
-    if (list) return cli_report(&args->common, NULL, json_pack("{s:o}", "methods", list));
+    if (args->common.json) return cli_report(&args->common, NULL, json_pack("{s:o}", "methods", list));
     return args->common.quiet ? 0 : cli_flush();
 }
 

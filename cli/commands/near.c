@@ -31,6 +31,14 @@ static froe_status answer_near(const void *given, const cli_asked *asked, const 
                                froe_diagnostic *diag) {
     const near_args *args = given;
     froe_answers answers;
+    if (asked->shards) {
+        froe_finds finds = {0};
+        const froe_status found = froe_shards_near(asked->shards, cli_block_numbers(block), block->count, args->k,
+                                                   args->bound, &asked->batch, &finds, diag);
+        if (!found) cli_table_put_finds(out, &finds, args->query.count);
+        froe_finds_free(&finds);
+        return found;
+    }
     const froe_status status = froe_batch_near(asked->query, cli_block_numbers(block), block->count, args->k,
                                                args->bound, &asked->batch, &answers, diag);
     if (status) return status;

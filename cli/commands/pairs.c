@@ -29,6 +29,10 @@ static const cli_part parts[] = {CLI_TREE_PART(pairs_args),
                                  {"Options", cli_common_options, 0},
                                  {0}};
 
+static const cli_answer_kind pairs_kind = {"a,b,kind", "a,b,kind,a_group,a_name,a_id,b_group,b_name,b_id",
+                                           CLI_SHAPE_PAIR},
+                             counts_kind = {"kind,count", "kind,count", CLI_SHAPE_NONE};
+
 static const char *const kinds[] = {"cross", "touch", "overlap"};
 
 typedef struct writing {
@@ -50,6 +54,19 @@ static bool put_pair(void *user, const froe_pair *pair) {
     return !w->stopped && !w->table.status;
 }
 
+static bool put_found_pair(void *user, const froe_found_pair *pair) {
+    writing *w = user;
+    w->counts[pair->kind]++;
+    if (!w->mute)
+        cli_table_put(&w->table, &(cli_answer){.object = pair->a.object,
+                                               .other = pair->b.object,
+                                               .group = FROE_NONE,
+                                               .kind = kinds[pair->kind],
+                                               .find = &pair->a});
+    w->stopped = cli_interrupted();
+    return !w->stopped && !w->table.status;
+}
+
 static int report_pairs(const pairs_args *args, const writing *w) {
     return cli_report(&args->common, NULL,
                       json_pack("{s:o, s:I, s:I, s:I, s:o}", "tree", cli_name_json(args->tree.scene.path), kinds[0],
@@ -65,7 +82,9 @@ static int put_pairs(const pairs_args *args, writing *w) {
     w->objects = (double)froe_scene_object_count(w->table.scene);
     w->mute = args->count || args->common.json;
     w->bar = cli_progress_begin(&args->common, "searching");
-    froe_status status = froe_batch_pairs(w->table.query, !args->no_corners, &o, put_pair, w, &diag);
+    froe_status status = w->table.shards
+                             ? froe_shards_pairs(w->table.shards, !args->no_corners, &o, put_found_pair, w, &diag)
+                             : froe_batch_pairs(w->table.query, !args->no_corners, &o, put_pair, w, &diag);
     cli_progress_end(&w->bar);
     for (int i = 0; i < 3 && args->count && !status; i++)
         cli_table_put(&w->table, &(cli_answer){.kind = kinds[i], .count = w->counts[i]});
@@ -73,21 +92,33 @@ static int put_pairs(const pairs_args *args, writing *w) {
     if (!status && w->table.status) status = support_fail_memory(&diag);
     if (status) return cli_fail_status(CLI_WORKING, args->tree.scene.path, status, &diag);
     const int reported = args->common.json ? report_pairs(args, w) : 0;
-    if (w->stopped) return cli_fail(CLI_CANCELLED, NULL, "Cancelled.");
+    if (w->stopped) return cli_fail_cancelled(NULL);
     return closed ? closed : reported;
 }
 
 static int ask(const pairs_args *args, const froe_tree *tree, writing *w) {
-    const cli_answer_kind kind = {"a,b,kind", "a,b,kind,a_group,a_name,a_id,b_group,b_name,b_id", CLI_SHAPE_PAIR},
-                          counts = {"kind,count", "kind,count", CLI_SHAPE_NONE};
     froe_query *query;
     froe_diagnostic diag;
     const froe_status status = froe_query_new(tree, &query, &diag);
     if (status) return cli_fail_status(CLI_WORKING, args->tree.scene.path, status, &diag);
-    int code = cli_table_open(&args->common, &args->table, args->count ? &counts : &kind, NULL, froe_tree_scene(tree),
-                              query, &w->table);
+    int code = cli_table_open(&args->common, &args->table, args->count ? &counts_kind : &pairs_kind, NULL,
+                              froe_tree_scene(tree), query, &w->table);
     if (!code) code = put_pairs(args, w);
     froe_query_free(query);
+    return code;
+}
+
+static int ask_folder(const pairs_args *args, writing *w) {
+    const cli_answer_kind *kind = args->count ? &counts_kind : &pairs_kind;
+    const froe_scene *scene;
+    froe_shards *shards;
+    int code = cli_open_shards(&args->tree, &shards);
+    if (code) return code;
+    code = cli_scene_of_shards(args->tree.scene.path, shards, &scene);
+    if (!code) code = cli_table_open(&args->common, &args->table, kind, NULL, scene, NULL, &w->table);
+    w->table.shards = shards;
+    if (!code) code = put_pairs(args, w);
+    froe_shards_close(shards);
     return code;
 }
 
@@ -96,6 +127,11 @@ static int run_pairs(const void *given) {
     froe_tree *tree;
     writing *w = calloc(1, sizeof *w);
     if (!w) return cli_fail_memory();
+    if (froe_is_shards(args->tree.scene.path)) {
+        const int asked = ask_folder(args, w);
+        free(w);
+        return asked;
+    }
     int code = cli_open_tree(&args->common, &args->tree, "query", &tree);
     if (!code) {
         code = ask(args, tree, w);

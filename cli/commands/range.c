@@ -99,12 +99,18 @@ static froe_status answer_range(const void *given, const cli_asked *asked, const
     froe_range *ranges = calloc(block->count, sizeof *ranges);
     double *normals = calloc(rows * asked->dim, sizeof *normals), *offsets = calloc(rows, sizeof *offsets);
     froe_answers answers = {0};
+    froe_finds finds = {0};
     froe_status status;
     if (ranges && normals && offsets) {
         const size_t count = lay_ranges(args, asked->dim, block, normals, offsets, ranges);
-        status = args->groups ? froe_batch_groups_range(asked->query, ranges, count, (froe_relation)args->relation,
-                                                        &asked->batch, &answers, diag)
-                              : froe_batch_range(asked->query, ranges, count, &asked->batch, &answers, diag);
+        if (asked->shards)
+            status = args->groups ? froe_shards_groups_range(asked->shards, ranges, count,
+                                                             (froe_relation)args->relation, &asked->batch, &finds, diag)
+                                  : froe_shards_range(asked->shards, ranges, count, &asked->batch, &finds, diag);
+        else
+            status = args->groups ? froe_batch_groups_range(asked->query, ranges, count, (froe_relation)args->relation,
+                                                            &asked->batch, &answers, diag)
+                                  : froe_batch_range(asked->query, ranges, count, &asked->batch, &answers, diag);
         if (!status && count < block->count)
             status = support_fail_at(diag, FROE_E_INPUT, (uint32_t)count, FROE_NONE, FROE_NONE,
                                      "A simplex has one corner more than there are dimensions.");
@@ -112,11 +118,14 @@ static froe_status answer_range(const void *given, const cli_asked *asked, const
         status = support_fail_memory(diag);
     }
     if (status == FROE_E_UNSUPPORTED) status = diag->status = FROE_E_INPUT; /* of the query, which is to be named */
-    if (!status && args->groups)
+    if (!status && asked->shards)
+        cli_table_put_finds(out, &finds, args->query.count);
+    else if (!status && args->groups)
         cli_table_put_groups(out, &answers, args->query.count);
     else if (!status)
         cli_table_put_lists(out, &answers, args->query.count);
     froe_answers_free(&answers);
+    froe_finds_free(&finds);
     free(ranges), free(normals), free(offsets);
     return status;
 }

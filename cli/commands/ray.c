@@ -33,6 +33,21 @@ static const cli_part parts[] = {CLI_TREE_PART(ray_args),
                                  {"Options", cli_common_options, 0},
                                  {0}};
 
+/* Rays asked of a folder. */
+static froe_status answer_by_shards(const ray_args *args, const cli_asked *asked, const double *origins,
+                                    const double *directions, size_t count, cli_table *out, froe_diagnostic *diag) {
+    froe_find firsts[CLI_BLOCK];
+    froe_finds all = {0};
+    const froe_status status =
+        args->all
+            ? froe_shards_ray_all(asked->shards, origins, directions, count, args->t_max, &asked->batch, &all, diag)
+            : froe_shards_ray(asked->shards, origins, directions, count, args->t_max, &asked->batch, firsts, diag);
+    if (!status && args->all) cli_table_put_finds(out, &all, args->query.count);
+    if (!status && !args->all) cli_table_put_firsts(out, firsts, count, args->query.count);
+    froe_finds_free(&all);
+    return status;
+}
+
 static froe_status answer_ray(const void *given, const cli_asked *asked, const cli_block *block, cli_table *out,
                               froe_diagnostic *diag) {
     const ray_args *args = given;
@@ -46,11 +61,13 @@ static froe_status answer_ray(const void *given, const cli_asked *asked, const c
         memcpy(origins + i * dim, row, dim * sizeof *row);
         memcpy(directions + i * dim, row + dim, dim * sizeof *row);
     }
-    if (!status && args->all)
+    if (!status && asked->shards)
+        status = answer_by_shards(args, asked, origins, directions, count, out, diag);
+    else if (!status && args->all)
         status = froe_batch_ray_all(asked->query, origins, directions, count, args->t_max, &asked->batch, &all, diag);
     else if (!status)
         status = froe_batch_ray(asked->query, origins, directions, count, args->t_max, &asked->batch, first, diag);
-    for (size_t i = 0; i < count && !status; i++) {
+    for (size_t i = 0; i < count && !status && !asked->shards; i++) {
         const size_t begin = args->all ? all.starts[i] : 0;
         const size_t end = args->all ? all.starts[i + 1] : first[i].object != FROE_NONE;
         if (args->query.count) cli_table_put(out, &(cli_answer){.at = i, .object = FROE_NONE, .count = end - begin});

@@ -1,13 +1,13 @@
 /* render.c: froe render, hidden surfaces removed, exactly. */
 #include "command.h"
 #include "commands/render_options.h"
+#include "commands/render_writer.h"
 #include "exit.h"
 #include "files.h"
-#include "library.h"
+#include "motion/film.h"
 #include "progress.h"
 #include "report/report.h"
 #include "support/fail.h"
-#include "support/path.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -63,8 +63,16 @@ static const cli_option camera[] = {
      .help = "N pictures from all around; the name of the file says where their number goes, pic-%03d.svg", .min = 1,
      .max = 100000},
     {"animate", 0, CLI_FLAG, offsetof(render_args, animate),
-     .help = "all pictures of the turntable in one SVG that moves"},
+     .help = "all pictures, of the turntable or of a moving model, in one SVG that moves"},
     {"seconds", 0, CLI_REAL, offsetof(render_args, seconds), "S", .help = "of a round (default 8)"},
+    {0},
+};
+
+static const cli_option motion[] = {
+    {"at", 0, CLI_REAL, offsetof(render_args, at), "T", .help = "a moving model as it is at the time T"},
+    {"frames", 0, CLI_WHOLE, offsetof(render_args, frames), "N",
+     .help = "N pictures of a moving model, as those of a turntable; with --animate one SVG that plays (default 200)",
+     .min = 1, .max = 100000},
     {0},
 };
 
@@ -132,6 +140,8 @@ static const cli_option file[] = {
 static const cli_part parts[] = {CLI_TREE_PART(render_args),
                                  {"Picture", what, 0},
                                  {"Camera", camera, 0},
+                                 {"Motion", motion, 0},
+                                 {"Reading the motion", cli_moving_options, offsetof(render_args, moving)},
                                  {"Faces", faces, 0},
                                  {"Lines", line_options, 0},
                                  {"File", file, 0},
@@ -171,39 +181,6 @@ static void warn(const render_args *args, const froe_render_options *o, const fr
     if (!r->shapes && !r->strokes) (void)cli_fail(0, args->output.name, "note: Nothing is visible from here.");
 }
 
-/* The name of frame i: "pic-%03d.svg" has one %d, perhaps with a width; false: it has not. */
-static bool name_frame(const char *pattern, size_t i, char *out, size_t room) {
-    const char *percent = strchr(pattern, '%'), *at = percent;
-    char *end;
-    if (!percent) return false;
-    const bool zeros = at[1] == '0';
-    const long width = strtol(at + 1, &end, 10);
-    if (*end != 'd' || width < 0 || width > 20 || strchr(end, '%')) return false;
-    const int head = (int)(percent - pattern);
-    const int length = zeros ? snprintf(out, room, "%.*s%0*zu%s", head, pattern, (int)width, i, end + 1)
-                             : snprintf(out, room, "%.*s%*zu%s", head, pattern, (int)width, i, end + 1);
-    return length > 0 && (size_t)length < room;
-}
-
-/* froe_render(), or one of the same form that a library has. */
-typedef __typeof__(froe_render) render_fn;
-
-/* PNG and DXF are written by libraries. */
-static int find_writer(const char *path, render_fn **write) {
-    const support_extension extension = support_path_extension(path);
-    int code = 0;
-    if (!strcmp(extension.text, "png")) {
-        cli_draw library;
-        code = cli_open_draw(&library);
-        if (!code) *write = library.render_png;
-    } else if (!strcmp(extension.text, "dxf")) {
-        cli_io library;
-        code = cli_open_io(&library);
-        if (!code) *write = library.render_dxf;
-    }
-    return code;
-}
-
 static froe_status render_turning(const render_args *args, render_fn *write, const froe_tree *tree,
                                   froe_render_options *o, froe_render_report *report, froe_diagnostic *diag) {
     froe_camera *cameras = calloc(args->turntable, sizeof *cameras);
@@ -215,7 +192,8 @@ static froe_status render_turning(const render_args *args, render_fn *write, con
     for (size_t i = 0; !status && !args->animate && i < args->turntable; i++) {
         char path[4096];
         o->camera = cameras[i];
-        status = name_frame(args->output.path, i, path, sizeof path) ? write(tree, path, o, report, diag) : FROE_E_ARG;
+        status = render_name_frame(args->output.path, i, path, sizeof path) ? write(tree, path, o, report, diag)
+                                                                            : FROE_E_ARG;
     }
     free(cameras);
     return status;
@@ -225,14 +203,16 @@ static int render(const render_args *args, const froe_tree *tree, froe_render_op
     froe_diagnostic diag;
     froe_render_report report;
     char path[4096];
-    if (args->animate && !args->turntable) return cli_fail(CLI_USE, NULL, "--animate: It needs --turntable.");
+    if (args->animate && !args->turntable)
+        return cli_fail(CLI_USE, NULL,
+                        "--animate: It needs --turntable, or of a moving model --frames or --animation.");
     if (args->turntable && (args->eye.count || args->target.count))
         return cli_fail(CLI_USE, NULL,
                         "--turntable: It goes around the middle of the scene, and excludes --eye and --target.");
-    if (args->turntable && !args->animate && !name_frame(args->output.path, 0, path, sizeof path))
+    if (args->turntable && !args->animate && !render_name_frame(args->output.path, 0, path, sizeof path))
         return cli_fail(CLI_USE, NULL, "--turntable: '%s' is not like pic-%%03d.svg.", args->output.name);
     render_fn *write = froe_render;
-    const int code = find_writer(args->output.path, &write);
+    const int code = render_find_writer(args->output.path, &write);
     if (code) return code;
     cli_progress bar = cli_progress_begin(&args->common, "looking");
     o->progress = cli_progress_step;
@@ -290,6 +270,7 @@ static int check_scene(const render_args *args, const froe_scene *scene) {
 static int run_render(const void *given) {
     const render_args *args = given;
     froe_tree *tree;
+    if (cli_is_moving(args)) return cli_render_moving(args);
     int code = cli_open_tree(&args->common, &args->tree, "draw", &tree);
     if (code) return code;
     code = check_scene(args, froe_tree_scene(tree));
@@ -299,24 +280,10 @@ static int run_render(const void *given) {
         froe_tree_free(tree);
         return code;
     }
-    const size_t groups = froe_scene_group_count(scene);
-    froe_render_options o = froe_render_defaults();
-    render_styles styles = {.count = 0};
-    double *values = calloc(2 * groups + 1, sizeof *values);
-    int32_t *priorities = calloc(groups + 1, sizeof *priorities);
-    code = values && priorities ? render_set_options(args, scene, &o, &styles) : cli_fail_memory();
-    for (size_t g = 0; !code && g < groups; g++) values[g] = NAN;
-    if (!code) code = render_set_groups("opacity", args->opacity, scene, values);
-    if (!code) code = render_set_groups("priority", args->priority, scene, values + groups);
-    for (size_t g = 0; !code && g < groups; g++) {
-        if (fabs(values[groups + g]) > 1e9)
-            code = cli_fail(CLI_USE, NULL, "--priority: '%g' is too large.", values[groups + g]);
-        priorities[g] = (int32_t)values[groups + g];
-    }
-    if (args->opacity) o.opacity = values;
-    if (args->priority) o.priorities = priorities;
-    if (!code) code = render(args, tree, &o);
-    free(values), free(priorities);
+    render_prepared prepared;
+    code = render_prepare(args, scene, &prepared);
+    if (!code) code = render(args, tree, &prepared.options);
+    render_release(&prepared);
     froe_tree_free(tree);
     return code;
 }
@@ -330,11 +297,14 @@ const cli_command cli_command_render = {
     .examples = "froe render house.glb -o house.svg\n"
                 "froe render house.glb -o front.pdf --preset technical --view front --size 160x120mm\n"
                 "froe render house.glb -o turn.svg --turntable 36 --animate\n"
+                "froe render robot.glb -o wave.svg --animation wave --animate\n"
                 "froe render house.glb -o glass.svg --opacity 'Glass=0.3'\n"
                 "froe render house.glb -o room.svg --eye 4,1.6,-3 --target 8,1.2,-6 --fov 70\n",
     .parts = parts,
     .defaults = &(const render_args){.common = CLI_COMMON_DEFAULTS,
                                      .tree = CLI_TREE_DEFAULTS,
+                                     .moving = CLI_MOVING_DEFAULTS,
+                                     .at = NAN,
                                      .up_axis = -1,
                                      .hidden = -1,
                                      .ids = -1,

@@ -248,3 +248,27 @@ int render_set_options(const render_args *args, const froe_scene *scene, froe_re
     o->line_styles = styles->at, o->line_style_count = styles->count;
     return code ? code : check_pixels(args->output.path, o);
 }
+
+int render_prepare(const render_args *args, const froe_scene *scene, render_prepared *out) {
+    const size_t groups = froe_scene_group_count(scene);
+    *out = (render_prepared){.options = froe_render_defaults()};
+    out->values = calloc(2 * groups + 1, sizeof *out->values);
+    out->priorities = calloc(groups + 1, sizeof *out->priorities);
+    if (!out->values || !out->priorities) return cli_fail_memory();
+    int code = render_set_options(args, scene, &out->options, &out->styles);
+    for (size_t g = 0; !code && g < groups; g++) out->values[g] = NAN;
+    if (!code) code = render_set_groups("opacity", args->opacity, scene, out->values);
+    if (!code) code = render_set_groups("priority", args->priority, scene, out->values + groups);
+    for (size_t g = 0; !code && g < groups; g++) {
+        const double priority = out->values[groups + g];
+        if (fabs(priority) > 1e9) code = cli_fail(CLI_USE, NULL, "--priority: '%g' is too large.", priority);
+        out->priorities[g] = (int32_t)priority;
+    }
+    if (args->opacity) out->options.opacity = out->values;
+    if (args->priority) out->options.priorities = out->priorities;
+    return code;
+}
+
+void render_release(render_prepared *prepared) {
+    free(prepared->values), free(prepared->priorities);
+}

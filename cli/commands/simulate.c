@@ -1,9 +1,9 @@
 /* simulate.c: froe simulate, what moving objects do. */
-#include "args/scene.h"
 #include "command.h"
-#include "commands/follow.h"
 #include "exit.h"
 #include "files.h"
+#include "motion/follow.h"
+#include "motion/moving.h"
 #include "progress.h"
 #include "report/report.h"
 #include <froe/io.h>
@@ -13,19 +13,22 @@
 
 typedef struct simulate_args {
     cli_common common;
-    const char *path, *poses, *contacts, *animate, *player;
-    double from, to, seconds; /* NaN: the library's default */
+    cli_moving_args moving;
+    const char *contacts, *animate, *player;
+    double seconds; /* NaN: the library's default */
     bool first, apart;
     cli_follow follow;
 } simulate_args;
 
+static const cli_option operand[] = {
+    {NULL, 0, CLI_TEXT, offsetof(simulate_args, moving.path), "MOVING", .file = CLI_READ,
+     .help = "moving features (MF-JSON), or a model with an animation; - is standard input", .required = true},
+    {"input-format", 0, CLI_TEXT, offsetof(simulate_args, moving.format), "EXT",
+     .help = "of MOVING from standard input or a pipe: the usual extension of its files (default: mfjson)"},
+    {0},
+};
+
 static const cli_option options[] = {
-    {NULL, 0, CLI_TEXT, offsetof(simulate_args, path), "MOVING", .file = CLI_READ,
-     .help = "moving features (MF-JSON); - is standard input", .required = true},
-    {"poses", 0, CLI_TEXT, offsetof(simulate_args, poses), "FILE", .file = CLI_READ,
-     .help = "MOVING is a model; its parts move as a table says: body,time,x,y,z,qx,qy,qz,qw (.csv)"},
-    {"from", 0, CLI_REAL, offsetof(simulate_args, from), "T", .help = "begin here (default: the file's first instant)"},
-    {"to", 0, CLI_REAL, offsetof(simulate_args, to), "T", .help = "end here (default: the file's last instant)"},
     {"contacts", 0, CLI_TEXT, offsetof(simulate_args, contacts), "FILE", .file = CLI_WRITTEN,
      .help = "write all contacts, with their times, as .csv or .json"},
     {"first", 0, CLI_FLAG, offsetof(simulate_args, first),
@@ -51,7 +54,11 @@ static const cli_option options[] = {
     {0},
 };
 
-static const cli_part parts[] = {{"Simulate", options, 0}, {"Options", cli_common_options, 0}, {0}};
+static const cli_part parts[] = {{"Moving", operand, 0},
+                                 {"Motion", cli_moving_options, offsetof(simulate_args, moving)},
+                                 {"Simulate", options, 0},
+                                 {"Options", cli_common_options, 0},
+                                 {0}};
 
 typedef struct simulation {
     const simulate_args *args;
@@ -95,7 +102,7 @@ static int find_contacts(simulation *s) {
     s->seconds = cli_seconds() - start;
     cli_progress_end(&bar);
     if (s->full) return cli_fail_memory();
-    return status ? cli_fail_status(CLI_WORKING, s->args->path, status, &diag) : 0;
+    return status ? cli_fail_status(CLI_WORKING, s->args->moving.path, status, &diag) : 0;
 }
 
 static int animate(const simulation *s, const char *path) {
@@ -103,6 +110,7 @@ static int animate(const simulation *s, const char *path) {
     froe_animation_options o = froe_animation_defaults();
     if (!path) return 0;
     if (!isnan(s->args->seconds)) o.seconds = s->args->seconds;
+    o.up = s->read.up;
     const froe_status status = froe_animate(s->motion, s->contacts, s->count, &o, path, &diag);
     return status ? cli_fail_status(CLI_WRITING, path, status, &diag) : 0;
 }
@@ -114,6 +122,7 @@ static int report(const simulation *s) {
         "{s:I, s:I, s:I, s:I, s:I, s:I}", "objects", (json_int_t)froe_motion_object_count(s->motion), "vertices",
         (json_int_t)froe_motion_vertex_count(s->motion), "features", (json_int_t)s->read.features, "still",
         (json_int_t)s->read.still, "pieces", (json_int_t)s->read.pieces, "flattened", (json_int_t)s->read.flattened);
+    cli_report_moving(&s->read, all);
     json_t *first = !s->count ? json_null()
                               : json_pack("{s:I, s:I, s:f, s:f}", "a", (json_int_t)c->a, "b", (json_int_t)c->b,
                                           "begin_low", c->begin[0], "begin_high", c->begin[1]);
@@ -123,14 +132,13 @@ static int report(const simulation *s) {
                              (json_int_t)s->statistics.candidates, "exact", (json_int_t)s->statistics.exact);
     json_t *seconds = json_pack("{s:f, s:f}", "read", s->read.seconds, "contacts", s->seconds);
     return cli_report(&s->args->common, NULL,
-                      json_pack("{s:o, s:{s:f, s:f}, s:o, s:o, s:O, s:o, s:o}", "file", cli_name_json(s->args->path),
-                                "window", "from", window.begin, "to", window.end, "motion", all, "contacts", found,
-                                "events", s->events, "work", work, "seconds", seconds));
+                      json_pack("{s:o, s:{s:f, s:f}, s:o, s:o, s:O, s:o, s:o}", "file",
+                                cli_name_json(s->args->moving.path), "window", "from", window.begin, "to", window.end,
+                                "motion", all, "contacts", found, "events", s->events, "work", work, "seconds",
+                                seconds));
 }
 
 static int check(const simulate_args *args) {
-    if (!isnan(args->from) && !isnan(args->to) && !(args->from < args->to))
-        return cli_fail(CLI_USE, NULL, "--from: '%g' is not before --to, '%g'.", args->from, args->to);
     if (isnan(args->follow.at) != !args->follow.tree.name)
         return cli_fail(CLI_USE, NULL,
                         "--at: It needs --output, a file for the tree of that time, and --output needs it.");
@@ -141,38 +149,13 @@ static int check(const simulate_args *args) {
     return 0;
 }
 
-static const char *or_standard_input(const char *path) {
-    return strcmp(path, "-") ? path : "/dev/stdin";
-}
-
-/* The motion of a file, or of a model by a table of poses. Returns an exit code. */
-static int read_moving(simulation *s) {
-    const simulate_args *args = s->args;
-    froe_diagnostic diag;
-    froe_motion_read_options o = froe_motion_read_defaults();
-    o.from = args->from;
-    o.to = args->to;
-    froe_scene *model = NULL;
-    froe_read_report read;
-    const cli_scene_args scene = {.path = args->path, .faces = FROE_FACES_TRIANGLES};
-    if (args->poses && !strcmp(args->path, "-"))
-        return cli_fail(CLI_USE, NULL, "With --poses, MOVING is the file of a model, and not standard input.");
-    const int code = args->poses ? cli_read_scene(&args->common, &scene, &model, &read) : 0;
-    if (code) return code;
-    const char *path = or_standard_input(args->poses ? args->poses : args->path);
-    const froe_status status = args->poses ? froe_read_poses(path, model, &o, &s->motion, &s->read, &diag)
-                                           : froe_read_motion(path, &o, &s->motion, &s->read, &diag);
-    froe_scene_free(model);
-    return status ? cli_fail_status(CLI_READING, NULL, status, &diag) : 0;
-}
-
 static int run_simulate(const void *given) {
     const simulate_args *args = given;
     simulation s = {.args = args};
     int code = check(args);
     if (code) return code;
     froe_diagnostic diag;
-    code = read_moving(&s);
+    code = cli_read_moving(&args->common, &args->moving, &s.motion, &s.read);
     if (code) return code;
     code = find_contacts(&s);
     if (!code && args->contacts) {
@@ -181,7 +164,7 @@ static int run_simulate(const void *given) {
     }
     if (!code) code = animate(&s, args->animate);
     if (!code) code = animate(&s, args->player);
-    if (!code) code = cli_follow_motion(&args->common, &args->follow, args->path, s.motion, &s.events);
+    if (!code) code = cli_follow_motion(&args->common, &args->follow, args->moving.path, s.motion, &s.events);
     if (!code) code = report(&s);
     json_decref(s.events);
     froe_motion_free(s.motion);
@@ -198,7 +181,7 @@ const cli_command cli_command_simulate = {
         "when they begin and end is known to lie between two doubles that are neighbours or nearly so. Segments that "
         "share a vertex are not said to meet. Features with triangles move in space, corner by corner or as bodies "
         "that "
-        "fly and turn, and contacts are those of their triangles; pictures and pages are of the plane.\n\n"
+        "fly and turn, and contacts are those of their triangles; pictures of them are those of froe render.\n\n"
         "With --events or --at, a partition (that of the method cylindrical) is kept right while they move: "
         "vertices and crossings that pass over one another, contacts, turns, pieces of flight plans and the like are "
         "its events. In space these are events of the triangles as seen along z; triangles must move corner by corner, "
@@ -206,15 +189,20 @@ const cli_command cli_command_simulate = {
         "many "
         "vertices had to be rounded, and whether the cuts are those of the exact places all the same. --places writes "
         "these.\n\n"
-        "With --poses, MOVING is a model in space of any format, and each part that the table names moves.\n\n"
-        "Times are those of the file: its numbers, or milliseconds since 1970 for ISO 8601 instants.",
+        "A model (glTF, FBX, Collada, ...) moves as its animation says: each node that moves is a rigid body. How far "
+        "bodies are from the file's own interpolation at most is reported. With --poses, MOVING is a model in space of "
+        "any format, and each part that the table names moves.\n\n"
+        "Times are those of the file: its numbers, seconds in models, or milliseconds since 1970 for ISO 8601 "
+        "instants.",
     .examples = "froe simulate cars.mfjson --contacts contacts.csv\n"
                 "froe simulate cars.mfjson --from 301000 --to 305000 --first --json\n"
                 "froe simulate cars.mfjson --events events.csv --at 304014.4 -o now.froe\n"
-                "froe simulate cars.mfjson --animate cars.svg --player cars.html\n",
+                "froe simulate cars.mfjson --animate cars.svg --player cars.html\n"
+                "froe simulate robot.glb --animation wave --contacts contacts.csv\n",
     .parts = parts,
     .defaults =
-        &(const simulate_args){.common = CLI_COMMON_DEFAULTS, .from = NAN, .to = NAN, .seconds = NAN, .follow.at = NAN},
+        &(const simulate_args){
+            .common = CLI_COMMON_DEFAULTS, .moving = CLI_MOVING_DEFAULTS, .seconds = NAN, .follow.at = NAN},
     .size = sizeof(simulate_args),
     .run = run_simulate,
 };

@@ -249,7 +249,7 @@ static void read_block(query_run *r) {
             r->ended = true;
             break;
         case CLI_ROWS_FAILED:
-            r->code = CLI_INPUT;
+            r->code = r->rows.code;
             break;
         }
     }
@@ -306,7 +306,7 @@ static void work(query_run *r) {
         r->ids[0] = r->ids[count];
         r->lines[0] = r->lines[count];
         r->count = 0;
-        if (!r->code && cli_interrupted()) r->code = cli_fail(CLI_CANCELLED, NULL, "Cancelled.");
+        if (!r->code && cli_interrupted()) r->code = cli_fail_cancelled(NULL);
     }
 }
 
@@ -334,6 +334,7 @@ static int ask_rows(query_run *r, double start) {
     int code =
         cli_table_open(q->common, &q->args->table, &q->kind, &r->rows, r->asked->scene, r->asked->query, &r->table);
     if (code) return code;
+    r->table.shards = r->asked->shards;
     r->width = r->rows.numbers - r->grouped;
     r->bounded = is_bounded(r);
     warn_axes(r);
@@ -371,9 +372,34 @@ static int ask_batch(const cli_queries *queries, const cli_asked *asked) {
     return code;
 }
 
+int cli_scene_of_shards(const char *path, froe_shards *shards, const froe_scene **scene) {
+    froe_diagnostic diag;
+    const froe_tree *tree = NULL;
+    const uint32_t count = froe_shards_about(shards).shards;
+    froe_status status = FROE_OK;
+    for (uint32_t i = 0; i < count && !tree && !status; i++) status = froe_shards_tree(shards, i, &tree, &diag);
+    if (status) return cli_fail_status(CLI_READING, path, status, &diag);
+    *scene = froe_tree_scene(tree);
+    return 0;
+}
+
+static int ask_folder(const cli_queries *queries) {
+    cli_asked asked = {.batch = froe_batch_defaults()};
+    const char *path = queries->tree->scene.path;
+    int code = cli_open_shards(queries->tree, &asked.shards);
+    if (code) return code;
+    code = cli_scene_of_shards(path, asked.shards, &asked.scene);
+    asked.dim = (size_t)froe_shards_about(asked.shards).dim;
+    asked.batch.threads = (unsigned)queries->common->threads;
+    if (!code) code = ask_batch(queries, &asked);
+    froe_shards_close(asked.shards);
+    return code;
+}
+
 int cli_queries_run(const cli_queries *queries) {
     froe_tree *tree;
     froe_diagnostic diag;
+    if (froe_is_shards(queries->tree->scene.path)) return ask_folder(queries);
     if (!strcmp(queries->tree->scene.path, "-") && !strcmp(queries->args->input, "-"))
         return cli_fail(CLI_USE, NULL, "Standard input is named twice: as the scene and as the file of queries.");
     int code = cli_open_tree(queries->common, queries->tree, "query", &tree);

@@ -35,7 +35,8 @@ enum { CLI_BLOCK = 4096 }; /**< queries at most */
 /** The tree that is asked, while a command runs. */
 typedef struct cli_asked {
     const froe_scene *scene;
-    froe_query *query;
+    froe_query *query;   /**< NULL: a folder is asked */
+    froe_shards *shards; /**< NULL: a tree is asked; otherwise `scene` is that of one shard */
     size_t dim;
     froe_batch_options batch; /**< with the threads of the command line */
 } cli_asked;
@@ -58,6 +59,9 @@ typedef struct cli_queries {
 /** What a context has visited, for --json; begins again at 0. query NULL: nothing. */
 json_t *cli_statistics_json(froe_query *query);
 
-/** Opens the tree, reads, asks, writes. Returns an exit code. */
+/** A scene of a folder of shards, for what all of its scenes have in common. Returns 0, or an exit code after saying
+ * why. */
+int cli_scene_of_shards(const char *path, froe_shards *shards, const froe_scene **scene);
+/** Opens the tree or folder, reads, asks, writes. Returns an exit code. */
 int cli_queries_run(const cli_queries *queries);
 #endif

@@ -2,6 +2,7 @@
 #include "queries/rows.h"
 #include "exit.h"
 #include "support/decimal/decimal.h"
+#include "support/fail.h"
 #include "support/path.h"
 #include <errno.h>
 #include <stdlib.h>
@@ -38,6 +39,7 @@ static bool next_line(cli_rows *rows, char **text, size_t *capacity, size_t *len
  * none, or no memory. */
 static bool next_record(cli_rows *rows) {
     size_t length, more;
+    errno = 0;
     rows->line = rows->lines + 1;
     if (!next_line(rows, &rows->text, &rows->capacity, &length)) return false;
     if (rows->line == 1) {
@@ -56,6 +58,17 @@ static bool next_record(cli_rows *rows) {
     while (length && (rows->text[length - 1] == '\n' || rows->text[length - 1] == '\r')) length--;
     rows->text[length] = '\0';
     return true;
+}
+
+/* Was it a failure that ended the records? */
+static bool stopped(const cli_rows *rows) {
+    return ferror(rows->file) || errno == ENOMEM;
+}
+
+static int fail_reading(const cli_rows *rows) {
+    const unsigned long long line = rows->line;
+    if (errno == ENOMEM) return cli_fail(CLI_RESOURCES, rows->path, "line %llu: Out of memory.", line);
+    return cli_fail(CLI_INPUT, rows->path, "line %llu: The file cannot be read: %s.", line, support_errno(errno).text);
 }
 
 /* ------------------------------------------------------------------ header -- */
@@ -122,7 +135,9 @@ static int read_header(cli_rows *rows, const cli_column *columns, int dim) {
     char expected[200], names[400];
     const char *beyond, *first_beyond = NULL;
     rows->numbers = header_text(columns, dim, expected, sizeof expected);
-    if (next_record(rows)) {
+    const bool there = next_record(rows);
+    if (!there && stopped(rows)) return fail_reading(rows);
+    if (there) {
         rows->header = rows->text;
         rows->text = NULL;
         rows->capacity = 0;
@@ -204,11 +219,9 @@ static bool read_numbers(cli_rows *rows, double *values) {
 
 cli_row cli_rows_next(cli_rows *rows, double *values) {
     do {
-        errno = 0;
         if (next_record(rows)) continue;
-        if (!ferror(rows->file) && errno != ENOMEM) return CLI_ROWS_END;
-        cli_fail(CLI_INPUT, rows->path, "line %llu: The file cannot be read: %s.", (unsigned long long)rows->line,
-                 strerror(errno));
+        if (!stopped(rows)) return CLI_ROWS_END;
+        rows->code = fail_reading(rows);
         return CLI_ROWS_FAILED;
     } while (!rows->text[strspn(rows->text, " \t")]); /* blank lines are no rows */
     rows->row = rows->rows++;

@@ -42,6 +42,7 @@ typedef struct cli_rows {
     int family;         /**< of the names of the axes, see support/text/csv.h */
     bool open;          /**< the file ends within quotation marks */
     char sentence[120]; /**< what is wrong with a bad row */
+    int code;           /**< behind CLI_ROWS_FAILED: the exit code */
 } cli_rows;
 
 /** Opens a file ("-": standard input) and reads its header. Returns 0, or an exit code after saying why. */

@@ -59,7 +59,9 @@ int cli_table_close(cli_table *table) {
 /* The id of the feature that a group is. */
 static void put_group_id(cli_table *t, uint32_t group) {
     const uint32_t objects = (uint32_t)froe_scene_object_count(t->scene);
-    if (!t->group_ids) {
+    if (t->group_scene != t->scene) {
+        free(t->group_ids);
+        t->group_scene = t->scene;
         t->group_ids = calloc(froe_scene_group_count(t->scene) + 1, sizeof *t->group_ids);
         for (uint32_t i = objects; t->group_ids && i-- > 0;) {
             const froe_object object = froe_scene_object(t->scene, i);
@@ -82,8 +84,9 @@ static void put_number_or_none(cli_answers *out, uint32_t id) {
 /* What belongs to an object, or to a group where there is none. */
 static void put_of_object(cli_table *t, cli_field field, uint32_t object, uint32_t group) {
     cli_answers *out = &t->out;
-    if (field == CLI_FIELD_OBJECT) return put_number_or_none(out, object);
+    if (field == CLI_FIELD_OBJECT && (!t->shards || object == FROE_NONE)) return put_number_or_none(out, object);
     const froe_object o = froe_scene_object(t->scene, object);
+    if (field == CLI_FIELD_OBJECT) return cli_answers_whole(out, o.tag); /* folders call objects by their tags */
     if (object != FROE_NONE) group = o.group;
     if (field == CLI_FIELD_GROUP) return put_number_or_none(out, group);
     if (field == CLI_FIELD_ID && object != FROE_NONE) return cli_answers_whole(out, o.tag);
@@ -136,7 +139,18 @@ static void find_place(cli_table *t, const cli_answer *a) {
     if (status) t->status = status;
 }
 
+/* What is asked for about an answer of a folder is asked of its shard. */
+static bool enter_shard(cli_table *t, uint32_t shard) {
+    const froe_tree *tree = NULL;
+    froe_status status = froe_shards_tree(t->shards, shard, &tree, NULL);
+    if (!status) status = froe_shards_query(t->shards, shard, &t->query, NULL);
+    if (!status) t->scene = froe_tree_scene(tree);
+    if (status) t->status = status;
+    return !status;
+}
+
 void cli_table_put(cli_table *table, const cli_answer *answer) {
+    if (answer->find && answer->find->shard != FROE_NONE && !enter_shard(table, answer->find->shard)) return;
     if (table->nearest || table->hit) find_place(table, answer);
     cli_answers_begin(&table->out);
     if (table->out.format == CLI_GEOJSON) {
@@ -190,6 +204,36 @@ static void put_lists(cli_table *table, const froe_answers *answers, bool groups
 void cli_table_put_lists(cli_table *table, froe_answers *answers, bool count) {
     if (!count) cli_sort_answers(answers);
     put_lists(table, answers, false, count);
+}
+
+void cli_table_put_finds(cli_table *table, const froe_finds *finds, bool count) {
+    for (size_t i = 0; i < finds->questions; i++) {
+        const size_t first = finds->starts[i], end = finds->starts[i + 1];
+        if (count)
+            cli_table_put(table, &(cli_answer){.at = i, .object = FROE_NONE, .group = FROE_NONE, .count = end - first});
+        for (size_t j = first; j < end && !count; j++) {
+            const froe_find *find = finds->items + j;
+            const bool group = find->object == FROE_NONE;
+            cli_table_put(table, &(cli_answer){.at = i,
+                                               .object = find->object,
+                                               .group = group ? (uint32_t)find->tag : FROE_NONE,
+                                               .value = find->value,
+                                               .find = find});
+        }
+    }
+}
+
+void cli_table_put_firsts(cli_table *table, const froe_find *finds, size_t queries, bool count) {
+    for (size_t i = 0; i < queries; i++) {
+        const bool found = finds[i].object != FROE_NONE;
+        if (found || count)
+            cli_table_put(table, &(cli_answer){.at = i,
+                                               .object = finds[i].object,
+                                               .group = FROE_NONE,
+                                               .value = finds[i].value,
+                                               .count = found,
+                                               .find = &finds[i]});
+    }
 }
 
 void cli_table_put_groups(cli_table *table, const froe_answers *answers, bool count) {

@@ -9,7 +9,7 @@
 #include "args/options.h"
 #include "queries/answers.h"
 #include "queries/columns.h"
-#include <froe/query.h>
+#include <froe/shards.h>
 
 /** What the geometry of an answer is. */
 typedef enum cli_shape {
@@ -64,19 +64,22 @@ typedef struct cli_answer {
     double value;           /**< t, distance */
     uint64_t count;
     const char *kind;
+    const froe_find *find; /**< of a folder: where `object` is, or a group; shard and tag go before what stands above */
 } cli_answer;
 
 typedef struct cli_table {
     cli_answers out;
     cli_columns columns;
     cli_shape shape;
-    const froe_scene *scene;
+    const froe_scene *scene; /**< of a folder: of the shard that the answer in hand is from */
     froe_query *query;
-    const cli_block *block; /**< that the answers to come are about; NULL: none */
-    uint64_t *group_ids;    /**< the ids of features by groups, made at first need */
-    froe_status status;     /**< the first failure, which the command's answer must return */
-    bool nearest, hit;      /**< what every answer is asked for */
-    froe_hit_place place;   /**< of the answer in hand; its point is also the nearest one */
+    froe_shards *shards;           /**< NULL: a tree was asked */
+    const cli_block *block;        /**< that the answers to come are about; NULL: none */
+    uint64_t *group_ids;           /**< the ids of features by groups, made at first need */
+    const froe_scene *group_scene; /**< that they are of */
+    froe_status status;            /**< the first failure, which the command's answer must return */
+    bool nearest, hit;             /**< what every answer is asked for */
+    froe_hit_place place;          /**< of the answer in hand; its point is also the nearest one */
 } cli_table;
 
 /** Settles columns and format, and writes what stands before the first row. Returns 0, or an exit code after saying
@@ -88,6 +91,10 @@ void cli_table_put(cli_table *table, const cli_answer *answer);
 void cli_table_put_lists(cli_table *table, froe_answers *answers, bool count);
 /** The same of answers that are groups, ascending for each query. */
 void cli_table_put_groups(cli_table *table, const froe_answers *answers, bool count);
+/** The answers of a folder, in their order: objects, or groups, with their values, or how many each query has. */
+void cli_table_put_finds(cli_table *table, const froe_finds *finds, bool count);
+/** What one object each was found for, or none. */
+void cli_table_put_firsts(cli_table *table, const froe_find *finds, size_t queries, bool count);
 /** Puts the ids of each query in ascending order. */
 void cli_sort_answers(froe_answers *answers);
 /** Writes what stands behind the last row. Returns 0, or an exit code after saying why not all was written. */

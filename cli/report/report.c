@@ -8,6 +8,27 @@
 #include <string.h>
 #include <time.h>
 
+static bool json_refused; /* jansson has one allocator for all, without a place for the caller's data */
+
+static void *allocate(size_t size) {
+    void *block = malloc(size);
+    if (!block) json_refused = true;
+    return block;
+}
+
+void cli_report_begin(void) {
+    json_set_alloc_funcs(allocate, free);
+}
+
+json_t *cli_report_lose(void) {
+    json_refused = true;
+    return json_null();
+}
+
+bool cli_report_short(void) {
+    return json_refused;
+}
+
 static bool is_whole(double value) {
     return value > -1e15 && value < 1e15 && value == (double)(json_int_t)value;
 }
@@ -317,7 +338,10 @@ static void put_text(const json_t *object, int indent, int width) { // NOLINT(mi
 }
 
 int cli_report(const cli_common *common, const char *headline, json_t *report) {
-    if (!report) return cli_fail_memory();
+    if (!report || json_refused) {
+        json_decref(report);
+        return cli_fail_memory();
+    }
     if (common->json) {
         put_json(report, 0);
         putchar('\n');

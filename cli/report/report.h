@@ -16,6 +16,14 @@
 #include <jansson.h>
 #include <stdio.h>
 
+/** Before anything is reported: from here on it is known whether memory for a report was refused. */
+void cli_report_begin(void);
+/** Whether any memory that reports asked for was refused: members may be missing from them. */
+bool cli_report_short(void);
+
+/** Says so of memory that was not jansson's. Null, to be put in the place of what is missing. */
+json_t *cli_report_lose(void);
+
 /** Prints and releases `report` (NULL: there was no memory for it). `headline` is
  * a sentence above the text form, or NULL. With common->report it is handed
  * over there instead of released. Returns 0 or an exit code. */

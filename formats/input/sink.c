@@ -14,6 +14,7 @@ froe_status formats_sink_open(formats_sink *sink, int dim) {
     sink->dim = dim;
     sink->group = sink->face = FROE_NONE;
     froe_status status = froe_scene_new(dim, &sink->alloc, &sink->scene);
+    if (status == FROE_E_MEMORY) return support_fail_memory(sink->diag);
     return status ? support_fail(sink->diag, status, "%s: No scene of dimension %d can be made.",
                                  support_short(sink->path), dim)
                   : FROE_OK;
@@ -72,7 +73,13 @@ static froe_status flush(formats_sink *sink) {
     batch.faces = sink->object_faces.data;
     batch.groups = sink->groups.data;
     froe_diagnostic why = {.message = ""};
-    froe_status status = froe_scene_add(sink->scene, &batch, &why);
+    if (sink->deliver) batch.faces = batch.groups = NULL; /* each its own, and none */
+    froe_status status = sink->deliver ? support_callback(sink->deliver(sink->deliver_user, sink->dim, &batch, &why))
+                                       : froe_scene_add(sink->scene, &batch, &why);
+    if (status && sink->deliver) {
+        if (sink->diag) *sink->diag = why;
+        return status;
+    }
     if (status) {
         const char *path = support_short(sink->path), *sentence = strstr(why.message, ": ");
         if (why.object == FROE_NONE || !sentence) return support_fail(sink->diag, status, "%s: %s", path, why.message);
@@ -96,9 +103,9 @@ static froe_status begin_put(formats_sink *sink, froe_kind kind, bool indexed, s
         const froe_status status = flush(sink);
         if (status) return status;
     }
-    if (sink->total >= FROE_NONE - 1)
-        return formats_sink_fail(sink, FROE_E_LIMIT, "There are more than 2^32 - 2 objects.");
-    const size_t left = FROE_NONE - 1 - sink->total, room = most - sink->count;
+    const size_t limit = sink->deliver ? SIZE_MAX : FROE_NONE - 1; /* a scene has no more */
+    if (sink->total >= limit) return formats_sink_fail(sink, FROE_E_LIMIT, "There are more than 2^32 - 2 objects.");
+    const size_t left = limit - sink->total, room = most - sink->count;
     if (count > left) count = left;
     *fits = count < room ? count : room;
     sink->kind = kind;

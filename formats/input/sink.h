@@ -24,6 +24,8 @@ typedef struct formats_sink {
     void *user;
     froe_image_fn *image; /**< may be NULL */
     void *image_user;
+    froe_objects_fn *deliver; /**< receives batches in the place of the scene; NULL: none */
+    void *deliver_user;
     froe_read_report report; /**< counts */
 
     /* of the objects to come; readers write them, formats_sink_feature() resets them */

@@ -94,10 +94,13 @@ froe_status formats_load(const formats_source *source, formats_sink *sink, bool 
     if (got < 0) return support_fail_file(sink->diag, "read", source->path, error);
     text->count = drop_mark(to, (size_t)got);
     memset(to + text->count, '\0', BEHIND);
-    if (!binary && memchr(to, '\0', text->count))
-        return support_fail(sink->diag, FROE_E_FORMAT, "%s: The file is not text, because byte %zu is zero.",
-                            support_short(source->path), strlen(to));
+    if (!binary && memchr(to, '\0', text->count)) return formats_refuse_zero(source, sink, strlen(to));
     return FROE_OK;
+}
+
+froe_status formats_refuse_zero(const formats_source *source, const formats_sink *sink, size_t byte) {
+    return support_fail(sink->diag, FROE_E_FORMAT, "%s: The file is not text, because byte %zu is zero.",
+                        support_short(source->path), byte);
 }
 
 void formats_report_format(formats_sink *sink, const char *precision, const char *format, ...) {
@@ -167,7 +170,9 @@ froe_status formats_read(const formats_readers *readers, const char *path, const
                          .progress = o->progress,
                          .user = o->user,
                          .image = o->image,
-                         .image_user = o->image_user};
+                         .image_user = o->image_user,
+                         .deliver = readers->deliver,
+                         .deliver_user = readers->user};
     support_locale locale;
     if (!support_locale_enter(&locale)) return support_fail_memory(diag);
     formats_source source = {

@@ -32,8 +32,10 @@ typedef froe_status formats_reader(const formats_source *source, formats_sink *s
 /** The readers to choose from. */
 typedef struct formats_readers {
     formats_reader *(*choose)(const formats_source *source); /**< NULL: there is none for this file */
-    formats_reader *maps; /**< whose files have attributes and longitudes, and perhaps layers; may be NULL */
-    bool beyond;          /**< maps may be no files: folders, and names in virtual file systems */
+    formats_reader *maps;     /**< whose files have attributes and longitudes, and perhaps layers; may be NULL */
+    bool beyond;              /**< maps may be no files: folders, and names in virtual file systems */
+    froe_objects_fn *deliver; /**< where objects go; NULL: into a scene */
+    void *user;
 } formats_readers;
 
 /** Does the public function `name` accept these arguments? FROE_E_ARG, FROE_E_OPTIONS. */
@@ -48,6 +50,14 @@ typedef ARRAY(char) formats_text;
  * (support/decimal/decimal.h). FROE_E_IO, FROE_E_MEMORY; FROE_E_FORMAT when a text
  * holds a NUL. */
 froe_status formats_load(const formats_source *source, formats_sink *sink, bool binary, formats_text *text);
+
+/** FROE_E_FORMAT for a text with a NUL at some byte. */
+froe_status formats_refuse_zero(const formats_source *source, const formats_sink *sink, size_t byte);
+/** The same text, but mapped, so that it takes memory only where it is read, and a NUL may stand in it: `capacity` is
+ * the size of the mapping. What has been read is given back by formats_pass_text(): everything before a place. */
+froe_status formats_map_text(const formats_source *source, const formats_sink *sink, formats_text *text);
+void formats_pass_text(formats_text *text, const char *at);
+void formats_unmap_text(formats_text *text);
 
 /** Seconds of a clock that only goes forward. */
 double formats_seconds(void);

@@ -1,12 +1,14 @@
 /* animate.c: froe_animate: from a motion to a page; see animate.h. */
 #include "formats/motion/animate.h"
 #include "support/alloc.h"
+#include "support/fail.h"
 #include "support/floats.h"
 #include <math.h>
 #include <string.h>
 
-froe_animation_options froe_animation_defaults(void) {
-    return (froe_animation_options){.size = sizeof(froe_animation_options), .width = 960, .seconds = 20};
+void froe_animation_defaults_into(froe_animation_options *out, size_t size) {
+    const froe_animation_options all = {.size = size, .width = 960, .seconds = 20, .up = 2};
+    support_defaults(out, size, &all, sizeof all);
 }
 
 void formats_animation_knots(const formats_animation *a, uint32_t vertex, size_t *first, size_t *end) {
@@ -57,8 +59,6 @@ froe_status froe_animate(const froe_motion *motion, const froe_contact *contacts
                          const froe_animation_options *options, const char *path, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
     if (!motion || !path || (count && !contacts)) return support_fail_null(diag, __func__);
-    if (froe_motion_window(motion).dim != 2)
-        return support_fail(diag, FROE_E_UNSUPPORTED, "Motions in space are not drawn.");
     formats_animation a = {.motion = motion, .contacts = contacts, .count = count};
     a.options = options ? *options : froe_animation_defaults();
     a.begin = froe_motion_window(motion).begin;
@@ -73,7 +73,7 @@ froe_status froe_animate(const froe_motion *motion, const froe_contact *contacts
         if (contacts[i].a >= objects || contacts[i].b >= objects)
             return support_fail(diag, FROE_E_ARG, "contact %zu: Its objects do not exist.", i);
     support_extension extension = support_path_extension(path);
-    bool svg = strcmp(extension.text, "svg") == 0;
+    const bool svg = strcmp(extension.text, "svg") == 0, solid = froe_motion_window(motion).dim == 3;
     if (!svg && strcmp(extension.text, "html") != 0)
         return support_fail_ending(diag, FROE_E_UNSUPPORTED, path, "motions", ".svg or .html");
     const froe_allocator alloc = support_allocator(NULL);
@@ -82,10 +82,11 @@ froe_status froe_animate(const froe_motion *motion, const froe_contact *contacts
     a.touched = support_calloc(&alloc, 2 * count, sizeof *a.touched);
     froe_status status = a.starts && a.touched ? formats_writer_open(&w, path, diag) : support_fail_memory(diag);
     if (!status) {
-        find_bounds(&a);
-        deal(&a);
-        (svg ? formats_animate_svg : formats_animate_page)(&w, &a);
-        status = formats_writer_close(&w, FROE_OK);
+        if (!solid) find_bounds(&a), deal(&a);
+        formats_animation_writer *const write = !svg    ? formats_animate_page
+                                                : solid ? formats_animate_film
+                                                        : formats_animate_svg;
+        status = formats_writer_close(&w, write(&w, &a, diag));
     }
     support_free(&alloc, a.starts, starts * sizeof *a.starts);
     support_free(&alloc, a.touched, 2 * count * sizeof *a.touched);

@@ -1,5 +1,5 @@
 /* animate.h: a motion on its way to a picture: what it spans, and the contacts of each object. It speaks for
- * animate.c, animate_svg.c and animate_page.c. */
+ * animate.c, animate_svg.c, animate_film.c and animate_page.c. */
 #ifndef FROE_FORMATS_ANIMATE_H
 #define FROE_FORMATS_ANIMATE_H
 #include "formats/write/writer.h"
@@ -20,6 +20,7 @@ typedef struct formats_animation {
 /** The knots of a vertex that matter in the window: first .. end - 1, one at least. */
 void formats_animation_knots(const formats_animation *a, uint32_t vertex, size_t *first, size_t *end);
 
-typedef void formats_animation_writer(formats_writer *w, const formats_animation *a);
-formats_animation_writer formats_animate_svg, formats_animate_page;
+/** Fail as films do; the writer keeps failures of its own. */
+typedef froe_status formats_animation_writer(formats_writer *w, const formats_animation *a, froe_diagnostic *diag);
+formats_animation_writer formats_animate_svg, formats_animate_page, formats_animate_film;
 #endif

@@ -10,9 +10,15 @@ static const char beginning[] = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<m
 
 static const char body[] =
     "</style>\n</head>\n<body>\n<header>\n<h1>Moving objects and their contacts</h1>\n</header>\n"
-    "<main class=\"player\">\n<div>\n"
+    "<main class=\"player\">\n<div>\n";
+
+static const char canvas[] =
     "<canvas id=\"picture\" role=\"img\" aria-label=\"Moving segments. Those in contact are orange, and a glass shows "
-    "them larger.\"></canvas>\n"
+    "them larger.\"></canvas>\n";
+
+static const char film[] = "<div id=\"picture\">\n";
+
+static const char controls[] =
     "<canvas id=\"marks\" aria-hidden=\"true\"></canvas>\n"
     "<input id=\"time\" type=\"range\" min=\"0\" max=\"1\" step=\"any\" value=\"0\" aria-label=\"Time\">\n"
     "<div class=\"ends\"><small id=\"first\"></small><small id=\"final\"></small></div>\n"
@@ -86,14 +92,21 @@ static void put_contacts(formats_writer *w, const formats_animation *a) {
     }
 }
 
-void formats_animate_page(formats_writer *w, const formats_animation *a) {
+froe_status formats_animate_page(formats_writer *w, const formats_animation *a, froe_diagnostic *diag) {
+    const bool solid = froe_motion_window(a->motion).dim == 3;
+    froe_status status = FROE_OK;
     int digits = 0; /* behind the point, that tell instants of the window apart */
     for (double step = (a->end - a->begin) / 1000; step < 1 && digits < 12; step *= 10) digits++;
     formats_put(w, beginning);
     put_file(w, "page.css");
     put_file(w, "player.css");
     formats_put(w, body);
-    put_member(w, "const motion = {begin: ", a->begin);
+    formats_put(w, solid ? film : canvas);
+    if (solid) status = formats_animate_film(w, a, diag);
+    if (status) return status;
+    if (solid) formats_put(w, "</div>\n");
+    formats_put(w, controls);
+    put_member(w, solid ? "const motion = {solid: true, begin: " : "const motion = {begin: ", a->begin);
     put_member(w, ", end: ", a->end);
     formats_put(w, a->clock ? ", clock: true" : ", clock: false");
     put_member(w, ", width: ", a->options.width);
@@ -104,7 +117,7 @@ void formats_animate_page(formats_writer *w, const formats_animation *a) {
     put_member(w, "], hi: [", a->hi[0]);
     put_member(w, ", ", a->hi[1]);
     formats_put(w, "],\nvertices: [");
-    put_plans(w, a);
+    if (!solid) put_plans(w, a);
     formats_put(w, "],\nobjects: [");
     put_objects(w, a->motion);
     formats_put(w, "],\ncontacts: [");
@@ -112,4 +125,5 @@ void formats_animate_page(formats_writer *w, const formats_animation *a) {
     formats_put(w, "]};\n");
     put_file(w, "player.js");
     formats_put(w, "</script>\n</body>\n</html>\n");
+    return FROE_OK;
 }

@@ -241,7 +241,8 @@ static void put_time_line(const layout *s) {
     formats_put(s->w, "</text>\n");
 }
 
-void formats_animate_svg(formats_writer *w, const formats_animation *a) {
+froe_status formats_animate_svg(formats_writer *w, const formats_animation *a, froe_diagnostic *diag) {
+    (void)diag;
     const layout s = lay_out(w, a);
     formats_put(w, "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" ");
     put_format(w, "width=\"%.0f\" height=\"%.0f\" ", s.width, s.height + LINE);
@@ -271,4 +272,5 @@ void formats_animate_svg(formats_writer *w, const formats_animation *a) {
     formats_put(w, "\"/>\n");
     put_time_line(&s);
     formats_put(w, "</svg>\n");
+    return FROE_OK;
 }

@@ -4,14 +4,30 @@
 const $ = id => document.getElementById(id), picture = $('picture'), marks = $('marks');
 const length = motion.end - motion.begin, shown = 1000, slack = length / 150;
 const still = matchMedia('(prefers-reduced-motion: reduce)'), dark = matchMedia('(prefers-color-scheme: dark)');
-const contacts = motion.contacts.sort((a, b) => a[2] - b[2]), rows = [];
+const solid = motion.solid === true, film = solid && picture.querySelector('svg');
 const bottom = 40, rim = 14;
-let left, now = motion.begin, playing = false, before = null, chosen = -1, colours, view, paths;
+let lasting = 0, left, now = motion.begin, playing = false, before = null, chosen = -1, colours, view, paths;
+const contacts = joined(motion.contacts.sort((a, b) => a[2] - b[2])), rows = [];
 
 /* -- numbers ---------------------------------------------------------------- */
 
 const day = 86400000, plain = value => String(+value.toPrecision(10));
-const name = object => motion.objects[object][4] || 'segment ' + object;
+const name = object => motion.objects[object][4] || (solid ? 'triangle ' : 'segment ') + object;
+
+/* In space, contacts of the same two parts that follow one another without a gap are one. Those that last all the time,
+ * as of a hinge, are counted only. */
+function joined(all) {
+  if (!solid) return all;
+  const last = new Map(), out = [];
+  all.forEach(c => {
+    const key = [motion.objects[c[0]][4] || c[0], motion.objects[c[1]][4] || c[1]].sort().join('\n'), before = last.get(key);
+    if (before && c[2] <= before[3]) { before[3] = Math.max(before[3], c[3]); before[4] = 0; return; }
+    last.set(key, c); out.push(c);
+  });
+  const short = out.filter(c => c[2] > motion.begin || c[3] < motion.end);
+  lasting = out.length - short.length;
+  return short;
+}
 const title = c => name(c[0]) + ' · ' + name(c[1]);
 
 /* Milliseconds as a clock shows them, hours:minutes:seconds in UTC; other times are numbers. */
@@ -69,6 +85,12 @@ function lay() {
   const style = getComputedStyle(document.documentElement);
   colours = Object.fromEntries(['ink', 'soft', 'line', 'faint', 'mark', 'hit', 'card']
     .map(key => [key, style.getPropertyValue('--' + key).trim()]));
+  if (solid) {
+    view = {width: picture.parentElement.clientWidth};
+    view.marks = fit(marks, view.width, 22);
+    drawMarks();
+    return draw();
+  }
   const width = picture.parentElement.clientWidth, [across, up] = [0, 1].map(k => motion.hi[k] - motion.lo[k]);
   left = 30 + 7 * Math.max(...ticks(motion.lo[1], motion.hi[1], 6).map(t => plain(t).length), 1);
   const room = width - left - rim, most = Math.max(240, 0.68 * innerHeight);
@@ -148,21 +170,32 @@ function magnify(pen, c, touching) {
   pen.beginPath(); pen.arc(cx, cy, r, 0, 7); pen.stroke();
 }
 
+/* The film at its time; borders of what is in contact. */
+function seek(on) {
+  const names = new Set(on.flatMap(i => [name(contacts[i][0]), name(contacts[i][1])]));
+  film.setCurrentTime(Math.min((now - motion.begin) / length, 0.9999999) * motion.seconds);
+  film.querySelectorAll('path[fill]').forEach(path => path.classList.toggle('hit', names.has(path.dataset.group)));
+}
+
 function draw() {
   const pen = view.pen, touching = new Set(), on = [];
   contacts.forEach((c, i) => { if (isOn(c)) { on.push(i); touching.add(c[0]).add(c[1]); } });
+  const glass = chosen >= 0 && isOn(contacts[chosen]) ? chosen : on.length ? on[on.length - 1] : -1;
+  if (solid) seek(on); else paintAll(pen, touching, glass);
+  $('time').value = (now - motion.begin) / length;
+  $('now').textContent = time(now);
+  $('time').setAttribute('aria-valuetext', time(now, true));
+  follow(glass);
+}
+
+function paintAll(pen, touching, glass) {
   pen.clearRect(0, 0, view.width, view.height);
   axes(pen);
   pen.save();
   pen.beginPath(); pen.rect(left, rim, view.width - rim - left, view.height - bottom - rim); pen.clip();
   paint(pen, view, touching, 4);
   pen.restore();
-  const glass = chosen >= 0 && isOn(contacts[chosen]) ? chosen : on.length ? on[on.length - 1] : -1;
   if (glass >= 0) magnify(pen, contacts[glass], touching);
-  $('time').value = (now - motion.begin) / length;
-  $('now').textContent = time(now);
-  $('time').setAttribute('aria-valuetext', time(now, true));
-  follow(glass);
 }
 
 /* -- time line and list ----------------------------------------------------- */
@@ -249,11 +282,17 @@ document.addEventListener('keydown', e => {
   else return;
   e.preventDefault();
 });
+if (film) {
+  film.querySelector('style').remove(); /* the page itself does not play where less motion is wanted */
+  film.removeAttribute('width'); film.removeAttribute('height');
+  film.pauseAnimations();
+}
 list();
 picture.parentElement.style.maxWidth = motion.width + 'px';
 $('first').textContent = time(motion.begin, true);
 $('final').textContent = time(motion.end, true);
-$('among').textContent = 'of ' + motion.objects.length + ' moving segments' +
+$('among').textContent = 'of ' + motion.objects.length + (solid ? ' moving triangles' : ' moving segments') +
+  (lasting ? '; ' + lasting + (lasting > 1 ? ' pairs touch' : ' pair touches') + ' all the time' : '') +
   (motion.clock ? '. Times are hours, minutes and seconds, UTC.' : '. Times are numbers of the file.');
 new ResizeObserver(lay).observe(picture.parentElement);
 dark.addEventListener('change', lay);

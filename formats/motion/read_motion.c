@@ -4,11 +4,12 @@
  *                 ... with `triangles`, or a `base` that has them -> in space: a cloud of corners, or a body
  *
  * The file is walked twice: for its first and last instant, and for what moves. */
+#include "formats/input/json.h"
 #include "formats/input/source.h"
 #include "formats/motion/datetime.h"
-#include "formats/motion/json.h"
 #include "formats/motion/solids.h"
 #include "support/decimal/decimal.h"
+#include "support/fail.h"
 #include "support/floats.h"
 #include "support/locale.h"
 #include <errno.h>
@@ -498,8 +499,9 @@ static froe_status read_file(reading *r) {
     return status;
 }
 
-froe_motion_read_options froe_motion_read_defaults(void) {
-    return (froe_motion_read_options){.size = sizeof(froe_motion_read_options), .from = NAN, .to = NAN};
+void froe_motion_read_defaults_into(froe_motion_read_options *out, size_t size) {
+    const froe_motion_read_options all = {.size = size, .from = NAN, .to = NAN, .deviation = 1e-3};
+    support_defaults(out, size, &all, sizeof all);
 }
 
 froe_status froe_read_motion(const char *path, const froe_motion_read_options *options, froe_motion **out,
@@ -517,6 +519,7 @@ froe_status froe_read_motion(const char *path, const froe_motion_read_options *o
         froe_motion_free(r.motion);
         return status;
     }
+    r.report.up = 2;
     r.report.seconds = formats_seconds() - start;
     if (report) *report = r.report;
     *out = r.motion;

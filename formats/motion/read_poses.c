@@ -4,7 +4,8 @@
  *     door,0,0,0,0,0,0,0,1
  *
  * Each part (group) with rows is a body; all the others are one body that stands still, as they do not move against one
- * another. Each triangle has three corners of its own: triangles of one body never meet. */
+ * another. */
+#include "formats/input/bodies.h"
 #include "formats/motion/solids.h"
 #include "support/array.h"
 #include "support/decimal/decimal.h"
@@ -43,14 +44,14 @@ typedef struct pose_reading {
     int column[SUPPORT_CSV_COLUMNS], columns;
     uint64_t line;
     ARRAY(pose) poses;
-    ARRAY(part_name) names; /* ascending */
-    ARRAY(size_t) starts;   /* [group]: the first of its rows in order; one more */
-    ARRAY(uint32_t) order;  /* rows by groups, each in the order of the file */
-    ARRAY(uint32_t) body;   /* [group] */
-    ARRAY(double) numbers;  /* of one body */
-    ARRAY(double) corners, zeros, births, deaths;
-    ARRAY(size_t) plans;
-    ARRAY(uint32_t) bodies, groups;
+    ARRAY(part_name) names;    /* ascending */
+    ARRAY(size_t) starts;      /* [group]: the first of its rows in order; one more */
+    ARRAY(uint32_t) order;     /* rows by groups, each in the order of the file */
+    ARRAY(uint32_t) body;      /* [group] */
+    ARRAY(double) numbers;     /* of one body */
+    ARRAY(formats_life) lives; /* of each part */
+    ARRAY(size_t) each;
+    ARRAY(uint32_t) parts; /* of each object */
 } pose_reading;
 
 static froe_status no_room(const pose_reading *r) {
@@ -202,10 +203,6 @@ static froe_status add_parts(pose_reading *r) {
     rest.count = 1, rest.times = now, rest.coords = origin;
     froe_status status = froe_motion_add_body(r->motion, &rest, &still, r->diag);
     for (uint32_t g = 0; g < r->names.count && !status; g++) {
-        froe_group group = froe_scene_group(r->model, g);
-        uint32_t id;
-        status = froe_motion_add_group(r->motion, &group, &id);
-        if (status) return no_room(r);
         r->body.data[g] = still;
         if (r->starts.data[g + 1] > r->starts.data[g])
             status = add_posed_part(r, g);
@@ -216,42 +213,27 @@ static froe_status add_parts(pose_reading *r) {
     return status;
 }
 
-/* A triangle of the model; a polygon is a fan of them. What is no more than an edge or a point has corners twice. */
-static bool put_triangle(pose_reading *r, const froe_object *o, uint32_t object, uint32_t k) {
-    const bool part = o->group != FROE_NONE;
-    const size_t first = part ? r->starts.data[o->group] : 0, end = part ? r->starts.data[o->group + 1] : 0;
-    for (uint32_t i = 0; i < 3; i++) {
-        const size_t vertex = r->plans.count;
-        const uint32_t corner = i ? k + i - 1 : 0, most = o->corners - 1;
-        const double *at =
-            froe_scene_vertex(r->model, froe_scene_corner(r->model, object, corner < most ? corner : most));
-        if (!array_append(&r->alloc, &r->corners, at, 3) || !array_push(&r->alloc, &r->zeros, 0) ||
-            !array_push(&r->alloc, &r->plans, vertex) ||
-            !array_push(&r->alloc, &r->bodies, part ? r->body.data[o->group] : 0))
-            return false;
-    }
-    const bool moves = end > first + 1;
-    return array_push(&r->alloc, &r->births, moves ? pose_of(r, first)->at[TIME] : -(double)INFINITY) &&
-           array_push(&r->alloc, &r->deaths, moves ? pose_of(r, end - 1)->at[TIME] : (double)INFINITY) &&
-           array_push(&r->alloc, &r->groups, o->group);
-}
-
+/* The triangles of all parts. Those without a name are of the body that stands still. */
 static froe_status add_triangles(pose_reading *r) {
-    for (uint32_t i = 0; i < froe_scene_object_count(r->model); i++) {
-        const froe_object o = froe_scene_object(r->model, i);
-        if (o.kind != FROE_POLYGON)
-            return support_fail(r->diag, FROE_E_UNSUPPORTED, "object %u: It is no polygon, and only those are parts.",
-                                i);
-        for (uint32_t k = 1; k == 1 || k + 1 < o.corners; k++)
-            if (!put_triangle(r, &o, i, k)) return no_room(r);
+    const size_t groups = r->names.count, objects = froe_scene_object_count(r->model);
+    if (!array_reserve(&r->alloc, &r->lives, groups + 1) || !array_reserve(&r->alloc, &r->each, groups + 2) ||
+        !array_reserve(&r->alloc, &r->parts, objects))
+        return no_room(r);
+    for (size_t g = 0; g <= groups; g++) {
+        const size_t first = g < groups ? r->starts.data[g] : 0, end = g < groups ? r->starts.data[g + 1] : 0;
+        const bool moves = end > first + 1;
+        r->each.data[g] = g;
+        r->lives.data[g] = (formats_life){.body = g < groups ? r->body.data[g] : 0,
+                                          .birth = moves ? pose_of(r, first)->at[TIME] : -(double)INFINITY,
+                                          .death = moves ? pose_of(r, end - 1)->at[TIME] : (double)INFINITY};
     }
-    const size_t vertices = r->plans.count;
-    if (!array_push(&r->alloc, &r->plans, vertices)) return no_room(r);
-    froe_moving b = froe_moving_defaults();
-    b.vertex_count = vertices, b.count = r->births.count, b.starts = r->plans.data, b.times = r->zeros.data;
-    b.coords = r->corners.data, b.bodies = r->bodies.data, b.births = r->births.data, b.deaths = r->deaths.data;
-    b.groups = r->groups.data;
-    return froe_motion_add(r->motion, &b, r->diag);
+    r->each.data[groups + 1] = groups + 1;
+    for (uint32_t i = 0; i < objects; i++) {
+        const uint32_t group = froe_scene_object(r->model, i).group;
+        r->parts.data[i] = group == FROE_NONE ? (uint32_t)groups : group;
+    }
+    const formats_bodies bodies = {r->each.data, r->lives.data, r->parts.data};
+    return formats_add_bodies(r->motion, r->model, &bodies, &r->alloc, r->diag);
 }
 
 /* Is a part in the window that moves? Or does none move at all, so that there is nothing to miss? */
@@ -291,9 +273,7 @@ static void free_reading(pose_reading *r) {
     const froe_allocator *alloc = &r->alloc;
     array_free(alloc, &r->poses), array_free(alloc, &r->names), array_free(alloc, &r->starts);
     array_free(alloc, &r->order), array_free(alloc, &r->body), array_free(alloc, &r->numbers);
-    array_free(alloc, &r->corners), array_free(alloc, &r->zeros), array_free(alloc, &r->births);
-    array_free(alloc, &r->deaths), array_free(alloc, &r->plans), array_free(alloc, &r->bodies);
-    array_free(alloc, &r->groups);
+    array_free(alloc, &r->lives), array_free(alloc, &r->each), array_free(alloc, &r->parts);
 }
 
 froe_status froe_read_poses(const char *path, const froe_scene *model, const froe_motion_read_options *options,
@@ -326,6 +306,7 @@ froe_status froe_read_poses(const char *path, const froe_scene *model, const fro
         froe_motion_free(r.motion);
         return status;
     }
+    r.report.up = froe_scene_up(model);
     r.report.seconds = formats_seconds() - start;
     if (report) *report = r.report;
     *out = r.motion;

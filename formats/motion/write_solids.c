@@ -12,6 +12,7 @@ typedef struct solid {
     const froe_motion *motion;
     uint32_t first, end; /* objects */
     uint32_t body;       /* or FROE_NONE */
+    bool rests;          /* it has one instant, and stands still from the birth to the death of its triangles */
     uint32_t *number;    /* [vertex]: in this feature */
     uint32_t *corners;   /* vertices */
     uint32_t count;
@@ -40,14 +41,36 @@ static void take_run(solid *s) {
     }
 }
 
-static size_t instants_of(const solid *s, uint32_t vertex) {
+static size_t knots_of(const solid *s, uint32_t vertex) {
     return s->body == FROE_NONE ? froe_motion_knot_count(s->motion, vertex)
                                 : froe_motion_body_knot_count(s->motion, s->body);
 }
 
+/* In the file, what rests has two instants. */
+static size_t instants_of(const solid *s, uint32_t vertex) {
+    return s->rests ? 2 : knots_of(s, vertex);
+}
+
 static double instant_of(const solid *s, uint32_t vertex, size_t k) {
+    const froe_moving_object o = triangle_at(s, s->first);
+    if (s->rests) return k ? o.death : o.birth;
     return s->body == FROE_NONE ? froe_motion_knot(s->motion, vertex, k).time
                                 : froe_motion_body_knot(s->motion, s->body, k).time;
+}
+
+/* A vertex or a body of one instant is there at all times. */
+static bool rests(const solid *s) {
+    for (uint32_t i = 0; i < s->count; i++)
+        if (knots_of(s, s->corners[i]) != 1) return false;
+    return true;
+}
+
+static froe_moving_knot knot_of(const solid *s, uint32_t vertex, size_t k) {
+    return froe_motion_knot(s->motion, vertex, s->rests ? 0 : k);
+}
+
+static froe_body_knot body_knot_of(const solid *s, size_t k) {
+    return froe_motion_body_knot(s->motion, s->body, s->rests ? 0 : k);
 }
 
 /* Do all corners have the same instants, from the birth to the death of the triangles? */
@@ -79,13 +102,13 @@ static void put_place(formats_writer *w, const solid *s, uint32_t vertex, size_t
     for (int i = 0; i < 3; i++) {
         const size_t then = control ? k + 1 : k;
         if (s->body == FROE_NONE) {
-            at[i] = froe_motion_knot(s->motion, vertex, k).at[i];
-            next[i] = froe_motion_knot(s->motion, vertex, then).at[i];
-            bend[i] = froe_motion_knot(s->motion, vertex, k).control[i];
+            at[i] = knot_of(s, vertex, k).at[i];
+            next[i] = knot_of(s, vertex, then).at[i];
+            bend[i] = knot_of(s, vertex, k).control[i];
         } else {
-            at[i] = froe_motion_body_knot(s->motion, s->body, k).at[i];
-            next[i] = froe_motion_body_knot(s->motion, s->body, then).at[i];
-            bend[i] = froe_motion_body_knot(s->motion, s->body, k).control[i];
+            at[i] = body_knot_of(s, k).at[i];
+            next[i] = body_knot_of(s, then).at[i];
+            bend[i] = body_knot_of(s, k).control[i];
         }
         if (control) at[i] = isnan(bend[i]) ? 0.5 * at[i] + 0.5 * next[i] : bend[i];
     }
@@ -96,8 +119,7 @@ static bool is_curved(const solid *s) {
     const size_t count = instants_of(s, s->corners[0]);
     for (uint32_t i = 0; i < (s->body == FROE_NONE ? s->count : 1); i++)
         for (size_t k = 0; k + 1 < count; k++)
-            if (!isnan(s->body == FROE_NONE ? froe_motion_knot(s->motion, s->corners[i], k).control[0]
-                                            : froe_motion_body_knot(s->motion, s->body, k).control[0]))
+            if (!isnan(s->body == FROE_NONE ? knot_of(s, s->corners[i], k).control[0] : body_knot_of(s, k).control[0]))
                 return true;
     return false;
 }
@@ -135,13 +157,13 @@ static void put_triangles(formats_writer *w, const solid *s) {
 static void put_base(formats_writer *w, const solid *s, size_t count) {
     formats_put(w, ",\"turns\":[");
     for (size_t k = 0; k < count; k++) {
-        const froe_body_knot knot = froe_motion_body_knot(s->motion, s->body, k);
+        const froe_body_knot knot = body_knot_of(s, k);
         if (k) formats_put(w, ",");
         put_array(w, knot.turn, 4);
     }
     formats_put(w, "],\"base\":{\"coordinates\":[");
     for (uint32_t i = 0; i < s->count; i++) {
-        const froe_moving_knot knot = froe_motion_knot(s->motion, s->corners[i], 0);
+        const froe_moving_knot knot = knot_of(s, s->corners[i], 0);
         if (i) formats_put(w, ",");
         put_array(w, knot.at, 3);
     }
@@ -185,6 +207,7 @@ froe_status formats_write_solids(const froe_motion *motion, formats_writer *w, f
     froe_status status = s.number && s.corners ? FROE_OK : support_fail_memory(diag);
     for (; s.first < froe_motion_object_count(motion) && !status; s.first = s.end) {
         take_run(&s);
+        s.rests = rests(&s);
         if (!fits(&s))
             status = support_fail(diag, FROE_E_UNSUPPORTED,
                                   "triangle %u: The instants of its corners are not the same, or not those of its "

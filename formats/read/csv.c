@@ -165,12 +165,23 @@ static froe_status refuse_header(const csv_reader *c, const formats_source *sour
                         name, c->table.found);
 }
 
+/* Names of groups are kept by where they stand in the text, which a text that is passed as it is read does not keep. */
+static froe_status refuse_names(const csv_reader *c) {
+    for (int i = 0; i < c->table.columns && c->sink->deliver; ++i)
+        if (c->table.role[i] == FORMATS_CSV_NAME)
+            return support_fail(c->sink->diag, FROE_E_UNSUPPORTED,
+                                "%s: The rows name groups, which are read as a scene alone.",
+                                support_short(c->sink->path));
+    return FROE_OK;
+}
+
 froe_status formats_read_csv(const formats_source *source, formats_sink *sink) {
     enum { ROWS_PER_REPORT = 4096 };
     formats_text text = {0};
     csv_reader c = {.sink = sink};
     uint64_t row = 0;
-    froe_status status = formats_load(source, sink, false, &text);
+    froe_status status =
+        sink->deliver ? formats_map_text(source, sink, &text) : formats_load(source, sink, false, &text);
     char *at = text.data;
     const formats_csv_header what = status ? FORMATS_CSV_OURS : formats_csv_read_header(&at, &c.table);
     if (c.table.open)
@@ -178,6 +189,7 @@ froe_status formats_read_csv(const formats_source *source, formats_sink *sink) {
     else if (what != FORMATS_CSV_OURS)
         status = refuse_header(&c, source, what);
     c.line = c.table.lines + 1;
+    if (!status) status = refuse_names(&c);
     if (!status) status = formats_sink_open(sink, c.table.dim);
     sink->unit = "row";
     sink->report.layers = 1;
@@ -188,11 +200,16 @@ froe_status formats_read_csv(const formats_source *source, formats_sink *sink) {
     while (!status && *at) {
         if (pass_blank_line(&c, &at)) continue;
         status = read_row(&c, &at, ++row);
-        if (!status && row % ROWS_PER_REPORT == 0)
-            status = formats_sink_progress(sink, (double)(at - text.data) / (double)text.count);
+        if (status || row % ROWS_PER_REPORT) continue;
+        status = formats_sink_progress(sink, (double)(at - text.data) / (double)text.count);
+        if (sink->deliver) formats_pass_text(&text, at);
     }
     if (!status) status = end_hull(&c);
+    if (!status && at < text.data + text.count) status = formats_refuse_zero(source, sink, (size_t)(at - text.data));
     array_free(&sink->alloc, &c.corners);
-    array_free(&sink->alloc, &text);
+    if (sink->deliver)
+        formats_unmap_text(&text);
+    else
+        array_free(&sink->alloc, &text);
     return status;
 }

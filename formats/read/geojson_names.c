@@ -32,8 +32,9 @@ static bool read_value(char **at, geojson_value *out) {
     if (!formats_scan_number(at, &number) || (*first == '-' && number == 0)) return false;
     out->kind = GEOJSON_WHOLE;
     out->number = 0;
-    for (const char *c = first + (*first == '-'); c < *at; c++) { /* at most 18 digits, or else it is not whole */
-        if ((unsigned char)(*c - '0') >= 10) return false;
+    const char *const digits = first + (*first == '-');
+    for (const char *c = digits; c < *at; c++) { /* at most 18 of them, which an integer holds */
+        if ((unsigned char)(*c - '0') >= 10 || c - digits == 18) return false;
         out->number = 10 * out->number + (*c - '0');
     }
     if (*first == '-') out->number = -out->number;

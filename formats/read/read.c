@@ -1,11 +1,13 @@
 /* read.c: froe_read_own: which of the readers that need no library reads a file? */
 #include "formats/input/csv_header.h"
 #include "formats/read/readers.h"
+#include "support/fail.h"
 #include "support/floats.h"
 #include <string.h>
 
-froe_read_options froe_read_defaults(void) {
-    return (froe_read_options){.size = sizeof(froe_read_options), .faces = FROE_FACES_TRIANGLES};
+void froe_read_defaults_into(froe_read_options *out, size_t size) {
+    const froe_read_options all = {.size = size, .faces = FROE_FACES_TRIANGLES};
+    support_defaults(out, size, &all, sizeof all);
 }
 
 /* Is the first word behind blanks and comments OFF, behind letters for what vertices carry? */
@@ -24,6 +26,23 @@ static formats_reader *choose_own(const formats_source *source) {
     return strcmp(source->extension.text, "obj") ? NULL : formats_read_obj;
 }
 
+static formats_reader *choose_csv(const formats_source *source) {
+    return formats_csv_recognise(source) ? formats_read_csv : NULL;
+}
+
+froe_status froe_read_batches(const char *path, const froe_read_options *options, froe_objects_fn *fn, void *user,
+                              froe_read_report *report, froe_diagnostic *diag) {
+    SUPPORT_FLOATS_OWN;
+    froe_scene *none; /* it has no objects */
+    const formats_readers own = {.choose = choose_csv, .deliver = fn, .user = user};
+    froe_status status = formats_check_reading(__func__, path, options, &none, diag);
+    if (status) return status;
+    if (!fn) return support_fail_null(diag, __func__);
+    status = formats_read(&own, path, options, &none, report, diag);
+    if (!status) froe_scene_free(none);
+    return status;
+}
+
 bool froe_reads_own(const char *path) {
     SUPPORT_FLOATS_OWN;
     formats_source source;
@@ -34,7 +53,7 @@ bool froe_reads_own(const char *path) {
 froe_status froe_read_own(const char *path, const froe_read_options *options, froe_scene **out,
                           froe_read_report *report, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
-    static const formats_readers own = {choose_own, formats_read_geojson, false};
+    static const formats_readers own = {.choose = choose_own, .maps = formats_read_geojson};
     const froe_status status = formats_check_reading("froe_read_own", path, options, out, diag);
     return status ? status : formats_read(&own, path, options, out, report, diag);
 }

@@ -1,10 +1,12 @@
 /* export.c: froe_export: the pieces, cells or cuts of a tree in a text file, one after the other. */
 #include "formats/write/shapes.h"
+#include "support/fail.h"
 #include "support/floats.h"
 #include <stdio.h>
 
-froe_export_options froe_export_defaults(void) {
-    return (froe_export_options){.size = sizeof(froe_export_options)};
+void froe_export_defaults_into(froe_export_options *out, size_t size) {
+    const froe_export_options all = {.size = size};
+    support_defaults(out, size, &all, sizeof all);
 }
 
 bool froe_exports_own(const char *path) {

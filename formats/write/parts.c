@@ -123,7 +123,7 @@ static bool give_cell(void *user, const froe_cell *cell) {
     parts_walk *w = user;
     bool wanted = w->what == FROE_EXPORT_CELLS ? cell->leaf && cell->corners : !cell->leaf && cell->cut_corners;
     if (!wanted) return true;
-    froe_part s = {.kind = FROE_KIND_COUNT, .dim = w->dim};
+    froe_part s = {.kind = FROE_KIND_NONE, .dim = w->dim};
     if (w->what == FROE_EXPORT_CUTS) {
         s.coords = cell->cut_coords;
         s.corners = cell->cut_corners;

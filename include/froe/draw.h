@@ -126,7 +126,7 @@ typedef struct froe_draw_options {
     froe_progress_fn *progress;  /**< may be NULL */
     void *user;                  /**< for progress */
 } froe_draw_options;
-FROE_API froe_draw_options froe_draw_defaults(void);
+FROE_DEFAULTS(froe_draw_options, froe_draw_defaults);
 
 /** Draws the tree to a file whose extension says how: .svg, .pdf or .png. options
  * NULL: the defaults. The file appears at once and whole: it is made in memory,

@@ -50,7 +50,7 @@ typedef struct froe_read_options {
     void *image_user;            /**< for image */
     const froe_allocator *alloc; /**< of the scene and of the reader's own arrays; NULL: malloc */
 } froe_read_options;
-FROE_API froe_read_options froe_read_defaults(void); /**< all layers, triangles, shapes */
+FROE_DEFAULTS(froe_read_options, froe_read_defaults); /**< all layers, triangles, shapes */
 
 /** How a file was read: nothing is done to a scene that is not counted here. */
 typedef struct froe_read_report {
@@ -76,6 +76,7 @@ typedef struct froe_read_report {
     bool no_degrees; /**< the format promises longitudes and latitudes in degrees, and the coordinates cannot be
                                 any (beyond 180 or 90): the scene has no coordinate system */
     double seconds;  /**< from call to return, by the wall clock */
+    uint64_t reserved[8];
 } froe_read_report;
 
 /** Reads a scene from one of the formats that need no other library. The content of the file decides which reader is
@@ -105,6 +106,15 @@ typedef struct froe_read_report {
  * FROE_E_CANCELLED, FROE_E_LIMIT. */
 FROE_API froe_status froe_read_own(const char *path, const froe_read_options *options, froe_scene **out,
                                    froe_read_report *report, froe_diagnostic *diag);
+/** Receives a batch of objects, which lasts as long as the call. Anything but FROE_OK ends the reading, which returns
+ * it. `diag` is the one of froe_read_batches(), for the sentence. */
+typedef froe_status froe_objects_fn(void *user, int dim, const froe_objects *batch, froe_diagnostic *diag);
+/** Reads a CSV file as froe_read_own() does, but hands its objects over in batches, in their order, instead of making a
+ * scene of them: for more objects than memory holds. Objects without tags have their numbers as tags, from 0. It takes
+ * some 100 MB whatever the size of the file. FROE_E_UNSUPPORTED: another format, or a CSV that names groups; both are
+ * read as scenes. Otherwise as froe_read_own(). */
+FROE_API froe_status froe_read_batches(const char *path, const froe_read_options *options, froe_objects_fn *fn,
+                                       void *user, froe_read_report *report, froe_diagnostic *diag);
 /** Is this a file that froe_read_own() reads, if it is right and, of GeoJSON, plain? By its first 4096 bytes, then its
  * extension. False, too: NULL, or it
  * cannot be read. */
@@ -132,7 +142,7 @@ typedef struct froe_export_options {
     froe_progress_fn *progress; /**< may be NULL */
     void *user;                 /**< for progress */
 } froe_export_options;
-FROE_API froe_export_options froe_export_defaults(void);
+FROE_DEFAULTS(froe_export_options, froe_export_defaults);
 
 /** Does froe_export() write files with this ending? False for NULL. */
 FROE_API bool froe_exports_own(const char *path);
@@ -157,7 +167,7 @@ enum { FROE_PART_ATTRIBUTES = 12 };
 /** A fragment, a cell or a cut, with its attributes. */
 typedef struct froe_part {
     froe_part_sort sort;
-    froe_kind kind; /**< of the object that a fragment belongs to; of cells and cuts FROE_KIND_COUNT */
+    froe_kind kind; /**< of the object that a fragment belongs to; of cells and cuts FROE_KIND_NONE */
     int dim;
     const double *coords; /**< dim doubles a corner */
     size_t corners;
@@ -190,8 +200,13 @@ typedef struct froe_motion_read_options {
     size_t size;                 /**< set by froe_motion_read_defaults() */
     double from, to;             /**< the window; NaN (default): the first and the last instant in the file */
     const froe_allocator *alloc; /**< of the motion and of the reader's own arrays; NULL: malloc */
+    const char *animation;       /**< of a model (froe_read_animation() of froe/io.h): which one, by its name or by its
+                                      number from 0; NULL (default): the only one */
+    const char *name;            /**< of a model: what messages call the file; NULL: the path */
+    double deviation;            /**< of a model: how far a point may be from where the file's own interpolation has it,
+                                      as a share of the model's size; default 1e-3 */
 } froe_motion_read_options;
-FROE_API froe_motion_read_options froe_motion_read_defaults(void);
+FROE_DEFAULTS(froe_motion_read_options, froe_motion_read_defaults);
 
 typedef struct froe_motion_report {
     uint64_t features;  /**< with a motion */
@@ -199,6 +214,12 @@ typedef struct froe_motion_report {
     uint64_t pieces;    /**< of flight plans: times between two instants */
     uint64_t flattened; /**< features whose z was left out */
     double seconds;     /**< from call to return, by the wall clock */
+    uint64_t jumps;     /**< of a model: instants at which a part ends, and another like it begins elsewhere */
+    double deviation;   /**< of a model: no point is farther from where the file's own interpolation has it, in units of
+                             the model; otherwise 0 */
+    double extent;      /**< of a model: its size, the diagonal of the box around it when the window begins */
+    int up;             /**< the axis that points up in pictures: 0, 1 or 2 */
+    uint64_t reserved[4];
 } froe_motion_report;
 
 /** Reads OGC Moving Features JSON (19-045r3): MovingPoint, MovingLineString, MovingPolygon and collections of them
@@ -236,6 +257,13 @@ FROE_API froe_status froe_read_motion(const char *path, const froe_motion_read_o
  * FROE_E_LIMIT. options, report and diag may be NULL. */
 FROE_API froe_status froe_read_poses(const char *path, const froe_scene *model, const froe_motion_read_options *options,
                                      froe_motion **out, froe_motion_report *report, froe_diagnostic *diag);
+
+/** What moves, as it is at an instant: segments in the plane, triangles in space, where they are to within a few units
+ * in the last place (froe_motion_position()). Objects that begin then are there, and those that end are not, unless the
+ * window ends. Tags are the objects of the motion, groups its own. FROE_E_ARG: the time is outside of the window.
+ * FROE_E_MEMORY. O(objects). */
+FROE_API froe_status froe_motion_scene(const froe_motion *motion, double time, const froe_allocator *alloc,
+                                       froe_scene **out, froe_diagnostic *diag);
 
 /** Writes a motion as MF-JSON so that froe_read_motion() gives it back: objects that follow one another with a common
  * vertex in one group become one line or polygon; in space, triangles of one group and one body, or of none, one
@@ -275,13 +303,16 @@ typedef struct froe_animation_options {
     size_t size;    /**< set by froe_animation_defaults() */
     double width;   /**< of the picture, in pixels; default 960 */
     double seconds; /**< that the whole window takes to play; default 20 */
+    int up;         /**< in space: the axis that points up; default 2, which is z */
 } froe_animation_options;
-FROE_API froe_animation_options froe_animation_defaults(void);
+FROE_DEFAULTS(froe_animation_options, froe_animation_defaults);
 
 /** A motion as an animation, objects red while they are in contact: .svg, a picture (SMIL; parabolas by chords),
- * or .html, a page of its own that plays it, with a slider for the time and a list of the contacts. The same bytes on
- * every platform. FROE_E_UNSUPPORTED: another extension. FROE_E_OPTIONS, FROE_E_IO, FROE_E_MEMORY. options may be NULL.
- */
+ * or .html, a page of its own that plays it, with a slider for the time and a list of the contacts. Triangles in space
+ * are the film of froe_film() in froe/render.h, 15 frames a second; on its page, contacts of two groups that follow one
+ * another without a gap are one, and the faces of both have an orange border meanwhile. The same bytes on every
+ * platform. FROE_E_UNSUPPORTED: another extension. FROE_E_OPTIONS, FROE_E_IO, FROE_E_MEMORY, and in space the failures
+ * of froe_film(). options may be NULL. */
 FROE_API froe_status froe_animate(const froe_motion *motion, const froe_contact *contacts, size_t count,
                                   const froe_animation_options *options, const char *path, froe_diagnostic *diag);
 

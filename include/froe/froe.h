@@ -16,7 +16,9 @@
  *     FROE_OK, and on any failure its inputs are as they were.
  *   - The last argument `diag` of a call may be NULL; otherwise it receives, on
  *     failure, which object, which coordinate and a sentence.
- *   - Option structs come from their _defaults() function, which sets `size`.
+ *   - Option structs come from their _defaults() function, which sets `size`. They may grow at their end:
+ *     a program goes on to work with later libraries of the same soname, and is refused by earlier ones.
+ *     `reserved` members of other structs are 0, and may become something.
  *   - Callbacks take their `user` pointer first and return false to stop.
  *   - There is no global state. A tree is immutable: any number of threads may
  *     read one. A scene may be filled by one thread at a time.
@@ -43,6 +45,20 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+
+/** name(), a function of this header, returns the defaults of a struct as large as this header has it, and name_into(),
+ * a function of the library, writes as much of them as a caller has room for: bindings that do not compile headers give
+ * it the size that their declaration of the struct has. */
+/* NOLINTBEGIN(bugprone-macro-parentheses): types and names that are declared take none */
+#define FROE_DEFAULTS(type, name)                                                                                      \
+    FROE_API void name##_into(type *out, size_t size);                                                                 \
+    static inline type name(void) {                                                                                    \
+        type made;                                                                                                     \
+        name##_into(&made, sizeof made);                                                                               \
+        return made;                                                                                                   \
+    }                                                                                                                  \
+    FROE_API void name##_into(type *out, size_t size)
+/* NOLINTEND(bugprone-macro-parentheses) */
 
 /* ------------------------------------------------------------------ limits -- */
 
@@ -125,13 +141,14 @@ FROE_API void froe_floats_end(unsigned began);
 
 /** Kinds of objects. All are closed, convex point sets. */
 typedef enum froe_kind {
-    FROE_POINT = 0,   /**< 1 corner, any dimension */
-    FROE_SEGMENT = 1, /**< 2 corners, any dimension */
-    FROE_POLYGON = 2, /**< >= 3 corners in order, planar, convex; dimension 3 */
-    FROE_BOX = 3,     /**< 2 corners lo <= hi, axis-parallel, any dimension */
-    FROE_BALL = 4,    /**< centre, and a radius >= 0, any dimension */
-    FROE_HULL = 5,    /**< convex hull of >= 1 corners, any dimension: a simplex, a polytope */
-    FROE_KIND_COUNT = 6
+    FROE_POINT = 0,      /**< 1 corner, any dimension */
+    FROE_SEGMENT = 1,    /**< 2 corners, any dimension */
+    FROE_POLYGON = 2,    /**< >= 3 corners in order, planar, convex; dimension 3 */
+    FROE_BOX = 3,        /**< 2 corners lo <= hi, axis-parallel, any dimension */
+    FROE_BALL = 4,       /**< centre, and a radius >= 0, any dimension */
+    FROE_HULL = 5,       /**< convex hull of >= 1 corners, any dimension: a simplex, a polytope */
+    FROE_KIND_COUNT = 6, /**< grows with later versions, as every _COUNT does */
+    FROE_KIND_NONE = 255 /**< of an object that does not exist */
 } froe_kind;
 
 /** "point", "segment", "polygon", "box", "ball", "hull"; NULL for other numbers. */
@@ -168,7 +185,7 @@ typedef struct froe_objects {
     void *user;                 /**< for progress */
     unsigned threads;           /**< 0: one per processor; the scene does not depend on it */
 } froe_objects;
-FROE_API froe_objects froe_objects_defaults(void); /**< triangles, none, no groups */
+FROE_DEFAULTS(froe_objects, froe_objects_defaults); /**< triangles, none, no groups */
 
 /** Adds a batch: all of it, or on failure none of it. Zero-length segments,
  * zero-area polygons and duplicates are accepted and keep their ids.
@@ -245,7 +262,7 @@ typedef struct froe_object {
     uint64_t tag;
     double radius; /**< balls; 0 otherwise */
 } froe_object;
-/** An id out of range gives kind and form FROE_KIND_COUNT. */
+/** An id out of range gives kind and form FROE_KIND_NONE. */
 FROE_API froe_object froe_scene_object(const froe_scene *scene, uint32_t object);
 /** Vertex id of a corner (of the form), FROE_NONE if there is none. A polygon's
  * corners may start at another one than given, so that the first three span its plane, and
@@ -334,7 +351,7 @@ typedef struct froe_build_options {
     froe_progress_fn *progress; /**< may be NULL */
     void *user;                 /**< for progress */
 } froe_build_options;
-FROE_API froe_build_options froe_build_defaults(void);
+FROE_DEFAULTS(froe_build_options, froe_build_defaults);
 
 /** A binary space partition with its scene. Immutable. */
 typedef struct froe_tree froe_tree;
@@ -362,6 +379,7 @@ typedef struct froe_predicate_stats {
     uint64_t refined;    /**< decided by doubles with running error */
     uint64_t exact;      /**< decided by exact dyadic numbers */
     uint64_t exact_zero; /**< ... of these, exactly on the plane */
+    uint64_t reserved[2];
 } froe_predicate_stats;
 
 /** One promise of the method, and what was measured. */
@@ -391,6 +409,7 @@ typedef struct froe_report {
     uint64_t bytes;       /**< the tree without the scene */
     froe_predicate_stats predicates; /**< of the build; zero for an opened tree */
     const froe_promise *promises;    /**< ended by a NULL name */
+    uint64_t reserved[8];
 } froe_report;
 FROE_API froe_report froe_tree_report(const froe_tree *tree);
 FROE_API const froe_scene *froe_tree_scene(const froe_tree *tree);
@@ -491,7 +510,7 @@ typedef struct froe_audit_options {
     froe_progress_fn *progress;
     void *user;
 } froe_audit_options;
-FROE_API froe_audit_options froe_audit_defaults(void);
+FROE_DEFAULTS(froe_audit_options, froe_audit_defaults);
 
 /** Checks the whole tree exactly: structure and indices; that every object is
  * exactly the union of its pieces and each list holds exactly the pieces that
@@ -521,6 +540,10 @@ FROE_API bool froe_is_tree(const char *path);
  * a status return what they return for an id that does not exist. */
 FROE_API froe_status froe_tree_open(const char *path, const froe_allocator *alloc, froe_tree **out,
                                     froe_diagnostic *diag);
+/** The same by reading the whole file into memory, so that nothing that happens to the file afterwards matters: for
+ * files that other programs may shorten or write to. O(size). */
+FROE_API froe_status froe_tree_open_copy(const char *path, const froe_allocator *alloc, froe_tree **out,
+                                         froe_diagnostic *diag);
 /** The same of the bytes of a file in memory, which are copied: the caller may free them at once. */
 FROE_API froe_status froe_tree_open_memory(const void *bytes, size_t count, const froe_allocator *alloc,
                                            froe_tree **out, froe_diagnostic *diag);

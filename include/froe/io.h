@@ -49,6 +49,26 @@ extern "C" {
 FROE_API froe_status froe_read(const char *path, const froe_read_options *options, froe_scene **out,
                                froe_read_report *report, froe_diagnostic *diag);
 
+/** An animation of a model as a motion of its triangles in space: of glTF 2 (read from the file itself, with steps and
+ * splines), and of FBX, Collada and others as assimp hands it over, with straight lines and spherical interpolation
+ * between its keys. Times are seconds. Each node that moves, with what hangs on it at rest, is one rigid body
+ * (froe_body), and all that rests is another; groups are as froe_read() makes them.
+ *
+ * A body goes straight and turns along rational arcs from key to key. That is not quite what the file says: turns along
+ * an arc of froe_body run ahead and behind, and parts of parts that turn move along curves. So pieces between two keys
+ * are halved until no corner is farther from its place than options->deviation times the size of the model allows; the
+ * report tells how far one is at most. Where a track steps, the triangles of a part die, and others are born elsewhere.
+ * Before the first key and after the last, all stands still.
+ *
+ * FROE_E_INPUT: no animation; none that moves faces; times that do not increase; NaN; a quaternion whose length is not
+ * 1, within 1/122; a node that does not exist. FROE_E_OPTIONS: no animation of that name, or several and no name.
+ * FROE_E_UNSUPPORTED: skinned meshes, morph targets that move, scales that change (by more than 2^-10 of them), nodes
+ * that turn below one that is scaled by different factors, keys that are compressed, no polygons. A scale that does not
+ * change, mirrored ones too, is allowed otherwise. FROE_E_LIMIT: the deviation cannot be kept. Otherwise as froe_read()
+ * for models. options, report and diag may be NULL. */
+FROE_API froe_status froe_read_animation(const char *path, const froe_motion_read_options *options, froe_motion **out,
+                                         froe_motion_report *report, froe_diagnostic *diag);
+
 /** Writes a part of a tree as froe_export() does, or in the plane for programs of maps, by extension: .gpkg
  * (GeoPackage), .fgb (FlatGeobuf) or .shp (Shapefile, with its .dbf, .shx, .cpg and .prj), by the writers of OGR. The
  * one layer is called as the file is, has the attributes of froe_tree_parts(), and names the coordinate system of the

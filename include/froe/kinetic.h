@@ -33,7 +33,7 @@ typedef struct froe_motion_options {
     double tick;       /**< the grid of time that a kinetic structure walks on: a power of 2, at most 2^52 of them in
                             the window. 0 (default): 2^31 to 2^32 ticks in the window */
 } froe_motion_options;
-FROE_API froe_motion_options froe_motion_defaults(void);
+FROE_DEFAULTS(froe_motion_options, froe_motion_defaults);
 
 /** A motion without objects. alloc is copied; NULL: malloc. FROE_E_OPTIONS, FROE_E_INPUT: the window is empty, endless
  * or NaN, or there is no such dimension. FROE_E_MEMORY. */
@@ -56,7 +56,7 @@ typedef struct froe_body {
     const double *controls; /**< as in froe_moving; NULL: straight */
     const double *turns;    /**< x, y, z, w for each time; NULL: it does not turn */
 } froe_body;
-FROE_API froe_body froe_body_defaults(void);
+FROE_DEFAULTS(froe_body, froe_body_defaults);
 /** Adds a body, which is nothing but a place for vertices (froe_moving.bodies); *id: 0, 1, ... FROE_E_INPUT: a number
  * is NaN or infinite; times do not increase; the square of a quaternion's length, x x + y y + z z + w w in doubles from
  * left to right, is not within 2^-20 of 1; two turns that follow one another are half a turn apart, which does not tell
@@ -91,7 +91,7 @@ typedef struct froe_moving {
     const uint32_t *groups;   /**< group of each object; NULL: `group` for all */
     uint32_t group;           /**< FROE_NONE: no group */
 } froe_moving;
-FROE_API froe_moving froe_moving_defaults(void); /**< none, no groups */
+FROE_DEFAULTS(froe_moving, froe_moving_defaults); /**< none, no groups */
 
 /** Adds a batch: all of it, or on failure none of it. Objects have the ids 0, 1, ... in the order they were added, and
  * so have vertices. FROE_E_INPUT: a coordinate or time is NaN or infinite, times do not increase, a vertex has no plan
@@ -162,6 +162,7 @@ typedef struct froe_contact_statistics {
     uint64_t boxes;      /**< boxes in the plane or space, and in time, that the objects were put in */
     uint64_t candidates; /**< pairs of them that touch */
     uint64_t exact;      /**< of these, not decided by doubles with error bounds */
+    uint64_t reserved[5];
 } froe_contact_statistics;
 
 typedef struct froe_contact_options {
@@ -170,12 +171,15 @@ typedef struct froe_contact_options {
     bool first;      /**< only what may be the first contact of all: one, or several whose beginnings
                           two doubles cannot tell apart */
     bool apart;      /**< leave out pairs of objects of one group */
+    bool neighbours; /**< in space: tell of triangles that share vertices, too, while they have more in common than
+                          these vertices and what is between them. Where that begins or ends at an instant at which
+                          one of them has no area, the instant counts. false (default): leave them out */
     froe_contact_statistics *statistics; /**< filled in on FROE_OK; may be NULL */
     unsigned threads;                    /**< 0: one per processor */
     froe_progress_fn *progress;          /**< may be NULL */
     void *user;                          /**< for progress */
 } froe_contact_options;
-FROE_API froe_contact_options froe_contact_defaults(void); /**< all contacts in the window */
+FROE_DEFAULTS(froe_contact_options, froe_contact_defaults); /**< all contacts in the window */
 
 /** Receives one contact; false stops, which is no failure. */
 typedef bool froe_contact_fn(void *user, const froe_contact *contact);
@@ -184,9 +188,10 @@ typedef bool froe_contact_fn(void *user, const froe_contact *contact);
  * short, grazing ones included: candidates come from boxes in space and time, times from the roots of exact polynomials
  * (degree up to 4 in the plane; in space 3, with bodies that turn 5, along parabolas 6, of a body and a triangle whose
  * corners fly along parabolas each for itself 8). Triangles may lie in one plane, and may have no area, at an instant
- * or always. Objects that share a vertex always meet there, and are left out, as are two of one body. options NULL: the
- * defaults. FROE_E_OPTIONS: from > to, or outside the window. FROE_E_LIMIT: two things happen within 2^-2047 of the
- * time between two knots. FROE_E_MEMORY, FROE_E_CANCELLED. O(n log^2 n + candidates). */
+ * or always. Objects that share a vertex always meet there, and are left out (but see `neighbours`), as are two of one
+ * body. options NULL: the defaults. FROE_E_OPTIONS: from > to, or outside the window. FROE_E_LIMIT: two things happen
+ * within 2^-2047 of the time between two knots. FROE_E_UNSUPPORTED: neighbours in the plane. FROE_E_MEMORY,
+ * FROE_E_CANCELLED. O(n log^2 n + candidates). */
 FROE_API froe_status froe_motion_contacts(const froe_motion *motion, const froe_contact_options *options,
                                           froe_contact_fn *fn, void *user, froe_diagnostic *diag);
 
@@ -211,17 +216,26 @@ typedef struct froe_kinetic_options {
                          direction, not left and right. false (default); not in space */
     bool unchecked; /**< in space: the first contact of triangles is not looked for. Where triangles meet the partition
                          is not what it should be from then on. false (default): it ends before that */
+    unsigned threads; /**< of froe_kinetic_advance(), which changes neither the partition nor the events, nor their
+                         order. 0: one per processor; default: 1. With more than one, events are found ahead, so `visit`
+                         asks for nothing but froe_kinetic_time() and froe_kinetic_instant(), and what
+                         froe_kinetic_stats tells of the work is more. It is one in space, with `epoch`, `swap` or
+                         `augmented`, with few segments, and as long as segments lie in one line */
+    bool ghosts; /**< in space: of two triangles that meet, the one with the greater number is left out from just before
+                      that until it meets none any more that is there; what is told is `touch` of both, `disappear` and
+                      `appear`. So scenes that meet from the start are followed, too. false (default): the partition
+                      ends before the first contact. Not with `unchecked` */
 } froe_kinetic_options;
-FROE_API froe_kinetic_options froe_kinetic_defaults(void);
+FROE_DEFAULTS(froe_kinetic_options, froe_kinetic_defaults);
 
 /** The partition at the first odd tick of the window; in space of triangles, as seen from above, along z. They must
- * not meet, but where they share a vertex: froe_kinetic_advance() ends before the first contact. It does not notice
- * when triangles that share a vertex pass through one another; from then on only froe_kinetic_audit() tells that
- * the partition is wrong. In space the partition is made anew where the plans of more than one triangle in eight
- * take other pieces at a tick, and questions are refused with FROE_E_UNSUPPORTED, as are bodies; a snapshot answers
- * questions. The motion must outlive it. Until it is freed, plans are changed and objects added by the functions
- * below only. FROE_E_ARG: motion, options or out is NULL. FROE_E_OPTIONS: the order is not one, or the options are
- * not from froe_kinetic_defaults(). FROE_E_INPUT: two triangles meet at the start; both are named.
+ * not meet, and those that share vertices must have nothing else in common: froe_kinetic_advance() ends before the
+ * first contact (froe_contact_options.neighbours). In space the partition is made anew where the plans of more than one
+ * triangle in eight take other pieces at a tick, and bodies are refused with FROE_E_UNSUPPORTED, as are questions but
+ * those straight up and down; a snapshot answers the others. The motion must outlive it. Until it is freed, plans are
+ * changed and objects added by the functions below only. FROE_E_ARG: motion, options or out is NULL. FROE_E_OPTIONS:
+ * the order is not one, or the options are not from froe_kinetic_defaults(). FROE_E_INPUT: two triangles meet at the
+ * start; both are named.
  * FROE_E_UNSUPPORTED, FROE_E_MEMORY, FROE_E_CANCELLED. In space, unless `unchecked`, the failures of
  * froe_motion_contacts(), and its time.
  * Expected O(n log^2 n + k log n) for n segments with k crossings. */
@@ -239,20 +253,20 @@ FROE_API void froe_kinetic_watch(froe_kinetic *kinetic, froe_progress_fn *progre
  * contact or a batch says so. Where plans go on or lives begin or end at that very instant, these changes may be all
  * that is told. Nothing is told of segments that touch and go back, and of segments in one line behind a third. */
 typedef enum froe_event_kind {
-    FROE_EVENT_VERTICES,        /**< a vertex passes over or under another; in space all is as seen from above */
-    FROE_EVENT_VERTEX_CROSSING, /**< a vertex passes over or under a crossing */
-    FROE_EVENT_CROSSINGS,       /**< a crossing passes over or under another */
-    FROE_EVENT_CONTACT,         /**< an end of a segment meets another segment, or one in its line */
-    FROE_EVENT_TRIPLE,          /**< three segments meet in one point */
-    FROE_EVENT_TURN,            /**< the ends of a segment change sides */
-    FROE_EVENT_BATCH,           /**< several of these at once, at the same place or one above the other; or points
+    FROE_EVENT_VERTICES = 0,        /**< a vertex passes over or under another; in space all is as seen from above */
+    FROE_EVENT_VERTEX_CROSSING = 1, /**< a vertex passes over or under a crossing */
+    FROE_EVENT_CROSSINGS = 2,       /**< a crossing passes over or under another */
+    FROE_EVENT_CONTACT = 3,         /**< an end of a segment meets another segment, or one in its line */
+    FROE_EVENT_TRIPLE = 4,          /**< three segments meet in one point */
+    FROE_EVENT_TURN = 5,            /**< the ends of a segment change sides */
+    FROE_EVENT_BATCH = 6,           /**< several of these at once, at the same place or one above the other; or points
                                      that pass so closely, within two ticks, that they may meet */
-    FROE_EVENT_PLAN,            /**< the flight of a segment takes another piece */
-    FROE_EVENT_APPEAR,
-    FROE_EVENT_DISAPPEAR,
-    FROE_EVENT_FLOP,  /**< in space: a triangle turns over, as seen from above */
-    FROE_EVENT_TOUCH, /**< in space: two triangles meet, and the partition ends before that */
-    FROE_EVENT_KINDS
+    FROE_EVENT_PLAN = 7,            /**< the flight of a segment takes another piece */
+    FROE_EVENT_APPEAR = 8,
+    FROE_EVENT_DISAPPEAR = 9,
+    FROE_EVENT_FLOP = 10,  /**< in space: a triangle turns over, as seen from above */
+    FROE_EVENT_TOUCH = 11, /**< in space: two triangles meet, and the partition ends before that */
+    FROE_EVENT_KINDS = 12
 } froe_event_kind;
 FROE_API const char *froe_event_name(froe_event_kind kind);
 
@@ -273,11 +287,10 @@ typedef bool froe_event_fn(void *user, const froe_event *event);
 
 /** Lets time go on to `time`, rounded up to an odd tick, and keeps the partition right; `visit` (may be NULL) is called
  * for each event. FROE_E_ARG: the time is before the present or after the window. FROE_E_MEMORY: call again, or free
- * it. FROE_E_CANCELLED: `visit` returned false, and the partition is that right after the event; or the progress
- * function did, and it is that of some moment before `time`. FROE_E_INPUT: two triangles meet before that; they are
- * named, `visit` is called for them, and the partition is that of the last tick before. Expected polylogarithmic in n
- * for each event, if the motion does not depend on the order, and no coordinate is beyond 2^480: then the partition is
- * made anew for each. */
+ * it; events of the last tick may not have been told. FROE_E_CANCELLED: `visit` returned false, and the partition is
+ * that right after the event; or the progress function did, and it is that of some moment before `time`.
+ * FROE_E_INPUT: two triangles meet before that; they are named, `visit` is called for them, and the partition is that
+ * of the last tick before. Expected polylogarithmic in n for each event, if the motion does not depend on the order. */
 FROE_API froe_status froe_kinetic_advance(froe_kinetic *kinetic, double time, froe_event_fn *visit, void *user,
                                           froe_diagnostic *diag);
 /** For visitors, while they are called for an event: when it happened, between two doubles that are next to one another
@@ -318,6 +331,13 @@ typedef struct froe_kinetic_place {
 /** Exact. Expected O(log n), and where something coincides at the tick the number of walls through the point's x. */
 FROE_API froe_status froe_kinetic_locate(froe_kinetic *kinetic, const double at[2], froe_kinetic_place *out,
                                          froe_diagnostic *diag);
+/** The same in space, of triangles, straight up and down in z. `on` contains the point at the tick, borders included.
+ * A point above or below a border is taken as moved in y, and by much less back in x, by less than any number: so it
+ * meets one of two triangles that share an edge, and no upright one. From far above, `below` is what is seen there.
+ * FROE_E_UNSUPPORTED: the partition is one of the plane. Expected O(log^2 n), and where something coincides at the tick
+ * the number of walls, and of triangles in one plane, through the point. */
+FROE_API froe_status froe_kinetic_locate_in_space(froe_kinetic *kinetic, const double at[3], froe_kinetic_place *out,
+                                                  froe_diagnostic *diag);
 /** The first segment met, just after the tick, on the way from one point to another, ends included; FROE_NONE: none. Of
  * those met at one point, any. Exact. Expected O(log n + segments and walls passed). */
 FROE_API froe_status froe_kinetic_ray(froe_kinetic *kinetic, const double from[2], const double to[2], uint32_t *hit,
@@ -330,6 +350,15 @@ typedef bool froe_kinetic_order_fn(void *user, uint32_t object, const double end
  * came before. A segment that the eye is on comes after all that is on its two sides. O(nodes). FROE_E_MEMORY. */
 FROE_API froe_status froe_kinetic_order(froe_kinetic *kinetic, const double eye[2], froe_kinetic_order_fn *visit,
                                         void *user, froe_diagnostic *diag);
+
+/** A fragment of a triangle: what lies over a trapezoid. Its corners, x, y, x, y and so on, counterclockwise from the
+ * lower left, may coincide; they are as rough as the `ends` above. false stops. */
+typedef bool froe_kinetic_layers_fn(void *user, uint32_t object, const double corners[8]);
+/** In space: all fragments, those below first: what comes later is never hidden, seen from above just after the tick,
+ * by what came before. Upright triangles have none. FROE_E_UNSUPPORTED: the partition is one of the plane. O(nodes).
+ * FROE_E_MEMORY. */
+FROE_API froe_status froe_kinetic_layers(froe_kinetic *kinetic, froe_kinetic_layers_fn *visit, void *user,
+                                         froe_diagnostic *diag);
 
 /* Snapshots. Where a vertex is at a tick is a quotient of whole numbers, and a double only where it happens to be one.
  */
@@ -361,7 +390,7 @@ typedef struct froe_snapshot_options {
     bool refuse; /**< rather none than one with rounded places (default: false) */
     bool places; /**< with the table of exact places (default: true) */
 } froe_snapshot_options;
-FROE_API froe_snapshot_options froe_snapshot_defaults(void);
+FROE_DEFAULTS(froe_snapshot_options, froe_snapshot_defaults);
 
 typedef struct froe_snapshot {
     froe_tree *tree;     /**< built by the method `cylindrical`, in the same order of cuts (in space with
@@ -373,6 +402,7 @@ typedef struct froe_snapshot {
                    the partition stood at the tick. Not where something coincides at the tick and not just after it, and
                    not if there are segments without length: they are in the tree, and not in the partition. Nor in
                    space, if there are triangles without area: in the tree they are segments */
+    uint64_t reserved[4];
 } froe_snapshot;
 
 /** The present as an ordinary tree, for all other questions: the segments where they are at the tick itself, not just
@@ -388,7 +418,7 @@ FROE_API froe_status froe_kinetic_snapshot(froe_kinetic *kinetic, const froe_sna
 FROE_API froe_status froe_kinetic_audit(froe_kinetic *kinetic, froe_diagnostic *diag);
 
 typedef struct froe_kinetic_stats {
-    uint64_t events[FROE_EVENT_KINDS];
+    uint64_t events[32];    /**< of each kind */
     uint64_t surgeries;     /**< of slabs */
     uint64_t batches;       /**< groups of certificates that failed together */
     uint64_t crowds;        /**< groups with more at one place than the certificates name, or points that coincide */
@@ -399,6 +429,7 @@ typedef struct froe_kinetic_stats {
     uint64_t certificates_made; /**< whose time of failure had to be found */
     size_t nodes, certificates; /**< at present */
     uint32_t height;            /**< of the tree in nodes, at present */
+    uint64_t reserved[8];
 } froe_kinetic_stats;
 /** O(nodes). */
 FROE_API froe_kinetic_stats froe_kinetic_statistics(const froe_kinetic *kinetic);

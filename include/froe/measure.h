@@ -33,7 +33,7 @@ typedef struct froe_measure_options {
     froe_progress_fn *progress; /**< may be NULL */
     void *user;
 } froe_measure_options;
-FROE_API froe_measure_options froe_measure_defaults(void); /**< 20,000 samples, seed 1, search */
+FROE_DEFAULTS(froe_measure_options, froe_measure_defaults); /**< 20,000 samples, seed 1, search */
 
 /** How values are distributed. All 0 without any. */
 typedef struct froe_spread {
@@ -49,6 +49,7 @@ typedef struct froe_fatness {
     froe_spread flat;   /**< of polygons in space: area over that of the smallest enclosing disc */
     froe_spread sliver; /**< of polygons in space: width across their longest edge, over its length */
     uint64_t thin;      /**< objects without volume: fatness 0 (points, segments; in space polygons, flat solids) */
+    uint64_t reserved[4];
 } froe_fatness;
 /** FROE_E_MEMORY, FROE_E_CANCELLED. FROE_E_UNSUPPORTED: above dimension 3 a hull is no simplex. O(n), but O(corners^2)
  * for polygons and hulls of many corners. */
@@ -68,6 +69,7 @@ typedef struct froe_density {
     uint64_t count;                      /**< objects in the sample */
     double centre[FROE_MAX_DIM], radius; /**< a ball that meets `lower` objects of at least its size */
     froe_spread load; /**< per object: objects of at least its size within three radii of its centre */
+    uint64_t reserved[4];
 } froe_density;
 /** Only balls of the size of an object matter. FROE_E_MEMORY, FROE_E_CANCELLED. O(n log n + sum of loads). */
 FROE_API froe_status froe_measure_density(const froe_scene *scene, froe_size size, const froe_measure_options *options,
@@ -83,6 +85,7 @@ typedef struct froe_clutter {
         hi[FROE_MAX_DIM]; /**< the cube (sides equal up to rounding, and never longer than the first) */
     uint64_t count;       /**< cubes grown */
     froe_spread load;     /**< of the cubes that cannot grow any more */
+    uint64_t reserved[4];
 } froe_clutter;
 /** Grows empty cubes at random places until opposite sides are blocked, and moves the best ones sideways.
  * FROE_E_MEMORY, FROE_E_CANCELLED. O(n log n + samples (log n + loads)). */
@@ -102,6 +105,7 @@ typedef struct froe_directional {
     froe_spread two_directional; /**< most of all faces, widened by much, but on one axis by delta times the side:
                                       least over the choices of that axis, all but the longest */
     froe_spread paired; /**< the same for the two faces across that axis alone: what a tree of linear size needs */
+    uint64_t reserved[4];
 } froe_directional;
 /** Exact counts, up to the rounding of the widened sides. FROE_E_ARG: delta < 0 or not finite. FROE_E_MEMORY,
  * FROE_E_CANCELLED. O(n log n + d^2 samples (log n + counts)); by range trees O((n + d^2 samples) 2^d log^(d - 1) n).
@@ -123,6 +127,7 @@ typedef struct froe_near {
                             of which is on some side of the other nowhere but near it */
     uint32_t first_coplanar[2], first_poking[2];
     double within; /**< the distance */
+    uint64_t reserved[4];
 } froe_near;
 /** The distance is `share` times the largest absolute value of a coordinate. Objects without length or area and
  * duplicates do not count; nor do other kinds, and nothing above dimension 3. threads, progress and user are as of

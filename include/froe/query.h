@@ -47,6 +47,7 @@ typedef struct froe_query_stats {
     uint64_t exact;                  /**< ... of these, decided by exact numbers */
     uint64_t slices;                 /**< lists reported without a test */
     uint64_t steps;                  /**< of searches past the cuts of deep trees or among cubes, each like a node */
+    uint64_t reserved[5];
 } froe_query_stats;
 /** Returns the counts and starts again at 0. */
 FROE_API froe_query_stats froe_query_statistics(froe_query *query);
@@ -106,7 +107,7 @@ typedef struct froe_range {
                                 FROE_E_INPUT for unbounded ranges */
     froe_walk walk;        /**< how to search */
 } froe_range;
-FROE_API froe_range froe_range_defaults(void); /**< a box without points, exact */
+FROE_DEFAULTS(froe_range, froe_range_defaults); /**< a box without points, exact */
 
 /** All objects that meet the range. */
 FROE_API froe_status froe_query_range(froe_query *query, const froe_range *range, froe_list *out,
@@ -276,7 +277,7 @@ typedef struct froe_batch_options {
     froe_progress_fn *progress; /**< may be NULL */
     void *user;
 } froe_batch_options;
-FROE_API froe_batch_options froe_batch_defaults(void);
+FROE_DEFAULTS(froe_batch_options, froe_batch_defaults);
 
 /** The same questions over arrays, on several threads. options NULL: the defaults. The first bad query ends the
  * call: diag->object is its position. The tree's allocator must be callable from several threads at once

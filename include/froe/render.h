@@ -13,6 +13,7 @@
 #define FROE_RENDER_H
 
 #include <froe/froe.h>
+#include <froe/kinetic.h>
 #include <froe/view.h>
 
 #ifdef __cplusplus
@@ -115,7 +116,7 @@ typedef struct froe_render_options {
     froe_progress_fn *progress;
     void *user;
 } froe_render_options;
-FROE_API froe_render_options froe_render_defaults(void);
+FROE_DEFAULTS(froe_render_options, froe_render_defaults);
 
 typedef struct froe_render_report {
     froe_picture_report picture;
@@ -125,6 +126,7 @@ typedef struct froe_render_report {
     uint64_t thin_shapes;     /**< left out, since nothing is left of them in the file's coordinates: */
     uint64_t short_strokes;   /**< in SVG `decimals` digits, otherwise 1/256 of a point or pixel */
     uint64_t paths, bytes;
+    uint64_t reserved[8];
 } froe_render_report;
 
 typedef enum froe_render_format {
@@ -161,6 +163,52 @@ FROE_API froe_status froe_render_write(const froe_tree *tree, froe_render_format
 FROE_API froe_status froe_render_animation(const froe_tree *tree, const char *path, const froe_render_options *options,
                                            const froe_camera *cameras, size_t count, double seconds,
                                            froe_render_report *report, froe_diagnostic *diag);
+
+/* -------------------------------------------------------------------- film -- */
+
+typedef struct froe_film_options {
+    size_t size;       /**< set by froe_film_defaults() */
+    uint32_t frames;   /**< pictures at equal distances in time, the first when the window begins; default 200 */
+    double seconds;    /**< that a round takes; default 8 */
+    uint32_t halvings; /**< 0 .. 20: where one frame shows other faces than the one before, the time between the two is
+                            halved so often; default 4 */
+    bool turn;         /**< the eye goes around once, as froe_camera_turn() has it */
+} froe_film_options;
+FROE_DEFAULTS(froe_film_options, froe_film_defaults);
+
+typedef struct froe_film_report {
+    uint64_t pictures; /**< that were made, each from a tree of its own */
+    uint64_t shown;    /**< of them, each at its time */
+    uint64_t changes;  /**< times between two frames at which other faces come into sight */
+    uint64_t paths;    /**< in the file */
+    uint64_t bytes;
+    double late; /**< no change that was found is shown later than so much, in units of the motion's time */
+    uint64_t reserved[8];
+} froe_film_report;
+
+/** Triangles in motion as one SVG that plays: each picture, taken at its instant, has its hidden surfaces removed as by
+ * froe_render(), exactly, from where its corners are rounded to. A path that stays as it is from one picture to the
+ * next is in the file once. Where nothing moves (in print) the first picture is shown.
+ *
+ * Beside the frames there are pictures of the instants at which objects appear or end, which are known exactly, and of
+ * those at which a face comes into sight or vanishes: they are found by halving between two frames of which one shows
+ * it, so that what comes and goes between two frames is not seen. All other parts of faces grow and shrink from frame
+ * to frame. The camera holds all that moves in up to 33 frames; it is as given if it does not fit. Paths are as with
+ * FROE_IDS_OBJECT. `path` ends in .svg. FROE_E_OPTIONS: layers, interleaved lines, fills that are painted twice; see
+ * froe_render(). FROE_E_UNSUPPORTED: the motion is of the plane. FROE_E_INPUT: nothing is ever there. The time of
+ * froe_build() and froe_render() for each picture. */
+FROE_API froe_status froe_film(const froe_motion *motion, const char *path, const froe_render_options *options,
+                               const froe_film_options *film, froe_film_report *report, froe_diagnostic *diag);
+/** The same bytes to a function, as froe_render_write(). */
+FROE_API froe_status froe_film_write(const froe_motion *motion, froe_write_fn *fn, void *user,
+                                     const froe_render_options *options, const froe_film_options *film,
+                                     froe_film_report *report, froe_diagnostic *diag);
+/** The cameras of `count` pictures of a motion at equal distances in time, as films have them: all equal, unless they
+ * turn. FROE_E_ARG, FROE_E_OPTIONS, FROE_E_UNSUPPORTED, FROE_E_INPUT, FROE_E_MEMORY. */
+FROE_API froe_status froe_film_cameras(const froe_motion *motion, const froe_camera *camera, bool turn, size_t count,
+                                       froe_camera *cameras, froe_diagnostic *diag);
+
+/* ------------------------------------------------------------------- paths -- */
 
 /** Points joined by straight lines, 2 doubles each, in units of the page, y downwards. */
 typedef struct froe_outline {

@@ -37,7 +37,7 @@ typedef struct froe_order_options {
     froe_progress_fn *progress;
     void *user; /**< for progress */
 } froe_order_options;
-FROE_API froe_order_options froe_order_defaults(void);
+FROE_DEFAULTS(froe_order_options, froe_order_defaults);
 
 /** Receives one piece (see froe_tree_piece); false stops. */
 typedef bool froe_order_fn(void *user, size_t piece);
@@ -138,7 +138,7 @@ typedef struct froe_visibility_options {
     froe_progress_fn *progress;  /**< may be NULL */
     void *user;                  /**< for progress */
 } froe_visibility_options;
-FROE_API froe_visibility_options froe_visibility_defaults(void);
+FROE_DEFAULTS(froe_visibility_options, froe_visibility_defaults);
 
 /** What one eye sees. Immutable; belongs to tree and surface, which must outlive it. */
 typedef struct froe_visibility froe_visibility;
@@ -233,6 +233,7 @@ typedef struct froe_visibility_report {
     uint64_t screen_nodes; /**< of the beam tree */
     uint64_t lines;
     froe_predicate_stats predicates;
+    uint64_t reserved[8];
 } froe_visibility_report;
 FROE_API froe_visibility_report froe_visibility_statistics(const froe_visibility *visibility);
 
@@ -251,8 +252,9 @@ typedef struct froe_camera {
     double scale; /**< parallel: page units per unit of the scene; 0 (default): as fits */
     const double *section;        /**< 4 doubles: fit what lies where section[0..2] . x <= section[3]; NULL: all */
     double width, height, margin; /**< of the page; default 1000, 1000, 20 */
+    double reserved[4];
 } froe_camera;
-FROE_API froe_camera froe_camera_defaults(void);
+FROE_DEFAULTS(froe_camera, froe_camera_defaults);
 
 /** A camera put in place. */
 typedef struct froe_projection {
@@ -266,6 +268,7 @@ typedef struct froe_projection {
     double width, height; /**< of the page */
     double window[12];    /**< the page as a window in space: see froe_visibility_options */
     int up_axis;          /**< -1, or the axis that took the place of an `up` along the line of view */
+    double reserved[4];
 } froe_projection;
 /** Computed in doubles by + - * / and square roots alone: the same everywhere. Only the eye, and the window as
  * rounded, decide what is visible. FROE_E_OPTIONS: not from _defaults(), a size, angle or scale out of range.
@@ -325,7 +328,7 @@ typedef struct froe_picture_options {
     froe_progress_fn *progress;
     void *user;
 } froe_picture_options;
-FROE_API froe_picture_options froe_picture_defaults(void);
+FROE_DEFAULTS(froe_picture_options, froe_picture_defaults);
 
 /** Shapes and lines on a page, in the order in which they are painted. Immutable. */
 typedef struct froe_picture froe_picture;
@@ -395,6 +398,7 @@ typedef struct froe_picture_report {
     uint64_t dots;                           /**< points of the scene */
     uint64_t left_out;                       /**< patches, by min_area */
     double left_out_area;                    /**< of all of them together */
+    uint64_t reserved[8];
 } froe_picture_report;
 FROE_API froe_picture_report froe_picture_statistics(const froe_picture *picture);
 

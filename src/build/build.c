@@ -23,9 +23,10 @@ const froe_method_info *froe_method_at(size_t i) {
     return i < METHOD_COUNT ? &methods[i]->info : NULL;
 }
 
-froe_build_options froe_build_defaults(void) {
-    return (froe_build_options){
-        .size = sizeof(froe_build_options), .method = "auto", .purpose = "pieces", .leaf = FROE_LEAF_OWN, .seed = 1};
+void froe_build_defaults_into(froe_build_options *out, size_t size) {
+    const froe_build_options all = {
+        .size = size, .method = "auto", .purpose = "pieces", .leaf = FROE_LEAF_OWN, .seed = 1};
+    support_defaults(out, size, &all, sizeof all);
 }
 
 split_job build_split_job(const build_job *job) {

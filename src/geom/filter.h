@@ -28,6 +28,16 @@ static inline double filter_lift(double most) {
     return ldexp(1, exponent < -1000 ? 1000 : -exponent);
 }
 
+/* A power of two for a normal of differences that were lifted from below 2^-800: it becomes about 2^200 long. So its
+ * product with a difference of denormal numbers is no less than 2^-874, which NUM_BALL_TINY does not hide, and one of
+ * three such normals is still a double. 1 for all others. */
+static inline double filter_raise(double lift, double most) {
+    int exponent;
+    if (lift < 0x1p800 || !(most > 0) || most >= 0x1p200) return 1;
+    frexp(most, &exponent);
+    return ldexp(1, exponent < -800 ? 1000 : 200 - exponent);
+}
+
 /* sum n[k] w[k] - c, where w[k] = fl(x[k] - o[k]) has relative error u.
  *
  * Let P = sum |n[k] w[k]| + |c|. Each term suffers one rounding in w, one in the product and at
@@ -95,7 +105,10 @@ typedef struct filter_line {
 static inline filter_line filter_line_through(const double *p, const double *q, bool trusted) {
     filter_line h = {{p[0], p[1]}, {p[1] - q[1], q[0] - p[0]}, INFINITY};
     const double lift = filter_lift(fmax(fabs(h.n[0]), fabs(h.n[1])));
-    if (lift != 1) h.n[0] *= lift, h.n[1] *= lift;
+    if (lift != 1) {
+        const double raise = filter_raise(lift, lift * fmax(fabs(h.n[0]), fabs(h.n[1])));
+        for (int k = 0; k < 2; k++) h.n[k] = h.n[k] * lift * raise;
+    }
     if (trusted) h.n_err = 2 * FILTER_U * (fabs(h.n[0]) + fabs(h.n[1]));
     return h;
 }

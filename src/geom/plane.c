@@ -11,8 +11,8 @@ static geom_plane blank(geom_form form, int dim) {
 }
 
 /* The same plane with all coordinates multiplied by a power of two, so that its points are about 1 apart where their
- * differences are tiny. False: not needed, or it would overflow. */
-static bool lifted(const geom_plane *plane, geom_plane *out) {
+ * differences are tiny. That power; 1: not needed, or it would overflow. */
+static double lifted(const geom_plane *plane, geom_plane *out) {
     int points = plane->form == GEOM_POINTS ? plane->dim : 2, dim = plane->form == GEOM_POINTS ? plane->dim : 2;
     double most = 0, largest = 0;
     for (int i = 0; i < points; i++)
@@ -21,11 +21,15 @@ static bool lifted(const geom_plane *plane, geom_plane *out) {
             largest = filter_greater(largest, fabs(plane->p[i][k]));
         }
     double lift = filter_lift(most);
-    if (lift == 1 || !(largest * lift <= 0x1p500)) return false;
+    if (lift == 1 || !(largest * lift <= 0x1p500)) return 1;
     *out = *plane;
     for (int i = 0; i < points; i++)
         for (int k = 0; k < dim; k++) out->p[i][k] *= lift;
-    return true;
+    return lift;
+}
+
+static double largest_of(const num_ball n[3]) {
+    return filter_greater(filter_greater(fabs(n[0].x), fabs(n[1].x)), fabs(n[2].x));
 }
 
 /* Fills n, n_max and n_err from the defining points. The bound is rounded up once more, so that
@@ -36,8 +40,12 @@ static void image_normal(geom_plane *plane) {
     geom_plane multiple;
     plane->n_err = INFINITY; /* n not known yet */
     plane_normal_ball(NULL, plane, n);
-    const double largest = filter_greater(filter_greater(fabs(n[0].x), fabs(n[1].x)), fabs(n[2].x));
-    if (largest < FILTER_SMALL && lifted(plane, &multiple)) plane_normal_ball(NULL, &multiple, n);
+    const double lift = largest_of(n) < FILTER_SMALL ? lifted(plane, &multiple) : 1;
+    if (lift != 1) {
+        plane_normal_ball(NULL, &multiple, n);
+        const double raise = filter_raise(lift, largest_of(n));
+        for (int k = 0; k < 3; k++) n[k].x *= raise, n[k].e *= raise;
+    }
     double most = 0, error = 0;
     bool certain = num_rounding_trusted();
     for (int k = 0; k < 3; k++) {

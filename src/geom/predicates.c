@@ -128,10 +128,19 @@ int geom_side_vertex(num_context *context, const geom_plane *plane, const double
 
 /* ---------------------------------------------------------------- crossing -- */
 
+/* Both are multiplied by one power of two where they are tiny, since products of two tiny numbers underflow. */
+static void lift_both(num_ball *a, num_ball *b) {
+    const double lift = filter_lift(filter_greater(fabs(a->x) + a->e, fabs(b->x) + b->e));
+    if (lift == 1) return;
+    a->x *= lift, a->e *= lift;
+    b->x *= lift, b->e *= lift;
+}
+
 static int crossing_filter(const geom_plane *h, const double *u, const double *v, const geom_plane *a) {
-    num_ball divisor = filter_slope(a, u, v);
+    num_ball divisor = filter_slope(a, u, v), value = filter_value(a, u);
+    lift_both(&divisor, &value);
     num_ball at_u = filter_mul(filter_value(h, u), divisor);
-    num_ball along = filter_mul(filter_slope(h, u, v), filter_value(a, u));
+    num_ball along = filter_mul(filter_slope(h, u, v), value);
     return num_quotient_sign(filter_sign(filter_sub(at_u, along)), filter_sign(divisor));
 }
 

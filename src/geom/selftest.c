@@ -65,6 +65,7 @@ static geom_plane plane_of(int dim, const double *p) {
 
 /* NUM_UNSURE, or the answer if all that is known of it agrees; another number if not. */
 static int agreed(int a, int b) {
+    /* one way: builds that compute as written; scripts/check-selftest makes others */
     return a == NUM_UNSURE ? b : b == NUM_UNSURE || a == b ? a : 3;
 }
 
@@ -116,7 +117,7 @@ static int answer_case(num_context *context, formula f, const double *p) {
     const int dim = f == VERTEX_2 || f == CROSSING_2 || f == BALL_2 ? 2 : 3;
     geom_plane h = f <= EYE_AFAR ? plane_of(dim, p) : (geom_plane){.dim = 3};
     geom_eye eye;
-    switch (f) {
+    switch (f) { /* one way: there is a case for each formula */
     case VERTEX_2:
     case VERTEX_3:
         return agreed(dim == 3 ? geom_side_of_eye_filter(p, p + 3, p + 6, &(geom_eye){.at = {p[9], p[10], p[11]}})
@@ -145,7 +146,7 @@ static int answer_case(num_context *context, formula f, const double *p) {
         return case_meeting(context, p);
     case RAY:
         return meets(context, p);
-    case FORMULAS:
+    case FORMULAS: /* one way: that is their number */
         break;
     }
     return NUM_UNSURE;
@@ -156,6 +157,7 @@ const char *geom_formula_at_fault(num_context *context) {
         double points[3 * HARD_POINTS];
         for (int k = 0; k < 3 * HARD_POINTS; k++) points[k] = cases[i].tenths[k] * 0.1;
         const int found = answer_case(context, cases[i].formula, points);
+        /* one way: builds that compute as written; scripts/check-selftest makes others */
         if (found != NUM_UNSURE && found != cases[i].right) return names[cases[i].formula];
     }
     return NULL;
@@ -165,6 +167,7 @@ froe_status geom_context_new(const froe_allocator *alloc, num_context *out) {
     num_context context;
     const froe_status status = num_context_new(alloc, &context);
     if (status) return status;
+    /* one way: builds that compute as written; scripts/check-selftest makes others */
     if (context.first != NUM_EXACT && geom_formula_at_fault(&context)) context.first = NUM_EXACT;
     context.stats = (froe_predicate_stats){0};
     *out = context;

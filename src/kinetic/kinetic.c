@@ -7,8 +7,9 @@
 #include "kinetic/event/triangle.h"
 #include "support/fail.h"
 
-froe_kinetic_options froe_kinetic_defaults(void) {
-    return (froe_kinetic_options){.size = sizeof(froe_kinetic_options), .seed = 1};
+void froe_kinetic_defaults_into(froe_kinetic_options *out, size_t size) {
+    const froe_kinetic_options all = {.size = size, .seed = 1, .threads = 1};
+    support_defaults(out, size, &all, sizeof all);
 }
 
 const char *froe_event_name(froe_event_kind kind) {
@@ -26,27 +27,31 @@ void froe_kinetic_watch(froe_kinetic *k, froe_progress_fn *progress, void *user)
     k->options.user = user;
 }
 
+void kinetic_make_anew(froe_kinetic *k) {
+    const bool space = now_is_in_space(&k->now);
+    if (space) triangle_enroll_all(k);
+    for (uint32_t s = 0; s < k->tree.segments.count && !space; s++) {
+        collinear_forget(k, s);
+        for (int i = 0; i < 4; i++) /* certificates of ends may be about pieces of plans that have ended since */
+            cert_forget(&k->certs, k->certs.segments.data[s].end[i / 2] + i % 2);
+        change_unroll(k, s);
+        change_schedule(k, s);
+        if (now_is_alive(&k->now, s)) change_enroll(k, s);
+        call_poll(&k->call);
+    }
+    if (!k->call.stopped) surgery_restart(k);
+}
+
 froe_status kinetic_settle(froe_kinetic *k, froe_diagnostic *diag) {
     if (k->call.stopped && !base_cancelled(&k->call.task)) {
         k->call.stopped = false;
-        const bool space = now_is_in_space(&k->now);
-        if (space) triangle_enroll_all(k);
-        for (uint32_t s = 0; s < k->tree.segments.count && !space; s++) {
-            collinear_forget(k, s);
-            for (int i = 0; i < 4; i++) /* certificates of ends may be about pieces of plans that have ended since */
-                cert_forget(&k->certs, k->certs.segments.data[s].end[i / 2] + i % 2);
-            change_unroll(k, s);
-            change_schedule(k, s);
-            if (now_is_alive(&k->now, s)) change_enroll(k, s);
-            call_poll(&k->call);
-        }
-        if (!k->call.stopped) surgery_restart(k);
+        kinetic_make_anew(k);
     }
     return k->call.stopped ? call_fail(&k->call, diag) : FROE_OK;
 }
 
 froe_status kinetic_begin(froe_kinetic *k, froe_diagnostic *diag) {
-    base_task_init(&k->call.task, 1, k->options.progress, k->options.user);
+    base_task_init(&k->call.task, k->options.threads, k->options.progress, k->options.user);
     now_catch_up(&k->now);
     return kinetic_settle(k, diag);
 }
@@ -89,14 +94,15 @@ static froe_status grow_tables(froe_kinetic *k) {
     return FROE_OK;
 }
 
-static froe_status new_at(froe_motion *motion, const froe_allocator *memory, const froe_kinetic_options *options,
-                          int64_t tick, froe_kinetic **out) {
+froe_status kinetic_new_at(froe_motion *motion, const froe_allocator *memory, const froe_kinetic_options *options,
+                           int64_t tick, froe_kinetic **out) {
     froe_kinetic *k = support_calloc(memory, 1, sizeof *k);
     if (!k) return FROE_E_MEMORY;
     k->call.alloc = *memory;
     k->options = *options;
     k->collinear.first_free = FROE_NONE;
     k->participants.call = &k->call;
+    k->ranges.tuning = ranges_defaults();
     k->tree = (ktree){.call = &k->call, .now = &k->now, .augmented = options->augmented};
     base_task_init(&k->call.task, 1, options->progress, options->user);
     if (now_new(motion, memory, &k->now)) {
@@ -116,12 +122,14 @@ static froe_status new_at(froe_motion *motion, const froe_allocator *memory, con
 
 froe_status kinetic_copy(froe_kinetic *k, froe_kinetic **out, froe_diagnostic *diag) {
     froe_kinetic *copy;
-    if (new_at(k->now.motion, &k->call.alloc, &k->options, k->now.tick, &copy)) return support_fail_memory(diag);
+    if (kinetic_new_at(k->now.motion, &k->call.alloc, &k->options, k->now.tick, &copy))
+        return support_fail_memory(diag);
     for (uint32_t s = 0; s < k->tree.segments.count; s++) {
         ktree_segment_at(&copy->tree, s)->key = ktree_segment_at(&k->tree, s)->key;
         if (ktree_segment_at(&k->tree, s)->alive && k->now.motion->dim == 2) change_enroll(copy, s);
         call_poll(&copy->call);
     }
+    for (size_t o = 0; o < k->now.faces.count; o++) copy->now.faces.data[o].ghost = k->now.faces.data[o].ghost;
     if (k->now.motion->dim == 3) triangle_enroll_all(copy);
     if (!copy->call.stopped) surgery_restart(copy);
     if (!copy->call.stopped) {
@@ -176,6 +184,8 @@ static froe_status start(froe_kinetic *k, froe_diagnostic *diag) {
     const bool space = k->now.motion->dim == 3;
     froe_status status = take_order(k, diag);
     if (status) return status;
+    if (k->options.ghosts) status = touch_find(k, diag);
+    if (status) return status;
     if (space) triangle_enroll_all(k);
     for (uint32_t s = 0; s < k->tree.segments.count && !space; s++) {
         change_schedule(k, s);
@@ -198,10 +208,12 @@ froe_status froe_kinetic_new(froe_motion *motion, const froe_kinetic_options *op
         return support_fail(diag, FROE_E_UNSUPPORTED, "A partition in space is not augmented.");
     if (motion->dim == 3 && options->swap)
         return support_fail(diag, FROE_E_UNSUPPORTED, "The order of a partition in space changes in epochs alone.");
+    if (options->ghosts && (options->unchecked || motion->dim == 2))
+        return support_fail(diag, FROE_E_OPTIONS, "Ghosts are triangles in space, whose contacts are looked for.");
     if (motion->bodies.count) return refuse_bodies(diag);
     froe_allocator memory = support_allocator(alloc);
     froe_kinetic *k;
-    if (new_at(motion, &memory, options, 1, &k)) return support_fail_memory(diag);
+    if (kinetic_new_at(motion, &memory, options, 1, &k)) return support_fail_memory(diag);
     froe_status status = start(k, diag);
     k->options.order = NULL; /* the caller's */
     if (status)
@@ -223,10 +235,13 @@ void froe_kinetic_free(froe_kinetic *k) {
     array_free(&alloc, &k->participants.list);
     array_free(&alloc, &k->participants.stamps);
     array_free(&alloc, &k->participants.places);
+    array_free(&alloc, &k->ranges.places);
     array_free(&alloc, &k->surgery.tasks);
     array_free(&alloc, &k->surgery.cuttings);
     array_free(&alloc, &k->surgery.scratch);
     array_free(&alloc, &k->surgery.kept);
+    array_free(&alloc, &k->surgery.parts);
+    array_free(&alloc, &k->surgery.orders);
     array_free(&alloc, &k->events.items);
     array_free(&alloc, &k->events.order);
     array_free(&alloc, &k->events.roots);
@@ -236,6 +251,7 @@ void froe_kinetic_free(froe_kinetic *k) {
     array_free(&alloc, &k->events.renewed);
     array_free(&alloc, &k->events.turning);
     array_free(&alloc, &k->events.flopping);
+    ghost_free(k);
     now_free(&k->now);
     support_free(&alloc, k, sizeof *k);
 }
@@ -255,7 +271,7 @@ double froe_kinetic_next(const froe_kinetic *k) {
     return time;
 }
 
-static uint64_t events_so_far(const froe_kinetic *k) {
+uint64_t kinetic_event_count(const froe_kinetic *k) {
     uint64_t events = 0;
     for (int i = 0; i < FROE_EVENT_KINDS; i++) events += k->counts.events[i];
     return events;
@@ -277,12 +293,12 @@ static void swap_two(froe_kinetic *k) {
  * transpositions", 1981: n log n / 2 of them make any order as good as random). */
 static void swap_order(froe_kinetic *k) {
     if (!k->options.swap) return;
-    while (k->swaps < events_so_far(k) / k->options.swap && !k->call.stopped) swap_two(k);
+    while (k->swaps < kinetic_event_count(k) / k->options.swap && !k->call.stopped) swap_two(k);
 }
 
 /* After enough events, a new random order for everything. */
 static void end_epoch(froe_kinetic *k) {
-    const uint64_t events = events_so_far(k);
+    const uint64_t events = kinetic_event_count(k);
     if (!k->options.epoch || events - k->epoch_events < k->options.epoch) return;
     k->epoch++;
     for (uint32_t o = 0; o < object_count(k); o++) *key_of(k, o) = random_key(k, o) | edges_before(k);
@@ -307,13 +323,18 @@ froe_status froe_kinetic_advance(froe_kinetic *k, double time, froe_event_fn *vi
     while (!status && k->now.tick < tick) {
         if (!base_progress(&k->call.task, (double)(k->now.tick - from) / (double)(tick - from)))
             return call_fail(&k->call, diag);
-        bool go_on = event_step(k, tick, &watcher);
-        status = kinetic_settle(k, diag);
+        bool go_on = true;
+        const int64_t stop = ghost_next(k) < tick ? ghost_next(k) : tick;
+        if (!ranges_advance(k, stop, &watcher, &go_on, diag, &status)) go_on = event_step(k, stop, &watcher);
+        if (!status && !k->call.stopped && k->now.tick == ghost_next(k)) go_on &= ghost_apply(k, &watcher);
+        const bool short_of_memory = k->call.stopped && !base_cancelled(&k->call.task);
+        if (!status) status = kinetic_settle(k, diag);
+        if (!status && short_of_memory && visit) status = support_fail_memory(diag); /* some were not told */
         if (!status) end_epoch(k), swap_order(k), status = kinetic_settle(k, diag);
         if (!go_on && !status) return support_fail(diag, FROE_E_CANCELLED, "The visitor stopped the call.");
     }
     if (status || !touching) return status;
-    touch_tell(k, &watcher);
+    touch_tell(k, &watcher, &k->touch.first);
     return touch_refuse(k, diag);
 }
 
@@ -333,7 +354,7 @@ froe_status froe_kinetic_update(froe_kinetic *k, froe_diagnostic *diag) {
         if (now_is_alive(&k->now, o)) change_insert(k, s);
         status = kinetic_settle(k, diag);
     }
-    return status;
+    return status || !k->options.ghosts ? status : touch_find(k, diag);
 }
 
 froe_status froe_kinetic_remove(froe_kinetic *k, uint32_t object, froe_diagnostic *diag) {
@@ -396,6 +417,7 @@ froe_status froe_kinetic_replan(froe_kinetic *k, uint32_t vertex, size_t count, 
     }
     k->events.leaving.count = 0;
     settled = kinetic_settle(k, status ? NULL : diag);
+    if (!settled && k->options.ghosts) settled = touch_find(k, status ? NULL : diag);
     return status ? status : settled;
 }
 

@@ -10,7 +10,9 @@
 #include "kinetic/event/event.h"
 #include "kinetic/event/participants.h"
 #include "kinetic/event/surgery.h"
+#include "kinetic/ghost.h"
 #include "kinetic/now/now.h"
+#include "kinetic/range/ranges.h"
 #include "kinetic/touch.h"
 #include "kinetic/tree/ktree.h"
 
@@ -25,9 +27,11 @@ struct froe_kinetic {
     surgery_work surgery;
     event_state events;
     touch_state touch;
+    ghost_state ghosts;
     froe_kinetic_options options;
     uint64_t epoch, epoch_events; /**< orders drawn so far, events until the last */
     uint64_t swaps;               /**< of two objects in the order, so far */
+    ranges_state ranges;
     froe_kinetic_stats counts;
 };
 
@@ -35,6 +39,13 @@ struct froe_kinetic {
 froe_status kinetic_begin(froe_kinetic *k, froe_diagnostic *diag);
 /** Ends a call or a part of it: where memory ran out, makes everything anew, for which memory may suffice now. */
 froe_status kinetic_settle(froe_kinetic *k, froe_diagnostic *diag);
+/** A partition at a tick that nothing takes part in yet, and no object has a place in the order. FROE_E_MEMORY. */
+froe_status kinetic_new_at(froe_motion *motion, const froe_allocator *memory, const froe_kinetic_options *options,
+                           int64_t tick, froe_kinetic **out);
+/** Makes the tree and all certificates anew of what is there at the present tick. May stop the call. */
+void kinetic_make_anew(froe_kinetic *k);
+/** How many events there were so far. */
+uint64_t kinetic_event_count(const froe_kinetic *k);
 /** The same segments in the same order at the same time, made from scratch, as a part of the call under way. */
 froe_status kinetic_copy(froe_kinetic *k, froe_kinetic **out, froe_diagnostic *diag);
 /** FROE_E_UNSUPPORTED: what is there in the plane alone. */

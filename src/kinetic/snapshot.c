@@ -6,8 +6,9 @@
 #include "scene/scene.h"
 #include "support/fail.h"
 
-froe_snapshot_options froe_snapshot_defaults(void) {
-    return (froe_snapshot_options){.size = sizeof(froe_snapshot_options), .places = true};
+void froe_snapshot_defaults_into(froe_snapshot_options *out, size_t size) {
+    const froe_snapshot_options all = {.size = size, .places = true};
+    support_defaults(out, size, &all, sizeof all);
 }
 
 typedef struct snapshot_work {

@@ -9,8 +9,7 @@ static bool take_first(void *user, const froe_contact *contact) {
     return false;
 }
 
-/* The last odd tick at which a time has not come yet. */
-static int64_t odd_tick_before(const now_state *now, double time) {
+int64_t touch_tick_before(const now_state *now, double time) {
     int64_t tick = motion_tick_before(now->motion, time);
     if (now_time_of(now, tick) >= time) tick--;
     return tick & 1 ? tick : tick - 1;
@@ -21,19 +20,27 @@ froe_status touch_find(froe_kinetic *k, froe_diagnostic *diag) {
     const froe_motion *m = k->now.motion;
     if (!now_is_in_space(&k->now) || k->options.unchecked) return FROE_OK;
     if (t->known && t->edition == m->edition) return FROE_OK;
+    if (k->options.ghosts) {
+        const froe_status found = ghost_find(k, diag);
+        if (found) return found;
+        *t = (touch_state){.known = true, .edition = m->edition, .last = NOW_NEVER};
+        ghost_apply(k, NULL);
+        return kinetic_settle(k, diag);
+    }
     froe_contact_options o = froe_contact_defaults();
-    o.from = now_time_of(&k->now, k->now.tick), o.first = true, o.threads = 1;
+    o.from = now_time_of(&k->now, k->now.tick), o.first = o.neighbours = true, o.threads = 1;
     o.progress = k->options.progress, o.user = k->options.user;
     froe_contact first = {.a = FROE_NONE};
     const froe_status status = froe_motion_contacts(m, &o, take_first, &first, diag);
     if (status) return status;
     *t = (touch_state){.known = true, .edition = m->edition, .last = NOW_NEVER, .first = first};
-    if (first.a != FROE_NONE) t->last = odd_tick_before(&k->now, first.begin[0]);
+    if (first.a != FROE_NONE) t->last = touch_tick_before(&k->now, first.begin[0]);
     return FROE_OK;
 }
 
-void touch_tell(froe_kinetic *k, const event_watcher *watcher) {
-    const froe_contact *c = &k->touch.first;
+bool touch_tell(froe_kinetic *k, const event_watcher *watcher, const froe_contact *c) {
+    bool go_on = true;
+    k->touch.first = *c;
     const froe_event event = {.kind = FROE_EVENT_TOUCH,
                               .objects = {c->a, c->b},
                               .object_count = 2,
@@ -42,9 +49,10 @@ void touch_tell(froe_kinetic *k, const event_watcher *watcher) {
                               .late = c->begin[1]};
     k->counts.events[FROE_EVENT_TOUCH]++;
     k->touch.reporting = true;
-    if (watcher->visit) base_callback(watcher->visit(watcher->user, &event));
+    if (watcher->visit) go_on = base_callback(watcher->visit(watcher->user, &event));
     k->touch.reporting = false;
     now_catch_up(&k->now);
+    return go_on;
 }
 
 froe_status touch_refuse(const froe_kinetic *k, froe_diagnostic *diag) {

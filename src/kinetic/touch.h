@@ -6,17 +6,20 @@
 #include <froe/kinetic.h>
 
 typedef struct touch_state {
-    bool known;       /**< the contact is that of the plans of this edition of the motion */
-    uint64_t edition; /**< of the motion */
-    int64_t last;     /**< the last odd tick before the first contact, at least -1; NOW_NEVER: there is none */
-    froe_contact first;
-    bool reporting; /**< a visitor is in the callback of that contact */
+    bool known;         /**< the contact is that of the plans of this edition of the motion */
+    uint64_t edition;   /**< of the motion */
+    int64_t last;       /**< the last odd tick before the first contact, at least -1; NOW_NEVER: there is none */
+    froe_contact first; /**< or the one that is told */
+    bool reporting;     /**< a visitor is in the callback of that contact */
 } touch_state;
 
-/** Finds the first contact from the present on, if plans have changed since. The failures of froe_motion_contacts(). */
+/** Finds the first contact from the present on, or all if ghosts are wanted, if plans have changed since. Then ghosts
+ * are those of the present. The failures of froe_motion_contacts(). */
 froe_status touch_find(froe_kinetic *k, froe_diagnostic *diag);
-/** Calls a visitor for the first contact. */
-void touch_tell(froe_kinetic *k, const event_watcher *watcher);
+/** The last odd tick at which a time has not come yet. */
+int64_t touch_tick_before(const now_state *now, double time);
+/** Calls a visitor for a contact. False: it asked to stop. */
+bool touch_tell(froe_kinetic *k, const event_watcher *watcher, const froe_contact *contact);
 /** FROE_E_INPUT: tells which triangles meet, and when. */
 froe_status touch_refuse(const froe_kinetic *k, froe_diagnostic *diag);
 #endif

@@ -105,7 +105,9 @@ froe_status froe_measure_near(const froe_scene *scene, double share, unsigned th
         return support_fail(diag, FROE_E_ARG, "The share within which objects are near is not from 0 to 1.");
     const froe_status settled = scene_settle(scene, diag);
     if (settled) return settled;
-    froe_near found = {0, 0, {FROE_NONE, FROE_NONE}, {FROE_NONE, FROE_NONE}, share * largest_coordinate(scene)};
+    froe_near found = {.first_coplanar = {FROE_NONE, FROE_NONE},
+                       .first_poking = {FROE_NONE, FROE_NONE},
+                       .within = share * largest_coordinate(scene)};
     near_survey v = {.within = found.within};
     froe_status status = measure_survey_begin(scene, threads, progress, user, &v.of);
     if (!status) status = look_at_near_pairs(&v);

@@ -4,8 +4,9 @@
 #include "base/random.h"
 #include "support/fail.h"
 
-froe_measure_options froe_measure_defaults(void) {
-    return (froe_measure_options){.size = sizeof(froe_measure_options), .samples = 20000, .seed = 1};
+void froe_measure_defaults_into(froe_measure_options *out, size_t size) {
+    const froe_measure_options all = {.size = size, .samples = 20000, .seed = 1};
+    support_defaults(out, size, &all, sizeof all);
 }
 
 froe_status measure_sample_begin(const froe_scene *scene, const froe_measure_options *options, const void *out,

@@ -210,12 +210,12 @@ num_dyadic num_dyadic_divide(num_arena *arena, num_dyadic a, num_dyadic b) {
     const int shift = __builtin_ctzll(b.limbs[0]);
     if (shift) b = num_dyadic_mul(arena, b, num_dyadic_scaled(arena, 1, 1, 64 - shift)); /* 2^(64 - shift) / 2^64 */
     const uint64_t inverse = inverse_of(b.limbs[0]);
-    const uint32_t count = a.count < b.count ? 0 : a.count - b.count + 1;
+    const uint32_t count = a.count - b.count + 1; /* lowest limbs are not 0: no product has fewer limbs than a factor */
     uint64_t *rest = spread_limbs(arena, a, a.exponent, a.count), *quotient = take_limbs(arena, count);
     for (uint32_t i = 0; i < count; i++) {
         quotient[i] = rest[i] * inverse;
         uint64_t carry = 0;
-        for (uint32_t j = 0; j < b.count && i + j < a.count && quotient[i]; j++) {
+        for (uint32_t j = 0; j < b.count && quotient[i]; j++) { /* i + j < a.count */
             const wide product = (wide)quotient[i] * b.limbs[j] + carry;
             const uint64_t low = (uint64_t)product;
             carry = (uint64_t)(product >> 64) + (rest[i + j] < low);

@@ -178,7 +178,8 @@ static bool find_by_balls(num_isolation *out) {
         patch p = stack[--count];
         int sign[NUM_DEGREE + 1];
         const int changes = num_ball_poly_changes(&p.f, sign);
-        if (sign[0] == NUM_UNSURE || !sign[0] || sign[p.f.degree] == NUM_UNSURE || !sign[p.f.degree]) return false;
+        /* the low end is no root: 0 is none, and others were the high end of a patch before */
+        if (sign[0] == NUM_UNSURE || sign[p.f.degree] == NUM_UNSURE || !sign[p.f.degree]) return false;
         if (changes == 0) continue;
         if (changes == 1) {
             num_isolated *root = &out->root[out->count++];

@@ -92,7 +92,7 @@ static void keep_coefficients(num_arena *arena, size_t mark, num_poly *f) {
 
 /* The next of a chain that ends with a, b: -remainder / (g h^(deg a - deg b)); g and h go on to the next step. */
 static num_poly next_in_chain(num_arena *arena, const num_poly *a, const num_poly *b, shrinking *s) {
-    const int drop = a->degree - b->degree;
+    const int drop = a->degree - b->degree; /* > 0 */
     const size_t mark = arena->top;
     num_poly r = remainder_of(arena, *a, b);
     const num_dyadic by = num_dyadic_mul(arena, s->g, power_of(arena, s->h, drop));
@@ -103,10 +103,8 @@ static num_poly next_in_chain(num_arena *arena, const num_poly *a, const num_pol
     keep_coefficients(arena, mark, &r);
     s->g = b->c[b->degree];
     s->g.sign = 1;
-    if (drop > 0) {
-        const num_dyadic top = power_of(arena, s->g, drop);
-        s->h = drop > 1 ? num_dyadic_divide(arena, top, power_of(arena, s->h, drop - 1)) : top;
-    }
+    const num_dyadic top = power_of(arena, s->g, drop);
+    s->h = drop > 1 ? num_dyadic_divide(arena, top, power_of(arena, s->h, drop - 1)) : top;
     return r;
 }
 

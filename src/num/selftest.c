@@ -23,45 +23,9 @@ bool num_rounding_trusted(void) {
 }
 #endif
 
-static bool rounds_to_nearest_even(void) {
-    volatile double one = 1, half_ulp = 0x1p-53, ulp = 0x1p-52;
-    volatile double even = (one + ulp) + half_ulp, minus = -one - half_ulp, third = one / 3;
-    return fegetround() == FE_TONEAREST && num_rounding_trusted() && even == 1 + 0x1p-51 && minus == -1 &&
-           third == 0x1.5555555555555p-2;
-}
-
-/* Extended precision (x87) would round twice: 1 + (2^-53 + 2^-64) must give 1 + 2^-52. */
-static bool rounds_once(void) {
-    volatile double one = 1, bit = 0x1p-53 + 0x1p-64, sum = one + bit;
-    volatile double big = DBL_MAX, product = big * 2;
-    return sum == 1 + 0x1p-52 && isinf(product);
-}
-
-/* (1 + 2^-27)^2 = 1 + 2^-26 + 2^-54 loses its last bit, unless mul and add were fused. */
-static bool contracts_nothing(void) {
-    volatile double factor = 1 + 0x1p-27, rounded = 1 + 0x1p-26;
-    double a = factor, b = rounded, difference = a * a - b;
-    return difference == 0;
-}
-
-static bool fuses_on_demand(void) {
-    volatile double factor = 1 + 0x1p-27;
-    double a = factor, p = a * a;
-    return fma(a, a, -p) == 0x1p-54;
-}
-
-static bool underflows_gradually(void) {
-    volatile double smallest = DBL_MIN, half = 0.5, denormal = smallest * half, restored = denormal * 2;
-    volatile double least = 0x1p-1074, lifted = least * 0x1p1000;
-    return denormal > 0 && denormal < smallest && restored == smallest && lifted == 0x1p-74;
-}
-
-/* TwoSum and its like must not be "simplified" by a compiler that treats doubles as real numbers. */
-static bool keeps_residues(void) {
-    volatile double big = 0x1p60, small = 1.5;
-    double a = big, b = small, s = a + b, t = s - a, residue = (a - (s - t)) + (b - t);
-    return s == 0x1p60 && residue == 1.5;
-}
+typedef struct computation {
+    double computed, expected;
+} computation;
 
 froe_status num_rounding_check(froe_diagnostic *diag) {
     if (num_rounding_trusted()) return FROE_OK;
@@ -70,7 +34,36 @@ froe_status num_rounding_check(froe_diagnostic *diag) {
                         "cannot be set to do as froe needs it.");
 }
 
+/* All are computed, and none decides alone, so that one way through this function tests all of it. */
 bool num_machine_trusted(void) {
-    return rounds_to_nearest_even() && rounds_once() && contracts_nothing() && fuses_on_demand() &&
-           underflows_gradually() && keeps_residues();
+    volatile double one = 1, half_ulp = 0x1p-53, ulp = 0x1p-52;
+    volatile double bit = 0x1p-53 + 0x1p-64, greatest = DBL_MAX;
+    volatile double factor = 1 + 0x1p-27, square = 1 + 0x1p-26;
+    volatile double smallest = DBL_MIN, denormal = smallest * 0.5, least = 0x1p-1074;
+    volatile double big = 0x1p60, small = 1.5;
+    const double f = factor, g = factor, product = g * g, rounded = square, a = big, b = small, s = a + b, t = s - a;
+    const volatile computation tests[] = {
+        /* to nearest, ties to even */
+        {(one + ulp) + half_ulp, 1 + 0x1p-51},
+        {-one - half_ulp, -1},
+        {one / 3, 0x1.5555555555555p-2},
+        /* once: extended precision (x87) would round twice, and reach farther */
+        {one + bit, 1 + 0x1p-52},
+        {greatest * 2, INFINITY},
+        /* nothing is contracted: (1 + 2^-27)^2 = 1 + 2^-26 + 2^-54 loses its last bit, unless mul and add are fused */
+        {f * f - rounded, 0},
+        /* but on demand */
+        {fma(g, g, -product), 0x1p-54},
+        /* gradual underflow */
+        {denormal, 0x1p-1023},
+        {denormal * 2, DBL_MIN},
+        {least * 0x1p1000, 0x1p-74},
+        /* TwoSum and its like are not "simplified" by a compiler that treats doubles as real numbers */
+        {s, 0x1p60},
+        {(a - (s - t)) + (b - t), 1.5},
+    };
+    bool right = num_rounding_trusted();
+    right &= fegetround() == FE_TONEAREST;
+    for (size_t i = 0; i < sizeof tests / sizeof *tests; i++) right &= tests[i].computed == tests[i].expected;
+    return right;
 }

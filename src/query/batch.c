@@ -17,16 +17,9 @@
 enum { QUERIES_PER_CHUNK = 256 };
 enum { EXPECT_FROM = 7, EXPECT_MOST = 1 << 24 }; /* queries; ids for which room is made beforehand */
 
-/* What one thread finds. */
-typedef struct batch_found {
-    query_ids ids;
-    ARRAY(double) values;
-    size_t queries; /* answered */
-} batch_found;
-
 typedef struct batch_chunk {
-    const batch_found *found; /* of the thread that answered it, */
-    size_t first;             /* from here on */
+    const query_batch_found *found; /* of the thread that answered it, */
+    size_t first;                   /* from here on */
     froe_diagnostic diag;
 } batch_chunk;
 
@@ -60,9 +53,9 @@ struct batch {
     value_fn *value;   /* NULL: answers are ids alone */
     size_t count, chunk_count;
     batch_chunk *chunks;
-    batch_found *found; /* [thread] */
-    batch_found all;    /* gathered */
-    size_t *starts;     /* of answers; from 1 on how many each query has, until they are summed up. NULL: none */
+    query_batch_found *found; /* [thread] */
+    query_batch_found all;    /* gathered */
+    size_t *starts;           /* of answers; from 1 on how many each query has, until they are summed up. NULL: none */
 };
 
 void froe_answers_free(froe_answers *answers) {
@@ -207,7 +200,7 @@ static froe_status check_all(const batch *b, froe_query *q, size_t first, size_t
 
 /* Makes room for what the thread will find, if its further queries find as much as those before. An array that grows
  * bit by bit is copied again and again, all of its room each time. Few queries say little of many. */
-static void expect_as_much(const batch *b, const froe_query *q, batch_found *found) {
+static void expect_as_much(const batch *b, const froe_query *q, query_batch_found *found) {
     const size_t share = b->count / b->workers.count, left = share > found->queries ? share - found->queries : 0;
     const double ids = (double)found->ids.count, queries = (double)found->queries;
     if (!found->queries || !b->starts || (found->queries < EXPECT_FROM && left > 2 * EXPECT_FROM)) return;
@@ -219,6 +212,8 @@ static void expect_as_much(const batch *b, const froe_query *q, batch_found *fou
 
 /* Are the ranges windows on a packed tree of the plane? They are answered all at once, too. */
 static bool are_windows(const batch *b, const froe_query *q, size_t first, size_t end, const double **windows) {
+    for (size_t i = first; b->boxes && q->packed && i < end; i++) windows[i - first] = b->boxes + 4 * i;
+    if (b->boxes) return q->packed;
     for (size_t i = first; i < end; i++) {
         const froe_range range = range_of(b, i);
         if (!query_range_is_packed_window(q, &range)) return false;
@@ -227,11 +222,18 @@ static bool are_windows(const batch *b, const froe_query *q, size_t first, size_
     return true;
 }
 
+/* Is a box of the plane certainly a good range? */
+static bool is_plain(const double *box) {
+    return box[0] <= box[2] && box[1] <= box[3] && fabs(box[0]) < INFINITY && fabs(box[1]) < INFINITY &&
+           box[2] < INFINITY && box[3] < INFINITY;
+}
+
 /* What the context finds goes to the thread's answers. */
 static froe_status answer_windows(const batch *b, froe_query *q, size_t first, size_t end, const double *const *windows,
-                                  batch_found *found, froe_diagnostic *diag) {
+                                  query_batch_found *found, froe_diagnostic *diag) {
     froe_status status = FROE_OK;
     for (size_t i = first; i < end && !status; i++) {
+        if (b->boxes && is_plain(windows[i - first])) continue;
         const froe_range range = range_of(b, i);
         status = query_range_check(&range, 2, diag);
         if (status) diag->object = (uint32_t)i;
@@ -252,7 +254,7 @@ static froe_status answer_windows(const batch *b, froe_query *q, size_t first, s
 }
 
 /* What is nearest to the points, which have been checked, by blocks. */
-static froe_status answer_near(const batch *b, froe_query *q, size_t first, size_t end, batch_found *found,
+static froe_status answer_near(const batch *b, froe_query *q, size_t first, size_t end, query_batch_found *found,
                                froe_diagnostic *diag) {
     expect_as_much(b, q, found);
     for (size_t at = first, count; at < end; at += count) {
@@ -273,7 +275,7 @@ static froe_status answer_near(const batch *b, froe_query *q, size_t first, size
     return FROE_OK;
 }
 
-static froe_status answer_one_by_one(const batch *b, froe_query *q, size_t first, size_t end, batch_found *found,
+static froe_status answer_one_by_one(const batch *b, froe_query *q, size_t first, size_t end, query_batch_found *found,
                                      froe_diagnostic *diag) {
     query_leaf leaves[QUERIES_PER_CHUNK];
     /* The leaves of all points are found together, so that their cache misses overlap. */
@@ -303,7 +305,7 @@ static froe_status answer_chunk(void *user, unsigned worker, size_t job) {
     const batch *b = user;
     froe_query *q = b->workers.queries[worker];
     batch_chunk *c = b->chunks + job;
-    batch_found *found = b->found + worker;
+    query_batch_found *found = b->found + worker;
     const size_t first = job * QUERIES_PER_CHUNK, left = b->count - first;
     const size_t end = first + (left < QUERIES_PER_CHUNK ? left : QUERIES_PER_CHUNK);
     const double *points = b->points ? point_of(b, b->points, first) : NULL, *windows[QUERIES_PER_CHUNK];
@@ -339,11 +341,6 @@ static bool fit(const froe_allocator *alloc, void **data, size_t *capacity, size
     return true;
 }
 
-static void free_found(const froe_allocator *alloc, batch_found *found) {
-    array_free(alloc, &found->ids);
-    array_free(alloc, &found->values);
-}
-
 /* Copies what one chunk has found to where it belongs. */
 static froe_status gather_chunk(void *user, unsigned worker, size_t job) {
     const batch *b = user;
@@ -356,19 +353,47 @@ static froe_status gather_chunk(void *user, unsigned worker, size_t job) {
     return FROE_OK;
 }
 
+/* A context lends its arrays to a batch: fresh pages cost as much as the answers of windows of 1,000. Larger ones are
+ * mappings of their own (support/pages.c), and not kept. */
+enum { MOST_KEPT = 4 << 20 };
+
+static void take_arrays(froe_query *q, query_batch_found *found) {
+    *found = q->batch;
+    q->batch = (query_batch_found){0};
+    found->ids.count = found->values.count = found->queries = 0;
+}
+
+static void give_arrays(froe_query *q, query_batch_found *found) {
+    const size_t values = found->values.capacity * sizeof *found->values.data;
+    if (found->ids.capacity * sizeof *found->ids.data >= MOST_KEPT || values >= MOST_KEPT)
+        query_batch_free(found, &q->alloc);
+    query_batch_free(&q->batch, &q->alloc);
+    q->batch = *found;
+}
+
+/* The thread that found all, or NULL. */
+static query_batch_found *only_finder(const batch *b, size_t total) {
+    for (unsigned i = 0; i < b->workers.count; i++)
+        if (b->found[i].ids.count == total) return b->found + i;
+    return NULL;
+}
+
+/* Answers of one thread that are large are handed over with their pages; others are copied to an array of their size,
+ * so that the thread's stays with its context. */
 static froe_status gather_answers(batch *b, froe_answers *out) {
     const froe_allocator *alloc = &b->query->alloc;
     for (size_t i = 0; i < b->count; i++) b->starts[i + 1] += b->starts[i];
     const size_t total = b->starts[b->count];
-    batch_found *all = b->found[0].ids.count == total ? &b->found[0] : &b->all;
+    query_batch_found *one = only_finder(b, total);
+    const bool over = one && total * sizeof(uint32_t) >= MOST_KEPT;
+    query_batch_found *all = over ? one : &b->all;
     if (!fit(alloc, (void **)&all->ids.data, &all->ids.capacity, total, sizeof(uint32_t)) ||
         (b->value && !fit(alloc, (void **)&all->values.data, &all->values.capacity, total, sizeof(double))))
         return FROE_E_MEMORY;
-    const froe_status status =
-        all == &b->all ? base_run(&b->workers.task, 0, b->chunk_count, gather_chunk, b) : FROE_OK;
+    const froe_status status = over ? FROE_OK : base_run(&b->workers.task, 0, b->chunk_count, gather_chunk, b);
     if (status) return status;
     *out = (froe_answers){b->starts, all->ids.data, all->values.data, b->count, *alloc};
-    *all = (batch_found){0};
+    *all = (query_batch_found){0};
     b->starts = NULL;
     return FROE_OK;
 }
@@ -393,6 +418,7 @@ static froe_status ask_all(batch *b, const froe_batch_options *options, froe_ans
     b->chunks = support_calloc(alloc, b->chunk_count, sizeof *b->chunks);
     if (out) b->starts = support_calloc(alloc, b->count + 1, sizeof *b->starts);
     if (!b->found || !b->chunks || (out && !b->starts)) return support_fail_memory(diag);
+    for (unsigned i = 0; i < b->workers.count; i++) take_arrays(b->workers.queries[i], b->found + i);
     status = base_run(&b->workers.task, 1, b->chunk_count, answer_chunk, b);
     if (!status && out) status = gather_answers(b, out);
     if (status) explain_failure(b, status, diag);
@@ -401,11 +427,12 @@ static froe_status ask_all(batch *b, const froe_batch_options *options, froe_ans
 
 static froe_status run_batch(batch *b, const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag) {
     const froe_allocator *alloc = &b->query->alloc;
+    /* one way: so many questions take 64 GB */
     if (b->count > UINT32_MAX - 1) return support_fail(diag, FROE_E_LIMIT, "A batch has at most 2^32 - 2 queries.");
     b->chunk_count = (b->count + QUERIES_PER_CHUNK - 1) / QUERIES_PER_CHUNK;
     const froe_status status = ask_all(b, options, out, diag);
-    for (unsigned i = 0; b->found && i < b->workers.count; i++) free_found(alloc, b->found + i);
-    free_found(alloc, &b->all);
+    for (unsigned i = 0; b->found && i < b->workers.count; i++) give_arrays(b->workers.queries[i], b->found + i);
+    query_batch_free(&b->all, alloc);
     support_free(alloc, b->found, b->workers.count * sizeof *b->found);
     support_free(alloc, b->chunks, b->chunk_count * sizeof *b->chunks);
     support_free(alloc, b->starts, (b->count + 1) * sizeof *b->starts);

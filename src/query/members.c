@@ -64,7 +64,7 @@ bool query_sets_keep(query_sets *sets, const froe_allocator *alloc, const query_
     *out = scene_table_find(&sets->table, tag, &at);
     while (*out != FROE_NONE && !is_equal(sets, *out, set)) *out = scene_table_find_next(&sets->table, tag, &at);
     if (*out != FROE_NONE) return true;
-    if (set->count > UINT32_MAX - sets->numbers.count) return false;
+    if (set->count > UINT32_MAX - sets->numbers.count) return false; /* one way: so many take 16 GB */
     if (!array_reserve(alloc, &sets->numbers, set->count) || !array_reserve(alloc, &sets->starts, 2)) return false;
     if (!sets->starts.count) sets->starts.data[sets->starts.count++] = 0;
     if (set->count) memcpy(sets->numbers.data + sets->numbers.count, set->data, set->count * sizeof *set->data);

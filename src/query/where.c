@@ -9,10 +9,7 @@
 /* Objects that a query has found were checked with their leaf; this one may be any. */
 static froe_status check_found(froe_query *q, uint32_t object, froe_diagnostic *diag) {
     const froe_scene *s = q->tree->scene;
-    const char *why = scene_is_checked(s) ? NULL : scene_object_fault(s, object, &q->numbers);
-    if (!why) return FROE_OK;
-    return support_fail_at(diag, FROE_E_FORMAT, object, FROE_NONE, FROE_NONE,
-                           "object %u: The scene of the file is corrupted: %s.", object, why);
+    return scene_is_checked(s) ? FROE_OK : scene_check_object(s, object, &q->numbers, diag);
 }
 
 static froe_status check_object(froe_query *q, uint32_t object, froe_diagnostic *diag) {

@@ -2,8 +2,9 @@
 #include "query/workers.h"
 #include "support/fail.h"
 
-froe_batch_options froe_batch_defaults(void) {
-    return (froe_batch_options){.size = sizeof(froe_batch_options)};
+void froe_batch_defaults_into(froe_batch_options *out, size_t size) {
+    const froe_batch_options all = {.size = size};
+    support_defaults(out, size, &all, sizeof all);
 }
 
 froe_status query_workers_refuse(froe_diagnostic *diag) {

@@ -17,8 +17,9 @@
 /** Below so many corners the start of threads costs more than they gain. */
 #define THREADS_FROM 100000
 
-froe_objects froe_objects_defaults(void) {
-    return (froe_objects){.size = sizeof(froe_objects), .kind = FROE_POLYGON, .group = FROE_NONE};
+void froe_objects_defaults_into(froe_objects *out, size_t size) {
+    const froe_objects all = {.size = size, .kind = FROE_POLYGON, .group = FROE_NONE};
+    support_defaults(out, size, &all, sizeof all);
 }
 
 /* ------------------------------------------------------------------- check -- */

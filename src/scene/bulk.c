@@ -14,9 +14,6 @@
 #include <math.h>
 #include <string.h>
 
-/** Points among which some have one tag more often than not. */
-#define CAREFUL_FROM (1u << 26)
-
 typedef struct bulk_chunk {
     uint32_t before; /**< vertices before its own */
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
@@ -143,7 +140,7 @@ static froe_status take_indices(bulk_work *w, bool *done) {
     memset(vertex, 0xff, bytes); /* FROE_NONE */
     a->vertices = known;
     *done = true;
-    for (size_t c = 0; c < a->corners && *done; c++) {
+    for (size_t c = 0; c < a->corners; c++) {
         const uint32_t point = indices[c];
         *done = point < p->fresh_count;
         if (!*done) break;
@@ -164,14 +161,15 @@ static froe_status take_indices(bulk_work *w, bool *done) {
 /** Vertices that are there are dealt with the points; all these entries have to fit where coordinates will be. */
 static bool is_large(const scene_adding *a, size_t points) {
     const struct scene_store *store = a->scene->store;
-    return points >= store->plan.least && points <= 2 * a->corners && points <= SCENE_LIMIT - store->vertex_count &&
+    return points >= store->plan.least && points <= 2 * a->corners &&
+           points <= SCENE_LIMIT - store->vertex_count && /* one way: so many vertices take 32 GB */
            store->vertex_count <= (size_t)(a->scene->dim - 1) * points;
 }
 
 /** Do corners and vertices go on having the same numbers? REQUIRES: all points differ. */
 static bool is_in_order(const bulk_work *w) {
     const struct scene_store *store = w->adding->scene->store;
-    return !w->adding->batch->indices && !store->vertex_of.count && store->vertex_count == store->corner_count;
+    return !w->adding->batch->indices && !store->vertex_of.count; /* then each vertex is its own corner */
 }
 
 /** Room for ids and for what is known of points and chunks, once it is known whether any points are equal. */
@@ -237,7 +235,7 @@ froe_status scene_take_corners_at_once(scene_adding *a, bool *done) {
     w.points = (match_points){.known = store->coords.data, .known_count = store->vertex_count, .dim = s->dim};
     w.points.fresh = b->indices ? b->coords : b->coords + a->first * dim;
     w.points.fresh_count = (uint32_t)points;
-    bool careful = b->indices || points >= CAREFUL_FROM;
+    bool careful = b->indices || points >= store->plan.careful;
     froe_status status = take_corners(&w, careful, done);
     if (!status && !careful && atomic_load(&w.match.mistaken)) status = take_corners(&w, true, done);
     if (status == FROE_E_CANCELLED) return support_fail_cancelled(a->diag);

@@ -49,13 +49,13 @@ froe_status scene_take_corners(scene_adding *a) {
     const uint32_t old = store->corner_count;
     if (!scene_adding_room(a)) return support_fail_memory(a->diag);
     uint32_t *ids = scene_adding_ids(a);
-    a->in_order = !store->vertex_of.count && store->vertex_count == old;
+    a->in_order = !store->vertex_of.count; /* then each vertex is its own corner */
     for (size_t done = 0, chunks = 0; done < a->corners; done += SCENE_CHUNK, chunks++) {
         size_t count = a->corners - done < SCENE_CHUNK ? a->corners - done : SCENE_CHUNK;
         froe_status status = gather_points(a, done, count, points);
         if (status) return status;
         status = scene_vertices_add(a->scene, points, count, ids + done);
-        if (status == FROE_E_LIMIT)
+        if (status == FROE_E_LIMIT) /* one way: so many vertices take 60 GB */
             return support_fail(a->diag, status, "There are more than %u vertices.", SCENE_LIMIT);
         if (status) return support_fail_memory(a->diag);
         for (size_t i = done; i < done + count; i++) a->in_order = a->in_order && ids[i] == old + i;

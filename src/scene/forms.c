@@ -101,10 +101,8 @@ froe_status scene_form_object(scene_adding *a, size_t j, uint32_t *ring, uint32_
         return FROE_OK;
     case FROE_BALL:
         return ball_form(a, j, ring, count);
-    case FROE_HULL:
+    default: /* FROE_HULL: points are plain */
         hull_form(ring, count);
-        return FROE_OK;
-    default:
         return FROE_OK;
     }
 }
@@ -163,7 +161,7 @@ static bool are_rings(const scene_adding *a, size_t from, size_t to) {
 
 /** Triangles for certain: then their corners differ, and no other order of them is better. */
 static bool are_triangles(const scene_adding *a, size_t from, size_t to) {
-    bool sure = a->each == 3 && a->scene->store->trusted && num_rounding_trusted();
+    bool sure = a->each == 3 && a->scene->store->trusted; /* the rounding is froe's own: BASE_FLOATS_OWN */
     for (size_t j = from; sure && j < to; j++) {
         const size_t corner = a->first + 3 * j;
         sure = geom_surely_turns(scene_adding_point(a, corner), scene_adding_point(a, corner + 1),

@@ -1,7 +1,7 @@
 /* mapped.c: a scene over arrays from a file, which are unvalidated input.
  *
  * It is checked whole when something asks for all of it (scene_settle()), or object by object where a query comes by
- * (scene_object_fault()). docs/design/opening.md says why. */
+ * (scene_check_object()). docs/design/opening.md says why. */
 #include "base/floats.h"
 #include "geom/selftest.h"
 #include "scene/polygon.h"
@@ -104,18 +104,19 @@ bool scene_object_fits(const froe_scene *s, uint32_t object) {
     return !index_fault(s, object);
 }
 
-const char *scene_object_fault(const froe_scene *s, uint32_t object, num_context *context) {
+froe_status scene_check_object(const froe_scene *s, uint32_t object, num_context *context, froe_diagnostic *diag) {
     const char *why = index_fault(s, object);
-    if (why) return why;
+    if (why) return bad_object(diag, object, why);
     const uint32_t points = scene_form(s, object) == FROE_BALL ? 1 : scene_corners(s, object);
     for (uint32_t i = 0; i < points; i++)
         for (int k = 0; k < s->dim; k++)
-            if (!plain_number(scene_point(s, object, i)[k])) return BAD_NUMBER;
+            if (!plain_number(scene_point(s, object, i)[k])) return bad_object(diag, object, BAD_NUMBER);
     const bool flat = scene_form(s, object) == FROE_SEGMENT &&
                       !memcmp(scene_point(s, object, 0), scene_point(s, object, 1), (size_t)s->dim * sizeof(double));
-    return flat || !shape_fits(s, object, context) ? BAD_SHAPE : NULL;
+    return flat || !shape_fits(s, object, context) ? bad_object(diag, object, BAD_SHAPE) : FROE_OK;
 }
 
+/* The same where the vertices have been checked. */
 static froe_status check_object(const froe_scene *s, uint32_t object, num_context *context, froe_diagnostic *diag) {
     const char *why = index_fault(s, object);
     if (!why && !shape_fits(s, object, context)) why = BAD_SHAPE;

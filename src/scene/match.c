@@ -4,7 +4,7 @@
 
 enum { PART_BITS_MOST = 13, RUN = 16, WRONG = 64, PARTS_A_JOB = 16, AHEAD = 128 };
 
-const match_plan match_usual = {.least = 256, .chunk = 1 << 15, .part = 1024, .mask = UINT64_MAX};
+const match_plan match_usual = {.least = 256, .chunk = 1 << 15, .part = 1024, .careful = 1 << 26, .mask = UINT64_MAX};
 
 /* ------------------------------------------------------------------- points -- */
 

@@ -25,10 +25,11 @@ typedef struct match_points {
 
 /** Constants chosen by measurement, for tests to change. */
 typedef struct match_plan {
-    uint32_t least; /**< points from which on it is worth it */
-    uint32_t chunk; /**< points, at least; a power of two */
-    uint32_t part;  /**< points, about */
-    uint64_t mask;  /**< of hashes: without some bits different points collide */
+    uint32_t least;   /**< points from which on it is worth it */
+    uint32_t chunk;   /**< points, at least; a power of two */
+    uint32_t part;    /**< points, about */
+    uint32_t careful; /**< points among which different ones with one tag are to be expected */
+    uint64_t mask;    /**< of hashes: without some bits different points collide */
 } match_plan;
 extern const match_plan match_usual;
 

@@ -83,7 +83,8 @@ static bool convex(const ring_view *r, scene_fault *fault) {
         if (t != 0 && t != way) return fails(r, j, "is not convex", fault);
         minima += !before && after;
     }
-    return minima == 1 || fails(r, n - 1, "intersects itself", fault);
+    if (minima == 1) return true;
+    return fails(r, n - 1, "intersects itself", fault);
 }
 
 /* ----------------------------------------------------------------- the ring -- */

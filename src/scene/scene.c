@@ -41,7 +41,7 @@ static void store_free(const froe_allocator *alloc, struct scene_store *store) {
 froe_status froe_scene_new(int dim, const froe_allocator *caller, froe_scene **out) {
     BASE_FLOATS_OWN;
     if (!out || dim < 2 || dim > FROE_MAX_DIM) return FROE_E_ARG;
-    if (num_rounding_check(NULL)) return FROE_E_UNSUPPORTED;
+    if (num_rounding_check(NULL)) return FROE_E_UNSUPPORTED; /* one way: processors that cannot be set are rare */
     froe_allocator alloc = support_allocator(caller);
     froe_scene *s = support_calloc(&alloc, 1, sizeof *s);
     if (!s) return FROE_E_MEMORY;
@@ -151,7 +151,7 @@ bool froe_scene_bounds(const froe_scene *scene, double *lo, double *hi) {
 
 froe_object froe_scene_object(const froe_scene *scene, uint32_t object) {
     if (object >= scene->object_count || (!scene_is_checked(scene) && !scene_object_fits(scene, object)))
-        return (froe_object){.kind = FROE_KIND_COUNT, .form = FROE_KIND_COUNT, .face = FROE_NONE, .group = FROE_NONE};
+        return (froe_object){.kind = FROE_KIND_NONE, .form = FROE_KIND_NONE, .face = FROE_NONE, .group = FROE_NONE};
     bool ball = scene_kind(scene, object) == FROE_BALL;
     return (froe_object){
         .kind = scene_kind(scene, object),

@@ -211,6 +211,6 @@ bool scene_object_fits(const froe_scene *s, uint32_t object);
 /** May the strings of a group be looked up? */
 bool scene_group_fits(const froe_scene *s, const scene_group *group);
 /** Is the object one that geometry may be done with? All that scene_validate() checks of an object, and its
- * coordinates; NULL, or what is wrong, as a clause. */
-const char *scene_object_fault(const froe_scene *s, uint32_t object, num_context *context);
+ * coordinates. FROE_E_FORMAT. */
+froe_status scene_check_object(const froe_scene *s, uint32_t object, num_context *context, froe_diagnostic *diag);
 #endif

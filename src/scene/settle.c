@@ -48,7 +48,7 @@ froe_status scene_adding_settle(scene_adding *a) {
     if (room && a->ids) room = tell_ids(a);
     if (!room) return FROE_E_MEMORY;
     if (a->kinds && !store->kind_of.count) {
-        if (!empty) memset(store->kind_of.data, (int)s->kind, s->object_count);
+        memset(store->kind_of.data, (int)s->kind, s->object_count);
         store->kind_of.count = s->object_count;
     }
     if (a->forms && !store->form_of.count) {

@@ -108,7 +108,7 @@ geom_plane scene_cut_plane(const froe_scene *s, const froe_cut *cut) {
         scene_crossing_line(s, cut->id[0], points);
         scene_crossing_line(s, cut->id[1], points + 2);
         return geom_plane_at_crossing(s->dim, points);
-    default:
+    default: /* one way: leaves have no plane, and other kinds of cuts do not get into a tree */
         return (geom_plane){.dim = s->dim};
     }
 }

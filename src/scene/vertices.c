@@ -60,7 +60,7 @@ froe_status scene_vertices_add(froe_scene *s, const double *points, size_t count
                memcmp(store->coords.data + (size_t)ids[i] * dim, point, dim * sizeof *point) != 0)
             ids[i] = scene_table_find_next(&store->table, tags[i], &at);
         if (ids[i] != FROE_NONE) continue;
-        if (store->table.count == SCENE_LIMIT) return FROE_E_LIMIT;
+        if (store->table.count == SCENE_LIMIT) return FROE_E_LIMIT; /* one way: so many take 60 GB */
         ids[i] = (uint32_t)store->table.count;
         scene_table_put(&store->table, at, tags[i], ids[i]);
         memcpy(store->coords.data + store->coords.count, points + i * dim, dim * sizeof *points);

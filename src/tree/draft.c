@@ -48,7 +48,7 @@ static froe_status table_cut(tree_draft *draft, const froe_cut *cut, uint32_t *i
     }
     const size_t normals = tree_cut_normals(&entry, draft->dim);
     if (normals) {
-        if (draft->normals.count + normals > UINT32_MAX) return FROE_E_LIMIT;
+        if (draft->normals.count + normals > UINT32_MAX) return FROE_E_LIMIT; /* one way: so many take 32 GB */
         entry.a = (uint32_t)draft->normals.count;
         if (!array_append(&draft->alloc, &draft->normals, cut->normal, normals)) return FROE_E_MEMORY;
     }

@@ -9,8 +9,8 @@ froe_status file_check_machine(froe_diagnostic *diag) {
     uint64_t bits;
     uint8_t first;
     memcpy(&bits, &x, sizeof bits);
-    memcpy(&first, &bits, 1); /* little-endian: the last byte of the mantissa */
-    if (bits == 0xc004000000000000u && first == 0) return FROE_OK;
+    memcpy(&first, &bits, 1);                                      /* little-endian: the last byte of the mantissa */
+    if (bits == 0xc004000000000000u && first == 0) return FROE_OK; /* one way: this machine is little-endian */
     return support_fail(diag, FROE_E_UNSUPPORTED, "Tree files are little-endian, and this machine is not.");
 }
 

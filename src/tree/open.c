@@ -1,9 +1,10 @@
-/* open.c: a saved tree by mapping its file, or from a copy of its bytes. Nothing in it is used before it has been
- * checked. What has no size is checked here: header and table, the places of sections, description, facts and the
+/* open.c: a saved tree by mapping its file, or from a copy of it or of its bytes. Nothing in it is used before it has
+ * been checked. What has no size is checked here: header and table, the places of sections, description, facts and the
  * coordinate system. The rest is checked when it is first asked for (gate.h).
  *
  * The mapping is private and read-only. If another program shortens the file while it is
- * mapped, its pages are lost (SIGBUS). froe itself replaces files and never shortens them. */
+ * mapped, its pages are lost (SIGBUS), but for froe_tree_open_copy(). froe itself replaces files and never shortens
+ * them. */
 #include "base/floats.h"
 #include "num/context.h"
 #include "support/fail.h"
@@ -43,37 +44,83 @@ static froe_status unreadable(const opening *o, int error) {
 
 /* -------------------------------------------------------------------- file -- */
 
-static froe_status map_file(opening *o) {
-    int fd = open(o->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* opening a pipe must not block */
+static froe_status check_size(const opening *o, uint64_t size) {
+    if (size >= sizeof(file_header)) return FROE_OK;
+    return bad_file(o, size ? "it is too short" : "it is empty");
+}
+
+/* The file's descriptor, and its size as o->size. */
+static froe_status open_file(opening *o, int *fd) {
+    *fd = open(o->path, O_RDONLY | O_CLOEXEC | O_NONBLOCK); /* opening a pipe must not block */
     froe_status status = FROE_OK;
     struct stat info;
-    if (fd < 0) return unreadable(o, errno);
-    if (fstat(fd, &info)) {
+    if (*fd < 0) return unreadable(o, errno);
+    if (fstat(*fd, &info)) /* one way: it is open */
         status = unreadable(o, errno);
-    } else if (!S_ISREG(info.st_mode)) {
+    else if (!S_ISREG(info.st_mode))
         status = support_fail_irregular(o->diag, o->path, S_ISDIR(info.st_mode));
-    } else if ((uint64_t)info.st_size < sizeof(file_header)) {
-        status = bad_file(o, info.st_size ? "it is too short" : "it is empty");
-    } else {
-        void *map = mmap(NULL, (size_t)info.st_size, PROT_READ, MAP_PRIVATE, fd, 0);
-        if (map == MAP_FAILED) status = unreadable(o, errno);
-        o->bytes = o->map = status ? NULL : map;
-        o->size = o->map_size = (size_t)info.st_size;
-    }
+    else
+        status = check_size(o, (uint64_t)info.st_size);
+    if (status)
+        close(*fd);
+    else
+        o->size = (size_t)info.st_size;
+    return status;
+}
+
+static froe_status map_file(opening *o) {
+    int fd;
+    froe_status status = open_file(o, &fd);
+    if (status) return status;
+    void *map = mmap(NULL, o->size, PROT_READ, MAP_PRIVATE, fd, 0);
+    if (map == MAP_FAILED) status = unreadable(o, errno); /* one way: there are addresses for 2^47 bytes */
+    o->bytes = o->map = map;
+    o->map_size = o->size;
     close(fd);
     return status;
 }
 
-static froe_status copy_file(opening *o, const void *bytes, size_t size, const froe_allocator *alloc) {
-    if (size < sizeof(file_header)) return bad_file(o, size ? "it is too short" : "it is empty");
+/* Memory for o->size bytes, where they are aligned; NULL: there is none. */
+static uint8_t *make_room(opening *o, const froe_allocator *alloc) {
     o->copied = true;
-    o->map_size = size + FILE_ALIGN;
-    o->map = size < SIZE_MAX - FILE_ALIGN ? support_realloc(alloc, NULL, 0, o->map_size) : NULL;
-    if (!o->map) return support_fail_memory(o->diag);
-    uint8_t *aligned = (uint8_t *)o->map + (FILE_ALIGN - (uintptr_t)o->map % FILE_ALIGN) % FILE_ALIGN;
-    memcpy(aligned, bytes, size);
-    o->bytes = aligned;
+    o->map_size = o->size + FILE_ALIGN;
+    o->map = o->size < SIZE_MAX - FILE_ALIGN ? support_realloc(alloc, NULL, 0, o->map_size) : NULL;
+    uint8_t *room = o->map ? (uint8_t *)o->map + (FILE_ALIGN - (uintptr_t)o->map % FILE_ALIGN) % FILE_ALIGN : NULL;
+    o->bytes = room;
+    return room;
+}
+
+/* A file that has become shorter meanwhile is read as far as it goes. */
+static froe_status read_bytes(opening *o, int fd, uint8_t *to) {
+    size_t count = 0;
+    for (ssize_t got = 1; count < o->size && got;) {
+        got = read(fd, to + count, o->size - count);
+        if (got < 0 && errno == EINTR) continue; /* one way, as the next: a disk that is well */
+        if (got < 0) return unreadable(o, errno);
+        count += (size_t)got;
+    }
+    o->size = count;
+    return check_size(o, count);
+}
+
+static froe_status read_file(opening *o, const froe_allocator *alloc) {
+    int fd;
+    froe_status status = open_file(o, &fd);
+    if (status) return status;
+    uint8_t *room = make_room(o, alloc);
+    status = room ? read_bytes(o, fd, room) : support_fail_memory(o->diag);
+    if (room && status) support_free(alloc, o->map, o->map_size);
+    close(fd);
+    return status;
+}
+
+static froe_status copy_bytes(opening *o, const void *bytes, size_t size, const froe_allocator *alloc) {
+    const froe_status status = check_size(o, size);
     o->size = size;
+    if (status) return status;
+    uint8_t *room = make_room(o, alloc);
+    if (!room) return support_fail_memory(o->diag);
+    memcpy(room, bytes, size);
     return FROE_OK;
 }
 
@@ -114,6 +161,7 @@ static froe_status check_layout(opening *o) {
             return bad_file(o, "it has a section of unknown kind");
         if (s->offset != offset || offset > o->size || s->size > o->size - offset)
             return bad_file(o, "a section is out of place");
+        /* one way: a section of 2^32 items needs a file of 4 GB */
         if (s->size % s->item_size || s->size / s->item_size > UINT32_MAX)
             return bad_file(o, "a section is of odd size");
         if (is_read_at_once(s->id) && s->checksum != file_checksum(o->bytes + offset, s->size, 0))
@@ -234,7 +282,7 @@ bool froe_is_tree(const char *path) {
     struct stat about;
     if (!path || stat(path, &about) || !S_ISREG(about.st_mode)) return false; /* opening a pipe would disturb it */
     const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (file < 0) return false;
+    if (file < 0) return false; /* one way: tests may read every file */
     const bool is = read(file, head, WORD) == WORD && !memcmp(head, FILE_MAGIC, WORD);
     close(file);
     return is;
@@ -267,15 +315,32 @@ static froe_status open_bytes(opening *o, const froe_allocator *alloc, froe_tree
     return status;
 }
 
+static froe_status check_machine(froe_diagnostic *diag) {
+    const froe_status status = file_check_machine(diag);
+    return status ? status : num_rounding_check(diag); /* one way: machines that fail are not those that tests run on */
+}
+
+static froe_status open_path(opening *o, bool mapped, const froe_allocator *caller, froe_tree **out) {
+    const froe_allocator alloc = support_allocator(caller);
+    froe_status status = check_machine(o->diag);
+    if (!status) /* one way: see check_machine() */
+        status = mapped ? map_file(o) : read_file(o, &alloc);
+    return status ? status : open_bytes(o, &alloc, out);
+}
+
 froe_status froe_tree_open(const char *path, const froe_allocator *caller, froe_tree **out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     opening o = {.path = path, .diag = diag};
     if (!path || !out) return support_fail_null(diag, __func__);
-    const froe_allocator alloc = support_allocator(caller);
-    froe_status status = file_check_machine(diag);
-    if (!status) status = num_rounding_check(diag);
-    if (!status) status = map_file(&o);
-    return status ? status : open_bytes(&o, &alloc, out);
+    return open_path(&o, true, caller, out);
+}
+
+froe_status froe_tree_open_copy(const char *path, const froe_allocator *caller, froe_tree **out,
+                                froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
+    opening o = {.path = path, .diag = diag};
+    if (!path || !out) return support_fail_null(diag, __func__);
+    return open_path(&o, false, caller, out);
 }
 
 froe_status froe_tree_open_memory(const void *bytes, size_t count, const froe_allocator *caller, froe_tree **out,
@@ -284,8 +349,7 @@ froe_status froe_tree_open_memory(const void *bytes, size_t count, const froe_al
     opening o = {.path = "memory", .diag = diag};
     if ((count && !bytes) || !out) return support_fail_null(diag, __func__);
     const froe_allocator alloc = support_allocator(caller);
-    froe_status status = file_check_machine(diag);
-    if (!status) status = num_rounding_check(diag);
-    if (!status) status = copy_file(&o, bytes, count, &alloc);
+    froe_status status = check_machine(diag);
+    if (!status) status = copy_bytes(&o, bytes, count, &alloc); /* one way: see check_machine() */
     return status ? status : open_bytes(&o, &alloc, out);
 }

@@ -102,6 +102,7 @@ static froe_status take_memory(seal *s) {
         bounds += draft->bounds.count - 1;
         normals += draft->normals.count;
     }
+    /* one way: so many take 16 GB */
     if (nodes > TREE_MOST || pieces > TREE_MOST || bounds > UINT32_MAX || normals > UINT32_MAX) return FROE_E_LIMIT;
     t->node_count = (uint32_t)nodes;
     t->cut_count = (uint32_t)cuts;

@@ -189,8 +189,7 @@ froe_status tree_validate_nodes(const froe_tree *tree, froe_diagnostic *diag) {
     froe_status status = FROE_OK;
     bool begun = packed ? !tree->bound_count : tree->bound_count && tree->bounds[0] == 0;
     if (geom_context_new(&tree->alloc, &c.context)) return support_fail_memory(diag);
-    if (!tree->node_count || !begun)
-        status = support_fail(diag, FROE_E_FORMAT, "The tree is corrupted: it has no root.");
+    if (!begun) status = support_fail(diag, FROE_E_FORMAT, "The tree is corrupted: it has no root.");
     while (!status && tree_walk_next(&c.walk)) status = check_node(&c);
     if (tree_walk_end(&c.walk)) status = support_fail_memory(diag);
     num_context_free(&c.context);

@@ -8,15 +8,16 @@
 #include <math.h>
 #include <string.h>
 
-froe_camera froe_camera_defaults(void) {
-    return (froe_camera){.size = sizeof(froe_camera),
-                         .fit = true,
-                         .eye = {3, -5, 2},
-                         .up = {0, 0, 1},
-                         .fov = 35,
-                         .width = 1000,
-                         .height = 1000,
-                         .margin = 20};
+void froe_camera_defaults_into(froe_camera *out, size_t size) {
+    const froe_camera all = {.size = size,
+                             .fit = true,
+                             .eye = {3, -5, 2},
+                             .up = {0, 0, 1},
+                             .fov = 35,
+                             .width = 1000,
+                             .height = 1000,
+                             .margin = 20};
+    support_defaults(out, size, &all, sizeof all);
 }
 
 /* ---------------------------------------------------------------------- vectors -- */

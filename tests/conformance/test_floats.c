@@ -86,13 +86,14 @@ static void ask_tree(floats_run *r, const froe_tree *tree) {
     const froe_scene *scene = froe_tree_scene(tree);
     froe_audit_options o = froe_audit_defaults();
     froe_diagnostic diag;
-    double lo[8], hi[8], corners[3 * 64];
     froe_tree *again;
+    double lo[8], hi[8], corners[3 * 64];
     TELL(r, froe_scene_bounds(scene, lo, hi));
-    floats_note(r, lo, 8 * (size_t)froe_scene_dim(scene));
-    floats_note(r, hi, 8 * (size_t)froe_scene_dim(scene));
+    floats_note(r, lo, 8 * (size_t)froe_scene_dim(scene)), floats_note(r, hi, 8 * (size_t)froe_scene_dim(scene));
     MUST(r, froe_tree_save(tree, FILE_NAME, NULL));
     floats_note_file(r, FILE_NAME);
+    MUST(r, froe_tree_open_copy(FILE_NAME, &(froe_allocator){floats_memory, r}, &again, NULL));
+    TELL(r, froe_tree_free(again));
     MUST(r, froe_tree_open(FILE_NAME, &(froe_allocator){floats_memory, r}, &again, NULL));
     MUST(r, froe_scene_check(froe_tree_scene(again), NULL));
     MUST(r, froe_tree_check(again, NULL));
@@ -671,18 +672,25 @@ static void draw_plan(floats_run *r) {
     froe_render_options o = froe_render_defaults();
     froe_scene *scene = scene_of(r, "triangles", 20);
     froe_tree *tree = tree_of(r, scene, "autopartition", NULL);
-    o.alloc = &memory;
-    o.progress = floats_progress;
-    o.user = r;
+    o.alloc = &memory, o.progress = floats_progress, o.user = r;
     MUST(r, froe_render_dxf(tree, "floats.dxf", &o, NULL, NULL));
     floats_note_file(r, "floats.dxf");
     froe_tree_free(tree);
     froe_scene_free(scene);
 }
 
+static void follow_model(floats_run *r) {
+    froe_motion *motion = NULL;
+    MUST(r, froe_read_animation(FROE_TEST_DATA "/../tests/io/door.dae", NULL, &motion, NULL, NULL));
+    const froe_body_knot knot = froe_motion_body_knot(motion, 1, 1);
+    floats_note(r, knot.turn, sizeof knot.turn);
+    froe_motion_free(motion);
+}
+
 static void files(floats_run *r, void *user) {
     (void)user;
     draw_plan(r);
+    follow_model(r);
     write_and_read(r, "denormal", "floats.geojson", "floats-out.geojson");
     write_and_read(r, "mixed", "floats.geojson", "floats-out.csv");
     write_and_read(r, "denormal", "floats.geojson", "floats-out.fgb");

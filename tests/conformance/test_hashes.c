@@ -24,12 +24,20 @@ static void put(hash *h, const void *data, size_t bytes) {
     for (size_t i = 0; i < bytes; i++) h->state = (h->state ^ p[i]) * UINT64_C(0x100000001b3); /* FNV-1a */
 }
 
+/* Items of 4 or 8 bytes, the lowest byte first on any machine. */
+static void put_items(hash *h, const void *data, size_t count, size_t size) {
+    const unsigned char *p = data;
+    const bool lowest_first = *(const unsigned char *)&(const uint32_t){1} == 1;
+    for (size_t i = 0; i < count; i++)
+        for (size_t k = 0; k < size; k++) put(h, p + i * size + (lowest_first ? k : size - 1 - k), 1);
+}
+
 static void put_number(hash *h, uint64_t x) {
-    put(h, &x, sizeof x);
+    put_items(h, &x, 1, sizeof x);
 }
 
 static void put_double(hash *h, double x) {
-    put(h, &x, sizeof x);
+    put_items(h, &x, 1, sizeof x);
 }
 
 /** The list, now and as it should be; one line a case. */
@@ -38,24 +46,37 @@ typedef struct list {
     size_t lines, wrong;
 } list;
 
+/* A tree that was not saved (hash_of_tree()) is like any. */
+static bool is_same(const char *expected, const char *line) {
+    enum { DIGITS = 16 };
+    static const char none[] = " tree 0000000000000000";
+    const char *at = strstr(line, none);
+    const size_t before = at ? (size_t)(at - line) + sizeof none - 1 - DIGITS : 0;
+    if (!at || strlen(expected) != strlen(line)) return !strcmp(expected, line);
+    return !strncmp(expected, line, before) && !strcmp(expected + before + DIGITS, line + before + DIGITS);
+}
+
 static void say(list *l, const char *line) {
     char expected[LINE] = "";
     if (!l->expected) {
         puts(line);
     } else {
         if (fgets(expected, sizeof expected, l->expected)) expected[strcspn(expected, "\n")] = 0;
-        if (strcmp(expected, line)) l->wrong++, printf("- %s\n+ %s\n", expected, line);
+        if (!is_same(expected, line)) l->wrong++, printf("- %s\n+ %s\n", expected, line);
     }
     l->lines++;
 }
 
 /* ------------------------------------------------------------------- trees -- */
 
+/* 0 on machines whose highest byte comes first, which save no trees. */
 static uint64_t hash_of_tree(const froe_tree *tree) {
     static unsigned char bytes[1 << 16];
     hash h = {0};
     const char *path = "hashes.froe";
-    FILE *file = froe_tree_save(tree, path, NULL) ? NULL : fopen(path, "rb");
+    const froe_status status = froe_tree_save(tree, path, NULL);
+    if (status == FROE_E_UNSUPPORTED) return 0;
+    FILE *file = status ? NULL : fopen(path, "rb");
     if (!file) perror(path), abort();
     for (size_t n; (n = fread(bytes, 1, sizeof bytes, file));) put(&h, bytes, n);
     fclose(file);
@@ -87,7 +108,7 @@ static void draw_box(source *s, double *lo_hi) {
 
 static void put_ids(hash *h, froe_status status, const froe_list *found) {
     put_number(h, status);
-    if (!status) put_number(h, found->count), put(h, found->ids, found->count * sizeof *found->ids);
+    if (!status) put_number(h, found->count), put_items(h, found->ids, found->count, sizeof *found->ids);
 }
 
 static void ask_ranges(hash *h, froe_query *query, source *s) {
@@ -181,13 +202,13 @@ static uint64_t hash_of_picture(const froe_tree *tree) {
             const froe_shape shape = froe_picture_shape(picture, i);
             for (size_t r = shape.first_ring, count; r < shape.first_ring + shape.ring_count; r++) {
                 const double *points = froe_picture_ring(picture, r, &count);
-                put(&h, points, 2 * count * sizeof *points);
+                put_items(&h, points, 2 * count, sizeof *points);
             }
         }
         for (size_t i = 0; i < froe_picture_stroke_count(picture); i++) {
             const froe_stroke stroke = froe_picture_stroke(picture, i);
             put_number(&h, stroke.kind * 4 + stroke.hidden * 2 + stroke.closed);
-            put(&h, stroke.points, 2 * stroke.count * sizeof *stroke.points);
+            put_items(&h, stroke.points, 2 * stroke.count, sizeof *stroke.points);
         }
         froe_picture_free(picture);
     }

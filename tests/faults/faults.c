@@ -33,7 +33,8 @@ static bool fails(const char *name) {
     if (!now) return false;
     if (faults.kind == FAULT_KILL) raise(SIGKILL);
     if (faults.kind == FAULT_INTERRUPT) raise(SIGINT);
-    if (faults.kind == FAULT_SHORT || faults.kind == FAULT_INTERRUPT) return false;
+    if (faults.kind == FAULT_TERMINATE) raise(SIGTERM);
+    if (faults.kind == FAULT_SHORT || faults.kind >= FAULT_INTERRUPT) return false;
     errno = faults.kind == FAULT_ENOSPC ? ENOSPC : faults.kind == FAULT_EINTR ? EINTR : EIO;
     return true;
 }

@@ -1,5 +1,5 @@
 /* test_json.c: JSON texts: what they hold, what is refused and where, at any depth, without memory. */
-#include "formats/motion/json.h"
+#include "formats/input/json.h"
 #include "support/memory.h"
 #include <float.h>
 #include <math.h>

@@ -1,8 +1,8 @@
 /* test_traffic.c: contacts in real and made-up files against exact brute force over all pairs. */
 #include "support/scenes.h"
 
-#include "kinetic/found.h"
 #include "oracle/moving.h"
+#include "support/found.h"
 #include <math.h>
 #include <stdlib.h>
 

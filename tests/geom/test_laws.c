@@ -2,6 +2,7 @@
  * plane or a point, mirrors. A test begins with the numbers of the laws that it checks; test_degenerate.c has the
  * others, and A1, X5 and C5 are checked by test_sides.c and test_walls.c against rationals. And how often which stage
  * is needed. */
+#include "geom/filter.h"
 #include "geom/sides.h"
 #include "support/context.h"
 #include <fenv.h>
@@ -257,10 +258,43 @@ static void filters_know_no_scale(void **state) {
     }
 }
 
+/* Where the differences themselves are denormal, and keep some 20 bits. */
+static void filters_decide_denormal_scenes(void **state) {
+    num_context *context = *state;
+    for (int exponent = -900; exponent >= -1050; exponent -= 30) {
+        fuzz_source r = {8};
+        const froe_predicate_stats before = context->stats;
+        int sure = 0;
+        for (int i = 0; i < 200; i++) {
+            double p[4][3];
+            const double *points[3] = {p[0], p[1], p[2]};
+            for (int j = 0; j < 12; j++) p[j / 3][j % 3] = ldexp(fuzz_unit(&r), exponent);
+            for (int dim = 2; dim <= 3; dim++) {
+                const geom_plane plane = geom_plane_points(dim, points);
+                geom_side_vertex(context, &plane, p[3]);
+            }
+            const filter_line line = filter_line_through(p[0], p[1], true);
+            const double w[2] = {fabs(p[3][0] - p[0][0]), fabs(p[3][1] - p[0][1])};
+            const double f = filter_line_value(&line, p[3][0], p[3][1]), e = filter_line_bound(&line, w[0], w[1]);
+            const geom_plane plane = geom_plane_points(2, points);
+            sure += fabs(f) > e;
+            const geom_plane wall = geom_plane_axis(3, 0, 0.5 * p[2][0] + 0.5 * p[3][0]);
+            const geom_plane other = geom_plane_points(3, (const double *[3]){p[3], p[1], p[2]});
+            geom_side_crossing(context, &wall, p[0], p[3], &other);
+            geom_side_crossing(context, &other, p[0], p[1], &wall);
+            if (fabs(f) > e) assert_int_equal(geom_side_vertex(context, &plane, p[3]), f > 0 ? 1 : -1);
+        }
+        assert_true(sure > 195);
+        assert_true(context->stats.filtered - before.filtered > 770);
+        assert_true(context->stats.exact - before.exact < 10);
+    }
+}
+
 int main(void) {
 #define LAW(name) cmocka_unit_test_setup_teardown(name, context_open, context_close)
     const struct CMUnitTest tests[] = {
         LAW(filters_know_no_scale),
+        LAW(filters_decide_denormal_scenes),
         LAW(a2_scaling_by_a_power_of_two_changes_nothing),
         LAW(a3_an_exact_translation_changes_nothing),
         LAW(a4_exchanging_two_axes_mirrors_and_rotating_all_three_does_not),

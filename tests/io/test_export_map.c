@@ -35,7 +35,7 @@ typedef struct tally {
 
 static bool count_part(void *user, const froe_part *part) {
     tally *t = user;
-    const froe_part like = froe_part_like(part->kind == FROE_KIND_COUNT ? FROE_EXPORT_CELLS : FROE_EXPORT_FRAGMENTS);
+    const froe_part like = froe_part_like(part->kind == FROE_KIND_NONE ? FROE_EXPORT_CELLS : FROE_EXPORT_FRAGMENTS);
     assert_int_equal(part->attribute_count, like.attribute_count);
     for (int i = 0; i < like.attribute_count; i++) {
         assert_string_equal(part->attributes[i].name, like.attributes[i].name);

@@ -12,7 +12,7 @@ static formats_reader *choose_ogr(const formats_source *source) {
 
 static froe_status read_by_gdal(const char *path, const froe_read_options *options, froe_scene **out,
                                 froe_read_report *report, froe_diagnostic *why) {
-    static const formats_readers gdal = {choose_ogr, io_read_ogr, true};
+    static const formats_readers gdal = {.choose = choose_ogr, .maps = io_read_ogr, .beyond = true};
     return formats_read(&gdal, path, options, out, report, why);
 }
 

@@ -2,6 +2,7 @@
 #ifndef FROE_TESTS_KINETIC_MOVING_H
 #define FROE_TESTS_KINETIC_MOVING_H
 #include "kinetic/kinetic.h"
+#include "support/batch.h"
 #include "support/fuzz.h"
 #include <stdlib.h>
 #include <string.h>
@@ -111,7 +112,6 @@ static froe_motion *moving_new(const moving_kind *kind, uint64_t seed, const fro
         d->births[i] = kind->mortal ? fuzz_int(&r, -20, 40) : 0;
         d->deaths[i] = kind->mortal ? d->births[i] + fuzz_int(&r, 0, 40) : MOVING_TIME;
     }
-    froe_motion *m = NULL;
     froe_motion_options w = froe_motion_defaults();
     w.end = MOVING_TIME;
     w.begin = 0;
@@ -121,13 +121,9 @@ static froe_motion *moving_new(const moving_kind *kind, uint64_t seed, const fro
     b.count = (size_t)kind->count;
     b.starts = d->starts, b.times = d->times, b.coords = d->xy, b.controls = d->controls;
     b.vertices = d->vertices, b.births = d->births, b.deaths = d->deaths;
-    froe_status status = froe_motion_new(&w, alloc, &m, NULL);
-    if (!status) status = froe_motion_add(m, &b, NULL);
+    froe_motion *m = batch_motion(&w, &b, alloc);
     free(d);
-    if (!status) return m;
-    if (status != FROE_E_MEMORY) abort();
-    froe_motion_free(m);
-    return NULL;
+    return m;
 }
 
 /** All kinds that partitions are tested with. */

@@ -3,6 +3,7 @@
 #ifndef FROE_TESTS_KINETIC_SPACE_H
 #define FROE_TESTS_KINETIC_SPACE_H
 #include "kinetic/kinetic.h"
+#include "support/batch.h"
 #include "support/fuzz.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -294,14 +295,9 @@ static inline froe_motion *space_new(const space_kind *kind, uint64_t seed, cons
     b.vertex_count = d->vertex_count, b.starts = d->starts, b.times = d->times, b.coords = d->coords;
     b.controls = d->controls, b.births = d->births, b.deaths = d->deaths;
     b.count = d->count, b.vertices = d->vertices;
-    froe_motion *m = NULL;
-    froe_status status = froe_motion_new(&w, alloc, &m, NULL);
-    if (!status) status = froe_motion_add(m, &b, NULL);
+    froe_motion *m = batch_motion(&w, &b, alloc);
     free(d);
-    if (!status) return m;
-    if (status != FROE_E_MEMORY) abort();
-    froe_motion_free(m);
-    return NULL;
+    return m;
 }
 
 /* --------------------------------------------------------------------- following -- */

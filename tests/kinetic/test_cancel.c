@@ -137,7 +137,46 @@ static void test_all_calls(void **state) {
     cancel("update", bring_in, 3);
 }
 
+static bool count_event(void *user, const froe_event *event) {
+    (void)event;
+    ++*(size_t *)user;
+    return true;
+}
+
+/* Memory that is refused once may be done without, but then all events have been told, or the status says so. */
+static void test_no_event_is_lost_in_silence(void **state) {
+    (void)state;
+    static const moving_kind few = {
+        .name = "few", .count = 24, .grid = 600, .length = 300, .speed = 40, .spin = 20, .legs = 2};
+    froe_motion *m = moving_new(&few, 1, NULL);
+    size_t undisturbed = 0, refused = 0, calls = 1;
+    for (size_t fail_at = 0; fail_at <= calls; fail_at++) {
+        test_memory memory;
+        const froe_allocator alloc = test_memory_begin(&memory);
+        froe_kinetic *k = NULL;
+        size_t events = 0;
+        const froe_kinetic_options o = froe_kinetic_defaults();
+        assert_int_equal(froe_kinetic_new(m, &o, &alloc, &k, NULL), FROE_OK);
+        const size_t before = memory.calls;
+        memory.fail_at = fail_at ? before + fail_at : 0;
+        const froe_status status = froe_kinetic_advance(k, MOVING_TIME, count_event, &events, NULL);
+        if (!fail_at) undisturbed = events, calls = memory.calls - before;
+        assert_true(status == FROE_OK || (fail_at && status == FROE_E_MEMORY));
+        if (!status) assert_int_equal(events, undisturbed);
+        refused += status != FROE_OK;
+        if (status) assert_int_equal(froe_kinetic_advance(k, MOVING_TIME, count_event, &events, NULL), FROE_OK);
+        assert_int_equal(froe_kinetic_audit(k, NULL), FROE_OK);
+        froe_kinetic_free(k);
+        test_memory_end(&memory);
+    }
+    if (undisturbed < 50 || calls < 20 || refused < 5)
+        fail_msg("%zu events, %zu calls, %zu refused", undisturbed, calls, refused);
+    froe_motion_free(m);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_a_new_partition), cmocka_unit_test(test_all_calls)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_a_new_partition),
+                                       cmocka_unit_test(test_no_event_is_lost_in_silence),
+                                       cmocka_unit_test(test_all_calls)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

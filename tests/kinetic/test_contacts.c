@@ -6,10 +6,10 @@
 
 #include <cmocka.h>
 
-#include "found.h"
 #include "kinetic/contact/meet.h"
 #include "motions.h"
 #include "oracle/moving.h"
+#include "support/found.h"
 #include "support/memory.h"
 
 /* ------------------------------------------------------------ against the oracle -- */

@@ -10,7 +10,7 @@
 #include "kinetic/motions.h"
 #include "kinetic/moving.h"
 #include "kinetic/now/near.h"
-#include "kinetic/truth.h"
+#include "oracle/truth.h"
 
 enum { TICKS = 6, QUESTIONS = 60 };
 

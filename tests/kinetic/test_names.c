@@ -1,7 +1,7 @@
 /* test_names.c: the events of a partition beside the contacts of its motion, which are found without it: wherever a
  * contact begins or ends, an event says so. */
-#include "kinetic/found.h"
 #include "kinetic/moving.h"
+#include "support/found.h"
 #include <math.h>
 
 enum { MOST_EVENTS = 1 << 16, SEEDS = 3 };

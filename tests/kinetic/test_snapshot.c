@@ -9,7 +9,7 @@
 
 #include "kinetic/motions.h"
 #include "kinetic/moving.h"
-#include "kinetic/truth.h"
+#include "oracle/truth.h"
 #include "support/memory.h"
 
 typedef struct tally {

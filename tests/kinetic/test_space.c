@@ -6,6 +6,7 @@
 
 #include <cmocka.h>
 
+#include "kinetic/moving.h"
 #include "kinetic/space.h"
 #include "support/memory.h"
 #include <string.h>
@@ -81,6 +82,31 @@ static void nothing_is_made_anew_in_general_position(void **state) {
         froe_kinetic_free(k);
         froe_motion_free(m);
     }
+}
+
+/* An edge turns upright and over in the very tick in which its plans go on, so that no certificate fails, and the tree
+ * still has the edge as it was when that tick is handled: all is made anew after it. */
+static void edges_may_turn_in_the_tick_in_which_plans_go_on(void **state) {
+    static const size_t starts[] = {0, 1, 5, 9, 13, 17, 21};
+    static const double times[] = {0,    0, 1.5, 2.3125, 8,      0, 1.5, 2.1875, 8,      0, 1.5625,
+                                   2.25, 8, 0,   1.5,    2.3125, 8, 0,   1.5625, 2.1875, 8};
+    static const double coords[] = {4, 3, 5,  4, 3, 5,  0, 3, 5, 5, 3, 5,  4, 3, 5,  5, 2, 3,  1, 2, 3,
+                                    6, 2, 3,  5, 2, 3,  3, 1, 7, 1, 2, 13, 6, 2, 19, 5, 5, 25, 3, 1, 7,
+                                    3, 1, 11, 3, 1, 10, 3, 1, 7, 3, 1, 7,  3, 1, 17, 3, 1, 16, 3, 1, 13};
+    froe_motion_options w = froe_motion_defaults();
+    froe_moving b = froe_moving_defaults();
+    (void)state;
+    w.dim = 3, w.begin = 0, w.end = 8, w.tick = 0.25;
+    b.vertex_count = 6, b.count = 2, b.starts = starts, b.times = times, b.coords = coords;
+    froe_motion *m = batch_motion(&w, &b, NULL);
+    for (uint64_t seed = 1; seed <= 6; seed++) {
+        froe_kinetic *k = start(m, seed);
+        assert_int_equal(froe_kinetic_advance(k, 8, NULL, NULL, NULL), FROE_OK);
+        assert_int_equal(froe_kinetic_statistics(k).stuck, 0);
+        assert_int_equal(froe_kinetic_audit(k, NULL), FROE_OK);
+        froe_kinetic_free(k);
+    }
+    froe_motion_free(m);
 }
 
 /* ------------------------------------------------------------------ certificates -- */
@@ -223,6 +249,188 @@ static void a_scene_that_leans_has_the_same_tree(void **state) {
         froe_kinetic_free(other);
         froe_motion_free(upright);
         froe_motion_free(leaning);
+    }
+}
+
+/* However large or small it is, it has the same tree, certificates and events, and nothing is made anew: doubles decide
+ * as much as elsewhere. */
+static void a_scene_of_any_size_has_the_same_tree(void **state) {
+    static const int scales[] = {-1050, -664, -300, 200, 480, 990};
+    space_kind kind = *kind_named("small");
+    froe_motion *m = space_new(&kind, 2, NULL);
+    froe_kinetic *k = start(m, 2);
+    space_counts counts = {0};
+    (void)state;
+    assert_int_equal(froe_kinetic_advance(k, SPACE_WINDOW, space_count, &counts, NULL), FROE_OK);
+    for (size_t i = 0; i < sizeof scales / sizeof *scales; i++) {
+        kind.scale = scales[i];
+        froe_motion *scaled = space_new(&kind, 2, NULL);
+        froe_kinetic *other = start(scaled, 2);
+        space_counts again = {0};
+        uint32_t found[2];
+        assert_int_equal(froe_kinetic_advance(other, SPACE_WINDOW, space_count, &again, NULL), FROE_OK);
+        assert_memory_equal(&counts, &again, sizeof counts);
+        assert_int_equal(kinetic_compare(k, other, true, found), FROE_OK);
+        if (found[0]) fail_msg("times 2^%d: another tree", scales[i]);
+        const froe_kinetic_stats s = froe_kinetic_statistics(k), t = froe_kinetic_statistics(other);
+        assert_int_equal(t.restarts, 0);
+        assert_int_equal(t.crowds, s.crowds);
+        froe_kinetic_free(other);
+        froe_motion_free(scaled);
+    }
+    froe_kinetic_free(k);
+    froe_motion_free(m);
+}
+
+/* ---------------------------------------------------------------------- relations -- */
+
+/* The same motion with other vertices: from each knot. */
+typedef void remake_fn(void *user, double at[3]);
+
+static froe_motion *remade(const froe_motion *m, remake_fn *remake, void *user, bool backwards) {
+    space_data *d = calloc(1, sizeof *d);
+    froe_moving b = froe_moving_defaults();
+    const froe_motion_options w = froe_motion_window(m);
+    assert_non_null(d);
+    b.vertex_count = froe_motion_vertex_count(m), b.count = froe_motion_object_count(m);
+    for (uint32_t v = 0; v < b.vertex_count; v++) {
+        d->starts[v + 1] = d->starts[v] + froe_motion_knot_count(m, v);
+        for (size_t i = 0; i < d->starts[v + 1] - d->starts[v]; i++) {
+            froe_moving_knot knot = froe_motion_knot(m, v, i);
+            remake(user, knot.at);
+            d->times[d->starts[v] + i] = knot.time;
+            memcpy(d->coords + 3 * (d->starts[v] + i), knot.at, sizeof knot.at);
+        }
+    }
+    for (uint32_t o = 0; o < b.count; o++) {
+        const froe_moving_object object = froe_motion_object(m, o);
+        memcpy(d->vertices + 3 * (backwards ? b.count - 1 - o : o), object.vertices, sizeof object.vertices);
+    }
+    b.starts = d->starts, b.times = d->times, b.coords = d->coords, b.vertices = d->vertices;
+    froe_motion *out = batch_motion(&w, &b, NULL);
+    free(d);
+    return out;
+}
+
+static void mirror(void *user, double at[3]) {
+    const int *axis = user;
+    if (*axis < 3) at[*axis] = -at[*axis];
+}
+
+/* Mirrored along an axis, or with its triangles numbered from behind and cutting in the order in which they did, a
+ * scene has the same turns and triple crossings, and a tree of the same form. */
+static void mirrored_or_renumbered_scenes_have_trees_alike(void **state) {
+    static const char *const names[] = {"layers", "small", "swarm", "rigid", "still"};
+    (void)state;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        froe_motion *m = space_new(kind_named(names[i]), 6, NULL);
+        const uint32_t n = (uint32_t)froe_motion_object_count(m);
+        uint32_t order[2][SPACE_MOST];
+        for (uint32_t o = 0; o < n; o++) order[0][o] = (o * 7 + 3) % n;
+        if (n % 7 == 0) fail_msg("%s: no order", names[i]);
+        for (uint32_t o = 0; o < n; o++) order[1][o] = n - 1 - order[0][o];
+        space_counts counts[5] = {0};
+        froe_kinetic_stats stats[5];
+        for (int change = 0; change < 5; change++) { /* an axis, a number from behind, nothing */
+            int axis = change;
+            froe_motion *other = remade(m, mirror, &axis, change == 3);
+            froe_kinetic_options o = froe_kinetic_defaults();
+            froe_kinetic *k = NULL;
+            o.order = order[change == 3];
+            assert_int_equal(froe_kinetic_new(other, &o, NULL, &k, NULL), FROE_OK);
+            assert_int_equal(froe_kinetic_advance(k, 40, space_count, counts + change, NULL), FROE_OK);
+            stats[change] = froe_kinetic_statistics(k);
+            froe_kinetic_free(k);
+            froe_motion_free(other);
+        }
+        assert_true(counts[4].all > 20);
+        for (int change = 0; change < 4; change++) {
+            for (int kind = FROE_EVENT_TRIPLE; kind < FROE_EVENT_KINDS; kind++) /* others may be told as one batch */
+                if (kind != FROE_EVENT_BATCH) assert_int_equal(counts[change].events[kind], counts[4].events[kind]);
+            assert_int_equal(stats[change].nodes, stats[4].nodes);
+            if (change >= 2) assert_int_equal(stats[change].certificates, stats[4].certificates);
+            assert_int_equal(stats[change].height, stats[4].height);
+        }
+        froe_motion_free(m);
+    }
+}
+
+/* Segments of the plane as walls: triangles that stand on them, the third corner straight above the first, each in a
+ * layer of its own. */
+static froe_motion *walls_on(const froe_motion *plane) {
+    space_data *d = calloc(1, sizeof *d);
+    froe_moving b = froe_moving_defaults();
+    froe_motion_options w = froe_motion_window(plane);
+    assert_non_null(d);
+    b.count = froe_motion_object_count(plane), b.vertex_count = 3 * b.count;
+    assert_true(b.count <= SPACE_MOST);
+    for (size_t v = 0; v < b.vertex_count; v++) {
+        const uint32_t from = froe_motion_object(plane, (uint32_t)(v / 3)).vertices[v % 3 % 2];
+        const size_t count = froe_motion_knot_count(plane, from);
+        d->starts[v + 1] = d->starts[v] + count;
+        for (size_t i = 0; i < count; i++) {
+            const froe_moving_knot knot = froe_motion_knot(plane, from, i);
+            double *at = d->coords + 3 * (d->starts[v] + i), *control = d->controls + 3 * (d->starts[v] + i);
+            d->times[d->starts[v] + i] = knot.time;
+            for (int k = 0; k < 2; k++) at[k] = knot.at[k], control[k] = knot.control[k];
+            at[2] = (double)(2 * (v / 3) + (v % 3 == 2));
+            control[2] = isnan(control[0]) ? control[0] : at[2];
+        }
+    }
+    w.dim = 3;
+    b.starts = d->starts, b.times = d->times, b.coords = d->coords, b.controls = d->controls;
+    froe_motion *out = batch_motion(&w, &b, NULL);
+    free(d);
+    return out;
+}
+
+static uint32_t shadow_of(const froe_kinetic *space, uint32_t wall) {
+    return wall >= KTREE_END_1 ? wall : now_object_of(&space->now, wall);
+}
+
+static bool are_shadows(const froe_kinetic *plane, const froe_kinetic *space) {
+    static uint32_t stack[1 << 16][2];
+    size_t top = 0;
+    stack[top][0] = ktree_node_at(&plane->tree, KTREE_ROOT)->child[0];
+    stack[top++][1] = ktree_node_at(&space->tree, KTREE_ROOT)->child[0];
+    while (top) {
+        const uint32_t *pair = stack[--top];
+        const ktree_node *p = ktree_node_at(&plane->tree, pair[0]), *q = ktree_node_at(&space->tree, pair[1]);
+        if (!pair[0] != !pair[1]) return false;
+        if (!pair[0]) continue;
+        if (p->segment != now_object_of(&space->now, q->segment) || now_is_surface(&space->now, q->segment))
+            return false;
+        for (int i = 0; i < 2; i++)
+            if (p->wall[i] != shadow_of(space, q->wall[i])) return false;
+        assert_true(top + 4 <= sizeof stack / sizeof *stack);
+        for (int i = 0; i < 4; i++) stack[top][0] = p->child[i], stack[top++][1] = q->child[i];
+    }
+    return true;
+}
+
+/* A partition of walls is that of the segments they stand on, node for node. */
+static void walls_have_the_tree_of_the_segments_below_them(void **state) {
+    static const size_t kinds[] = {0, 2, 6, 8};
+    (void)state;
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        froe_motion *plane = moving_new(moving_kinds + kinds[i], 4, NULL), *walls = walls_on(plane);
+        const uint32_t n = (uint32_t)froe_motion_object_count(plane);
+        uint32_t order[SPACE_MOST];
+        for (uint32_t o = 0; o < n; o++) order[o] = n - 1 - o;
+        froe_kinetic_options o = froe_kinetic_defaults();
+        froe_kinetic *k = NULL, *shadow = NULL;
+        o.order = order;
+        assert_int_equal(froe_kinetic_new(plane, &o, NULL, &shadow, NULL), FROE_OK);
+        assert_int_equal(froe_kinetic_new(walls, &o, NULL, &k, NULL), FROE_OK);
+        for (int step = 0; step < 60; step++) {
+            const double next = froe_kinetic_next(shadow);
+            if (!(next <= MOVING_TIME)) break;
+            assert_int_equal(froe_kinetic_advance(shadow, next, NULL, NULL, NULL), FROE_OK);
+            assert_int_equal(froe_kinetic_advance(k, next, NULL, NULL, NULL), FROE_OK);
+            if (!are_shadows(shadow, k)) fail_msg("%s at %.17g: another tree", moving_kinds[kinds[i]].name, next);
+        }
+        froe_kinetic_free(k), froe_kinetic_free(shadow);
+        froe_motion_free(walls), froe_motion_free(plane);
     }
 }
 
@@ -524,6 +732,9 @@ static void what_is_not_there_is_refused(void **state) {
     (void)state;
     assert_int_equal(froe_kinetic_locate(k, at, &place, NULL), FROE_E_UNSUPPORTED);
     assert_int_equal(froe_kinetic_ray(k, at, at, &hit, NULL), FROE_E_UNSUPPORTED);
+    assert_int_equal(froe_kinetic_locate_in_space(k, (double[]){0, NAN, 0}, &place, NULL), FROE_E_ARG);
+    assert_int_equal(froe_kinetic_locate_in_space(k, at, NULL, NULL), FROE_E_ARG);
+    assert_int_equal(froe_kinetic_layers(k, NULL, NULL, NULL), FROE_E_ARG);
     o.augmented = true;
     assert_int_equal(froe_kinetic_new(m, &o, NULL, &none, NULL), FROE_E_UNSUPPORTED);
     assert_null(none);
@@ -544,10 +755,14 @@ int main(void) {
         cmocka_unit_test(trees_are_those_of_cylindrical_after_every_event),
         cmocka_unit_test(faces_turn_over_into_other_cells),
         cmocka_unit_test(nothing_is_made_anew_in_general_position),
+        cmocka_unit_test(edges_may_turn_in_the_tick_in_which_plans_go_on),
         cmocka_unit_test(no_kind_of_certificate_may_be_missing),
         cmocka_unit_test(triangles_turn_over_as_often_as_their_areas_have_roots),
         cmocka_unit_test(slabs_are_put_back_as_they_were),
         cmocka_unit_test(a_scene_that_leans_has_the_same_tree),
+        cmocka_unit_test(a_scene_of_any_size_has_the_same_tree),
+        cmocka_unit_test(mirrored_or_renumbered_scenes_have_trees_alike),
+        cmocka_unit_test(walls_have_the_tree_of_the_segments_below_them),
         cmocka_unit_test(triangles_come_and_go_and_take_other_ways),
         cmocka_unit_test(back_again_the_tree_is_the_first),
         cmocka_unit_test(a_triangle_that_leaves_leaves_the_tree_as_it_was),

@@ -7,9 +7,9 @@
 
 #include <cmocka.h>
 
-#include "found.h"
 #include "kinetic/contact/meet.h"
 #include "oracle/touching.h"
+#include "support/found.h"
 #include "support/fuzz.h"
 #include "support/memory.h"
 

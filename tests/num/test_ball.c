@@ -158,9 +158,9 @@ static void a_context_without_memory_is_a_status(void **state) {
 
 static void statistics_add_up(void **state) {
     (void)state;
-    froe_predicate_stats sum = {1, 2, 3, 4, 5, 6}, more = {10, 20, 30, 40, 50, 60};
+    froe_predicate_stats sum = {1, 2, 3, 4, 5, 6, {0}}, more = {10, 20, 30, 40, 50, 60, {0}};
     num_stats_add(&sum, &more);
-    assert_memory_equal(&sum, (&(froe_predicate_stats){11, 22, 33, 44, 55, 66}), sizeof sum);
+    assert_memory_equal(&sum, (&(froe_predicate_stats){11, 22, 33, 44, 55, 66, {0}}), sizeof sum);
 }
 
 int main(void) {

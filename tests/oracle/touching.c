@@ -250,3 +250,119 @@ bool oracle_triangles_meet(const froe_motion *m, uint32_t a, uint32_t b, const m
         for (int k = 0; k < 3; k++) mpq_clear(v[i][k]);
     return meet;
 }
+
+/* ------------------------------------------------------------------ neighbours -- */
+
+enum { EQUATIONS = 5, UNKNOWNS = 6 };
+
+typedef struct system {
+    mpq_t cell[EQUATIONS][UNKNOWNS + 1], at[3], t[3];
+    int rows, pivot[EQUATIONS]; /* the column of each row */
+} system;
+
+static void each_number(system *s, void (*what)(mpq_t)) {
+    for (int i = 0; i < EQUATIONS; i++)
+        for (int j = 0; j <= UNKNOWNS; j++) what(s->cell[i][j]);
+    for (int k = 0; k < 3; k++) what(s->at[k]), what(s->t[k]);
+}
+
+/* sum x_i a_i = sum x_(3+j) b_j, and both sums of x are 1; x is 0 but for the columns of a set. */
+static void set_up(system *s, mpq_t v[6][3], unsigned set) {
+    for (int i = 0; i < EQUATIONS; i++)
+        for (int j = 0; j <= UNKNOWNS; j++) mpq_set_si(s->cell[i][j], i >= 3 && (j == UNKNOWNS || j / 3 == i - 3), 1);
+    for (int k = 0; k < 3; k++)
+        for (int j = 0; j < UNKNOWNS; j++) {
+            mpq_set(s->cell[k][j], v[j][k]);
+            if (j >= 3) mpq_neg(s->cell[k][j], s->cell[k][j]);
+        }
+    for (int i = 0; i < EQUATIONS; i++)
+        for (int j = 0; j < UNKNOWNS; j++)
+            if (!(set >> j & 1)) mpq_set_ui(s->cell[i][j], 0, 1);
+}
+
+static void swap_rows(system *s, int i, int k) {
+    for (int j = 0; j <= UNKNOWNS && i != k; j++) mpq_swap(s->cell[i][j], s->cell[k][j]);
+}
+
+/* Gauss and Jordan. False: the columns of the set depend on one another. */
+static bool reduce(system *s, unsigned set) {
+    s->rows = 0;
+    for (int column = 0; column < UNKNOWNS; column++) {
+        if (!(set >> column & 1)) continue;
+        int row = s->rows;
+        while (row < EQUATIONS && !mpq_sgn(s->cell[row][column])) row++;
+        if (row == EQUATIONS) return false;
+        swap_rows(s, row, s->rows);
+        mpq_t *pivot = s->cell[s->rows];
+        mpq_set(s->t[0], pivot[column]);
+        for (int j = 0; j <= UNKNOWNS; j++) mpq_div(pivot[j], pivot[j], s->t[0]);
+        for (int i = 0; i < EQUATIONS; i++) {
+            if (i == s->rows || !mpq_sgn(s->cell[i][column])) continue;
+            mpq_set(s->t[0], s->cell[i][column]);
+            for (int j = 0; j <= UNKNOWNS; j++) {
+                mpq_mul(s->t[1], s->t[0], pivot[j]);
+                mpq_sub(s->cell[i][j], s->cell[i][j], s->t[1]);
+            }
+        }
+        s->pivot[s->rows++] = column;
+    }
+    return true;
+}
+
+/* The basic solution of a set of columns, as a point of the first triangle. False: there is none. */
+static bool basic_point(system *s, mpq_t v[6][3], unsigned set) {
+    set_up(s, v, set);
+    if (!reduce(s, set)) return false;
+    for (int i = s->rows; i < EQUATIONS; i++)
+        if (mpq_sgn(s->cell[i][UNKNOWNS])) return false;
+    for (int k = 0; k < 3; k++) mpq_set_ui(s->at[k], 0, 1);
+    for (int i = 0; i < s->rows; i++) {
+        if (mpq_sgn(s->cell[i][UNKNOWNS]) < 0) return false;
+        for (int k = 0; k < 3 && s->pivot[i] < 3; k++) {
+            mpq_mul(s->t[0], s->cell[i][UNKNOWNS], v[s->pivot[i]][k]);
+            mpq_add(s->at[k], s->at[k], s->t[0]);
+        }
+    }
+    return true;
+}
+
+/* Is the point at p, or between p and q? */
+static bool is_between(system *s, mpq_t p[3], mpq_t q[3]) {
+    int axis = 0;
+    while (axis < 3 && mpq_equal(p[axis], q[axis])) axis++;
+    mpq_set_ui(s->t[0], 0, 1);
+    if (axis < 3) {
+        mpq_sub(s->t[0], s->at[axis], p[axis]);
+        mpq_sub(s->t[1], q[axis], p[axis]);
+        mpq_div(s->t[0], s->t[0], s->t[1]);
+    }
+    if (mpq_sgn(s->t[0]) < 0 || mpq_cmp_ui(s->t[0], 1, 1) > 0) return false;
+    for (int k = 0; k < 3; k++) {
+        mpq_set(s->t[1], q[k]);
+        go_between(p[k], s->t[1], s->t[0]);
+        if (!mpq_equal(s->t[1], s->at[k])) return false;
+    }
+    return true;
+}
+
+bool oracle_neighbours_meet(const froe_motion *m, uint32_t a, uint32_t b, const mpq_t time) {
+    mpq_t v[6][3];
+    system s;
+    uint32_t name[6];
+    int shared[3], count = 0;
+    bool meet = false;
+    each_number(&s, mpq_init);
+    for (int i = 0; i < 6; i++) {
+        for (int k = 0; k < 3; k++) mpq_init(v[i][k]);
+        name[i] = froe_motion_object(m, i < 3 ? a : b).vertices[i % 3];
+        oracle_corner(m, name[i], time, v[i]);
+    }
+    for (int i = 0; i < 9; i++)
+        if (name[i / 3] == name[3 + i % 3]) shared[count++] = i / 3;
+    for (unsigned set = 0; set < 1u << UNKNOWNS && count < 3 && !meet; set++)
+        meet = basic_point(&s, v, set) && !is_between(&s, v[shared[0]], v[shared[count - 1]]);
+    for (int i = 0; i < 6; i++)
+        for (int k = 0; k < 3; k++) mpq_clear(v[i][k]);
+    each_number(&s, mpq_clear);
+    return meet;
+}

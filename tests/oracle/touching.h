@@ -12,4 +12,7 @@ int oracle_compare_time(const mpq_t time, double x);
 void oracle_corner(const froe_motion *m, uint32_t vertex, const mpq_t time, mpq_t out[3]);
 /** Do two triangles come closer to one another than `slack` along each axis, or (0) meet? */
 bool oracle_triangles_meet(const froe_motion *m, uint32_t a, uint32_t b, const mpq_t time, const mpq_t slack);
+/** Have two triangles that share vertices a point in common that is no mean of these? All basic solutions of the linear
+ * program are tried: among them are all corners of what they have in common. */
+bool oracle_neighbours_meet(const froe_motion *m, uint32_t a, uint32_t b, const mpq_t time);
 #endif

@@ -1,6 +1,7 @@
 /* Every batch form gives the statuses, sentences and answers of single calls, in their order: to good questions, to
  * none, one and many, to many equal ones, and to bad ones in any place; on one thread and on several. */
 #include "query/context.h"
+#include "support/large.h"
 #include "tree/trees.h"
 #include <math.h>
 
@@ -299,9 +300,10 @@ static void compare(froe_query *q, const struct form *form, const questions *ask
     froe_diagnostic why = {0}, its = {0};
     froe_status status;
     const size_t failed = ask_singly(q, form, ask, count, &status, &why);
-    for (unsigned threads = 1; threads <= 3; threads += 2) {
+    for (unsigned way = 0; way < 3; way++) {
         froe_batch_options o = froe_batch_defaults();
-        o.threads = threads;
+        o.threads = way < 2 ? 1 : 3;
+        large_ask(q, way == 1);
         found.queries = found.starts[0] = 0;
         const froe_status came = form->batch(q, ask, count, &o, &found, &its);
         const char *method = froe_tree_report(q->tree).method;
@@ -527,6 +529,7 @@ static froe_status ask_without_memory(void *user, const froe_allocator *alloc) {
     for (unsigned threads = 1; threads <= 2 && !status; threads++) {
         froe_batch_options o = froe_batch_defaults();
         o.threads = threads;
+        large_ask(q, threads == 1);
         status = froe_batch_range(q, ask.ranges, MANY, &o, &ranges, NULL);
         if (!status) status = froe_batch_near(q, ask.points, MANY, 2, INFINITY, &o, &near, NULL);
         if (!status) status = froe_batch_pair_array(q, true, &o, &pairs, NULL);

@@ -4,6 +4,7 @@
 #include "query/answers.h"
 #include "query/packed/packed.h"
 #include "query/packed/space.h"
+#include "support/large.h"
 #include "tree/packed/wide.h"
 
 enum { BATCH = 40 };
@@ -152,6 +153,7 @@ static void check_kernels(froe_query *q, const world *w, const scene_case *c, in
         snprintf(name, sizeof name, "%s, %s", c->name, kernels);
         if (!answers_right_at_every_scale(q, 8 * c->seed + k, rounds, why, sizeof why)) fail_msg("%s: %s", name, why);
         if (w->dim == 2) check_vertical_batch(q, &b, name);
+        large_ask(q, c->seed % 2);
         check_ray_batch(q, w->dim, &b, name);
         check_locate_batch(q, w->dim, &b, name);
         check_pairs(q, &expected, name);

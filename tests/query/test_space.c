@@ -2,6 +2,7 @@
  * blocks. (What tests/query asks of all builders is asked of these, too.) */
 #include "oracle/convex.h"
 #include "query/packed/space.h"
+#include "support/large.h"
 #include "support/memory.h"
 #include "tree/trees.h"
 #include "tree/validate.h"
@@ -241,9 +242,10 @@ static void answer_one_by_one(froe_query *q, rays *r, double t_max) {
 static void check_batch(froe_query *q, const rays *r, double t_max, size_t count, const char *name) {
     static froe_hit hits[RAYS];
     static uint32_t any[RAYS];
-    for (unsigned threads = 1; threads <= 3; threads += 2) {
+    for (unsigned way = 0; way < 3; way++) {
         froe_batch_options o = froe_batch_defaults();
-        o.threads = threads;
+        o.threads = way < 2 ? 1 : 3;
+        large_ask(q, way == 1);
         assert_int_equal(froe_batch_ray(q, r->o, r->d, count, t_max, &o, hits, NULL), FROE_OK);
         assert_int_equal(froe_batch_ray_any(q, r->o, r->d, count, t_max, &o, any, NULL), FROE_OK);
         for (size_t i = 0; i < count; i++)
@@ -313,6 +315,7 @@ static froe_status ask_without_memory(void *user, const froe_allocator *alloc) {
     froe_status status = froe_query_new(&tree, &q, NULL);
     if (status) return status;
     range.points = window;
+    large_ask(q, true);
     status = froe_query_ray(q, two, two + 6, INFINITY, &hit, NULL);
     if (!status) status = froe_query_ray_any(q, two, two + 6, INFINITY, &any, NULL);
     if (!status) status = froe_batch_ray(q, two, two + 6, 2, INFINITY, NULL, hits, NULL);

@@ -96,7 +96,7 @@ static void objects_say_what_they_were_and_what_they_are(void **state) {
     assert_int_equal(froe_scene_kind_count(s, FROE_SEGMENT), 2);
     assert_int_equal(froe_scene_kind_count(s, FROE_POINT), 4);
     assert_int_equal(froe_scene_kind_count(s, FROE_HULL), 0);
-    assert_int_equal(froe_scene_object(s, 8).kind, FROE_KIND_COUNT);
+    assert_int_equal(froe_scene_object(s, 8).kind, FROE_KIND_NONE);
     assert_null(froe_scene_vertex(s, 3));
     froe_scene_free(s);
 }

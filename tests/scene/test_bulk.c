@@ -23,8 +23,9 @@ static froe_scene *new_scene(int dim, match_plan plan) {
     return s;
 }
 
-static const match_plan never = {.least = UINT32_MAX, .chunk = 16, .part = 4, .mask = UINT64_MAX};
-static const match_plan small = {.least = 1, .chunk = 16, .part = 4, .mask = UINT64_MAX};
+static const match_plan never = {
+    .least = UINT32_MAX, .chunk = 16, .part = 4, .careful = UINT32_MAX, .mask = UINT64_MAX};
+static const match_plan small = {.least = 1, .chunk = 16, .part = 4, .careful = 300, .mask = UINT64_MAX};
 
 /* ------------------------------------------------------------------ samples -- */
 
@@ -167,15 +168,16 @@ static void ids_are_those_of_objects_added_one_by_one(void **state) {
  * of small ones. */
 static void points_that_share_a_hash_are_told_apart(void **state) {
     (void)state;
-    static const uint64_t masks[] = {~(UINT64_MAX >> 16), ~(UINT64_MAX >> 13), ~(UINT64_MAX >> 10), ~(UINT64_MAX >> 4),
-                                     0};
-    size_t at_once[5] = {0};
+    static const uint64_t masks[] = {
+        ~(UINT64_MAX >> 16), ~(UINT64_MAX >> 13), ~(UINT64_MAX >> 10), ~(UINT64_MAX >> 4), 0,
+        UINT64_MAX >> 8}; /* the last: all in one part */
+    size_t at_once[6] = {0};
     for (uint32_t round = 0; round < 60; round++) {
         match_plan plan = small;
-        plan.mask = masks[round % 5];
+        plan.mask = masks[round % 6];
         plan.chunk = 64;
         state_of = 1000 + round;
-        at_once[round % 5] += add_many(2 + (int)(round / 5 % 2), plan, 8);
+        at_once[round % 6] += add_many(2 + (int)(round / 6 % 2), plan, 8);
     }
     assert_true(at_once[0] > 20 && at_once[2] > 10); /* repaired */
     assert_true(at_once[4] < at_once[0]);            /* given up */

@@ -315,7 +315,7 @@ static void corrupted_arrays_are_refused_or_harmless(void **state) {
 static void missing_parts_and_wrong_counts_are_refused(void **state) {
     (void)state;
     froe_scene *s = motley(), *m, c;
-    for (int fault = 0; fault < 9; fault++) {
+    for (int fault = 0; fault < 17; fault++) {
         c = *s;
         if (fault == 0) c.dim = 9;
         if (fault == 1) c.dim = 1;
@@ -326,6 +326,14 @@ static void missing_parts_and_wrong_counts_are_refused(void **state) {
         if (fault == 6) c.kind_of = NULL;
         if (fault == 7) c.start_of = NULL;
         if (fault == 8) c.text_size = 0;
+        if (fault == 9) c.vertex_count = UINT32_MAX;
+        if (fault == 10) c.group_count = UINT32_MAX;
+        if (fault == 11) c.corner_count = UINT32_MAX;
+        if (fault == 12) c.coords = NULL;
+        if (fault == 13) c.radii = NULL;
+        if (fault == 14) c.group_table = NULL;
+        if (fault == 15) c.text = NULL;
+        if (fault == 16) c.form_of = NULL;
         m = NULL;
         assert_int_equal(map_whole(&c, NULL, &m, NULL), FROE_E_FORMAT);
     }

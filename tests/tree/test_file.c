@@ -625,7 +625,42 @@ static void a_file_replaced_while_open_does_not_change(void **state) {
     unlink(NAME);
 }
 
+/* A mapped file that is shortened kills (SIGBUS); one that was copied answers as before. */
+static void a_file_shortened_while_open_does_not_change_its_copy(void **state) {
+    (void)state;
+    for (int layout = PLANE; layout < LAYOUTS; layout++) {
+        froe_tree *first = rich_tree(layout), *open = NULL;
+        froe_diagnostic why;
+        assert_saved(first, NAME);
+        assert_int_equal(froe_tree_open_copy(NAME, NULL, &open, &why), FROE_OK);
+        assert_int_equal(truncate(NAME, 100), 0);
+        trees_assert_equal(first, open);
+        assert_int_equal(froe_tree_check(open, &why), FROE_OK);
+        froe_tree_free(open);
+        assert_int_equal(froe_tree_open_copy(NAME, NULL, &open, &why), FROE_E_FORMAT);
+        assert_non_null(strstr(why.message, "truncated"));
+        froe_tree_free(first);
+    }
+    froe_diagnostic why;
+    froe_tree *open = NULL;
+    assert_int_equal(truncate(NAME, 0), 0);
+    assert_int_equal(froe_tree_open_copy(NAME, NULL, &open, &why), FROE_E_FORMAT);
+    assert_int_equal(froe_tree_open_copy(".", NULL, &open, &why), FROE_E_IO);
+    unlink(NAME);
+    assert_int_equal(froe_tree_open_copy(NAME, NULL, &open, &why), FROE_E_IO);
+    assert_int_equal(froe_tree_open_copy(NULL, NULL, &open, &why), FROE_E_ARG);
+    assert_null(open);
+}
+
 /* ------------------------------------------------------------------ memory -- */
+
+static froe_status copying(void *user, const froe_allocator *alloc) {
+    (void)user;
+    froe_tree *tree = NULL;
+    const froe_status status = froe_tree_open_copy("model.froe", alloc, &tree, NULL);
+    froe_tree_free(tree);
+    return status;
+}
 
 static froe_status sending(void *user, const froe_allocator *alloc) {
     const receiver *r = user;
@@ -650,6 +685,7 @@ static void any_allocation_may_fail(void **state) {
     froe_tree *tree = rich_tree(3);
     assert_saved(tree, "model.froe");
     assert_true(test_memory_each(saving, tree) >= 6);
+    assert_true(test_memory_each(copying, NULL) >= 6);
     receiver r = {.most = SIZE_MAX};
     assert_int_equal(froe_tree_write(tree, receive, &r, NULL), FROE_OK);
     assert_true(test_memory_each(sending, &r) >= 6);
@@ -686,6 +722,7 @@ int main(void) {
         cmocka_unit_test(places_that_cannot_be_written_are_refused),
         cmocka_unit_test(saving_keeps_links_and_modes),
         cmocka_unit_test(a_file_replaced_while_open_does_not_change),
+        cmocka_unit_test(a_file_shortened_while_open_does_not_change_its_copy),
         cmocka_unit_test(any_allocation_may_fail),
     };
     return cmocka_run_group_tests(tests, clean_up, clean_up);

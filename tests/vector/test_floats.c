@@ -1,6 +1,7 @@
 /* test_floats.c: however the calling thread computes, rendered pictures have the same bytes, the thread computes so
  * afterwards, and so do the callbacks. (conformance/test_floats.c has everything else.) */
 #include "support/floats_tree.h"
+#include <froe/formats.h>
 #include <froe/render.h>
 
 static bool note_path(void *user, const froe_render_path *path) {
@@ -39,12 +40,40 @@ static void renderings(floats_run *r, void *user) {
     froe_scene_free(scene);
 }
 
+static void films(floats_run *r, void *user) {
+    const froe_allocator memory = {floats_memory, r};
+    froe_render_options o = froe_render_defaults();
+    froe_film_options film = froe_film_defaults();
+    froe_camera cameras[2];
+    froe_motion *motion;
+    froe_scene *scene;
+    (void)user;
+    o.alloc = &memory, o.progress = floats_progress, o.user = r;
+    film.frames = 3;
+    MUST(r, froe_generate_motion("moving-boxes", 2, 1, &memory, &motion, NULL));
+    MUST(r, froe_film(motion, "floats.svg", &o, &film, NULL, NULL));
+    floats_note_file(r, "floats.svg");
+    MUST(r, froe_film_write(motion, floats_bytes, r, &o, &film, NULL, NULL));
+    MUST(r, froe_film_cameras(motion, &o.camera, true, 2, cameras, NULL));
+    floats_note(r, cameras[1].eye, sizeof cameras[1].eye);
+    MUST(r, froe_motion_scene(motion, 0.1, &memory, &scene, NULL));
+    floats_note(r, froe_scene_vertex(scene, 1), 3 * sizeof(double));
+    froe_scene_free(scene);
+    froe_motion_free(motion);
+}
+
+static void films_have_the_same_bytes(void **state) {
+    (void)state;
+    floats_compare(films, NULL);
+}
+
 static void renderings_have_the_same_bytes(void **state) {
     (void)state;
     floats_compare(renderings, NULL);
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(renderings_have_the_same_bytes)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(renderings_have_the_same_bytes),
+                                       cmocka_unit_test(films_have_the_same_bytes)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -172,6 +172,13 @@ static inline void set_view(page *p, uint32_t e) {
 static inline void check_view(page *p, uint32_t samples, uint32_t seed) {
     froe_diagnostic why = {.message = ""};
     if (froe_picture_new(p->tree, p->surface, &p->options, &p->picture, &why)) fail_msg("%s", why.message);
+    for (size_t i = 0; i < froe_picture_shape_count(p->picture); i++) {
+        const froe_shape shape = froe_picture_shape(p->picture, i);
+        for (size_t ring = shape.first_ring, count; ring < shape.first_ring + shape.ring_count; ring++) {
+            const double *points = froe_picture_ring(p->picture, ring, &count);
+            for (size_t k = 0; k < 2 * count; k++) assert_true(isfinite(points[k]));
+        }
+    }
     for (uint32_t i = 0; i < samples; i++)
         check_sample(p, p->view.width * trees_unit(seed, 2 * i), p->view.height * trees_unit(seed, 2 * i + 1));
 }

@@ -2,6 +2,7 @@
  * (pages.h). */
 #include "pages.h"
 #include "view/visibility/order.h"
+#include <froe/formats.h>
 
 static froe_picture_report check_tree(froe_tree *tree, uint32_t eyes, uint32_t samples, froe_paint paint,
                                       bool through) {
@@ -114,6 +115,33 @@ static void whole_patches_paint_each_other_over(void **state) {
     check_tree(lattice_tree(), 8, 60, FROE_PAINT_WHOLE, false);
     r = check_tree(landscape(), 8, 60, FROE_PAINT_WHOLE, false);
     assert_int_equal(r.late, 0);
+}
+
+/* Pieces between a sheared wall and the upright face that it touches have no width, and some had corners that are no
+ * numbers. */
+static void corners_of_pieces_without_width_are_numbers(void **state) {
+    (void)state;
+    static const char *const kinds[] = {"cells-3d", "degenerate-3d"};
+    for (int i = 0; i < 2; i++)
+        for (int paint = 0; paint < FROE_PAINT_COUNT; paint++) {
+            page p;
+            froe_scene *scene;
+            froe_tree *tree;
+            froe_build_options o = froe_build_defaults();
+            o.method = "cylindrical", o.settings = "crossing=split", o.leaf = 1;
+            assert_int_equal(froe_generate(kinds[i], 48, 5, NULL, &scene, NULL), FROE_OK);
+            assert_int_equal(froe_build(scene, &o, &tree, NULL), FROE_OK);
+            open_page(&p, tree);
+            p.options.paint = (froe_paint)paint;
+            for (uint32_t e = 0; e < 8; e++) {
+                set_view(&p, e);
+                check_view(&p, 0, e);
+                froe_picture_free(p.picture);
+            }
+            close_page(&p);
+            froe_tree_free(tree);
+            froe_scene_free(scene);
+        }
 }
 
 static void regions_and_fragments_show_the_same(void **state) {
@@ -516,6 +544,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(whole_patches_paint_each_other_over),
         cmocka_unit_test(a_patch_may_lie_over_itself),
+        cmocka_unit_test(corners_of_pieces_without_width_are_numbers),
         cmocka_unit_test(regions_and_fragments_show_the_same),
         cmocka_unit_test(layers_that_one_sees_through_come_in_their_order),
         cmocka_unit_test(shapes_go_under_later_ones_where_corners_are_not_shared),

@@ -120,7 +120,7 @@ SIZE(froe_defects, 80);
 
 AT(froe_query_stats, queries, 0);
 AT(froe_query_stats, steps, 48);
-SIZE(froe_query_stats, 56);
+SIZE(froe_query_stats, 96);
 
 AT(froe_hit_place, point, 0);
 AT(froe_hit_place, normal, 64);
@@ -167,4 +167,4 @@ SIZE(froe_kinetic_place, 12);
 AT(froe_snapshot, tree, 0);
 AT(froe_snapshot, rounded, 8);
 AT(froe_snapshot, alike, 12);
-SIZE(froe_snapshot, 16);
+SIZE(froe_snapshot, 48);

@@ -8,7 +8,7 @@ import { Tree } from "./tree.js";
 export const EVENTS = ["vertices", "vertex-crossing", "crossings", "contact", "triple", "turn", "batch", "plan", "appear",
     "disappear", "flop", "touch"];
 const STATISTICS = ["surgeries", "batches", "crowds", "restarts", "nodesTouched", "certificatesMade", "nodes", "certificates"];
-const EVENT = 88, FRAGMENT = 40, PLACE = 12, SNAPSHOT = 16; // bytes of web_event, web_fragment, froe_kinetic_place, ...
+const EVENT = 88, FRAGMENT = 40, PLACE = 12, SNAPSHOT = 48; // bytes of web_event, web_fragment, froe_kinetic_place, ...
 const VISIT = { all: 0, instants: 1, first: 2 }; // as in web/core/motion.c
 
 /** A partition of moving objects, exact at every instant that it stands at. It keeps the motion in use. */

@@ -9,7 +9,7 @@ const NEEDED = { box: () => 2, ball: () => 1, simplex: (dim) => dim + 1, capsule
 const RANGE = { points: Float64Array, offsets: Float64Array };
 const STATISTICS = ["queries", "nodes", "leaves", "tests", "exact", "slices", "steps"]; // of froe_query_stats
 const MEETINGS = ["cross", "touch", "overlap"], RELATIONS = ["meets", "within", "covers"];
-const PAIRS = 16, PAIR = 12, HIT = 16, PLACE = 136; // bytes of froe_pairs, ...
+const PAIRS = 16, PAIR = 12, HIT = 16, PLACE = 136, STATS = 96; // bytes of froe_pairs, ...
 
 /* How far rays go. */
 const most = (options) => number(given(options, { tMax: Infinity }).tMax, "tMax");
@@ -159,7 +159,7 @@ export class Questions extends Resource {
     /** What the questions since the last call have cost: { queries, nodes, leaves, tests, exact, slices, steps }. */
     statistics() {
         return this[CORE].within((arena) => {
-            const out = arena.room(8 * STATISTICS.length);
+            const out = arena.room(STATS);
             this[CORE].get("froe_query_statistics", out, this.#context);
             const numbers = this[CORE].copy(BigUint64Array, out, STATISTICS.length);
             return Object.fromEntries(STATISTICS.map((name, i) => [name, Number(numbers[i])]));

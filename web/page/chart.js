@@ -20,6 +20,7 @@ export class Chart {
     #stop = new AbortController();
     #box = { dim: 2, lo: [0, 0], hi: [1, 1], up: 2 };
     #resized;
+    #still = null; // { key, canvas, made }
 
     /** `view()` is the state; `change(patch)` sets it; `paint(context, chart)` draws; `more` has listeners: point(event,
      * [x, y]), drag(event, from, to) which returns true if it took it, leave(), key(event). */
@@ -40,6 +41,7 @@ export class Chart {
     /** What is shown when zoom is 1: a box of 2 or 3 dimensions, and the axis that points up. */
     fit({ lo, hi }, up = 2) {
         this.#box = { dim: lo.length, lo: [...lo], hi: [...hi], up };
+        this.#still = null;
         this.draw();
     }
     get dim() { return this.#box.dim; }
@@ -59,6 +61,20 @@ export class Chart {
             context.clearRect(0, 0, width, height);
             this.#paint(context, this);
         });
+    }
+
+    /** Paints what stays as it is until the view, fit() or the text `of` changes: `paint(context)` draws it once, and copies
+     * are drawn from then on. Returns what `paint` returned. */
+    still(context, of, paint) {
+        const { turn, tilt, zoom, x, y } = this.#view(), { width, height } = this.#canvas, dots = devicePixelRatio || 1;
+        const key = [turn, tilt, zoom, x, y, width, height, dots, of].join();
+        if (this.#still?.key !== key) {
+            const canvas = new OffscreenCanvas(width, height), layer = canvas.getContext("2d");
+            layer.scale(dots, dots);
+            this.#still = { key, canvas, made: paint(layer) };
+        }
+        context.drawImage(this.#still.canvas, 0, 0, width / dots, height / dots);
+        return this.#still.made;
     }
 
     /* The middle of the box. Coordinates are taken from it, so that pixels of what is far from the origin have their

@@ -27,6 +27,7 @@ export function serve(folder = process.env.FROE_PAGE) {
             answer.end();
         }
     });
+    server.unref(); // a test that has failed before it stops its server ends all the same
     return new Promise((ready) => server.listen(0, "127.0.0.1", () => ready({
         url: `http://127.0.0.1:${server.address().port}/`, asked,
         stop: () => { server.closeAllConnections(); server.close(); },

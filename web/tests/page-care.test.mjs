@@ -39,7 +39,6 @@ test("a page that was open needs no network", async () => {
         if (hash.startsWith("#draw")) await drawn(page);
         await page.waitForNetworkIdle({ idleTime: 200 });
     };
-    await page.waitForFunction(() => navigator.serviceWorker.controller);
     for (const room of ROOMS) await visit(`#${room}`); // samples are kept when they are first used
     own.stop();
     for (const hash of ["#draw?scene=bracket&turn=90", "#draw?scene=hills", ...ROOMS.map((room) => `#${room}`)]) await visit(hash);

@@ -29,6 +29,7 @@ static bool is_level(const geom_gap *g, uint32_t i, uint32_t j) {
 
 /* The first corner that is nearer will do: to keep the least one would take room that grows with the corners. */
 #include "num/dyadic_terms.inc"
+/* one way: nothing is less */
 #define LESS(a, b) ((void)(a), (void)(b), false)
 #include "geom/meet/gap_body.inc"
 

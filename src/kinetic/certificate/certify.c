@@ -107,6 +107,8 @@ static void certify_regions(froe_kinetic *k, uint32_t node, const ktree_cell *ce
 
 /* -------------------------------------------------------------------- ends -- */
 
+enum { BORDER = 0xfffffffe }; /* a segment: that of the cell */
+
 static void push_layer(froe_kinetic *k, uint32_t node, uint32_t top, uint32_t bottom) {
     const uint32_t layer[3] = {node, top, bottom};
     for (int i = 0; i < 3; i++) call_push(&k->call, &k->tree.stack, layer[i]);
@@ -123,14 +125,15 @@ static void add_neighbour(froe_kinetic *k, bool below, uint32_t segment) {
 /* The next segments above and below the vertex of a wall of the node: of those that cross it on the outer side of that
  * wall, as what ends on the wall ends at the vertex. In space the wall goes through layers of surfaces, from the floor
  * of the cell to its ceiling, and each has its own: an edge that passes over the vertex changes the tree of its layer
- * (section 3.2 of the paper has the walls, but not these certificates). */
+ * (section 3.2 of the paper has the walls, but not these certificates). cell NULL: it is found if it is needed. */
 static void find_neighbours(froe_kinetic *k, uint32_t node, const ktree_cell *cell, int side) {
     ktree *tree = &k->tree;
     const ktree_node *n = ktree_node_at(tree, node);
     const uint32_t vertex = ktree_wall_name(tree, n->segment, n->wall[side]).a;
+    ktree_cell own;
     for (int i = 0; i < 2; i++) k->certs.neighbours[i].count = 0;
     tree->stack.count = 0;
-    push_layer(k, n->child[side], cell->top, cell->bottom);
+    push_layer(k, n->child[side], BORDER, BORDER);
     while (tree->stack.count && !k->call.stopped) {
         const uint32_t *layer = tree->stack.data + (tree->stack.count -= 3);
         uint32_t x = layer[0], top = layer[1], bottom = layer[2];
@@ -150,8 +153,9 @@ static void find_neighbours(froe_kinetic *k, uint32_t node, const ktree_cell *ce
             }
             x = n->child[where > 0 ? KTREE_UP : KTREE_DOWN];
         }
-        add_neighbour(k, false, top);
-        add_neighbour(k, true, bottom);
+        if (top == BORDER || bottom == BORDER) cell = cell ? cell : (own = ktree_cell_of(tree, node), &own);
+        add_neighbour(k, false, top == BORDER ? cell->top : top);
+        add_neighbour(k, true, bottom == BORDER ? cell->bottom : bottom);
     }
 }
 
@@ -253,9 +257,8 @@ void certify_site(froe_kinetic *k, const ktree_site *site) {
             for (int above = 0; above < 2; above++)
                 cert_forget(&k->certs, k->certs.segments.data[segment].end[which] + above);
         } else if (end->stamp == tree->stamp) {
-            ktree_cell cell = ktree_cell_of(tree, end->node);
             const bool left = ktree_node_at(tree, end->node)->wall[KTREE_LEFT] == KTREE_END_0 - which;
-            certify_end(k, end->node, &cell, left ? KTREE_LEFT : KTREE_RIGHT);
+            certify_end(k, end->node, NULL, left ? KTREE_LEFT : KTREE_RIGHT);
         }
     }
     tree->touched.count = 0;

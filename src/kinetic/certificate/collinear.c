@@ -35,6 +35,7 @@ void collinear_watch(froe_kinetic *k, uint32_t s, uint32_t t) {
         pair = (uint32_t)c->pairs.count++;
     }
     collinear_pair *p = c->pairs.data + pair;
+    c->count++;
     p->cert = cert_new(&k->certs, CERT_COLLINEAR, pair, collinear_tick(&k->now, both), NULL);
     for (uint32_t i = 0; i < 2; i++) {
         p->segment[i] = both[i];
@@ -62,5 +63,6 @@ void collinear_forget(froe_kinetic *k, uint32_t s) {
         cert_forget(&k->certs, &c->pairs.data[pair].cert);
         c->pairs.data[pair].next[0] = c->first_free;
         c->first_free = pair;
+        c->count--;
     }
 }

@@ -14,6 +14,7 @@ typedef struct collinear_pair {
 typedef struct collinear_table {
     ARRAY(collinear_pair) pairs;
     uint32_t first_free;
+    size_t count;             /**< pairs that are not free */
     ARRAY(uint32_t) first;    /**< pair of each segment: 2 pair + which of the two it is, or FROE_NONE */
     ARRAY(uint32_t) partners; /**< what collinear_find_partners() has found */
 } collinear_table;

@@ -11,8 +11,9 @@
 #include "kinetic/contact/slices.h"
 #include "support/fail.h"
 
-froe_contact_options froe_contact_defaults(void) {
-    return (froe_contact_options){.size = sizeof(froe_contact_options), .from = NAN, .to = NAN};
+void froe_contact_defaults_into(froe_contact_options *out, size_t size) {
+    const froe_contact_options all = {.size = size, .from = NAN, .to = NAN};
+    support_defaults(out, size, &all, sizeof all);
 }
 
 /* A span of one pair of slices. */
@@ -45,10 +46,11 @@ typedef struct contact_search {
 
 /* ------------------------------------------------------------------- one pair -- */
 
-/* Not of objects that share a vertex or a body, nor, if groups are to be kept apart, of two of one group. */
+/* Not of objects that share a body, nor, unless these are asked for, a vertex; nor, if groups are to be kept apart, of
+ * two of one group. */
 static bool is_asked_for(const contact_search *s, const motion_object *a, const motion_object *b) {
     const int dim = s->m->dim;
-    for (int i = 0; i < dim * dim; i++)
+    for (int i = 0; i < dim * dim && !s->o->neighbours; i++)
         if (a->vertices[i / dim] == b->vertices[i % dim]) return false;
     const uint32_t body = s->m->plans.data[a->vertices[0]].body;
     if (body != FROE_NONE && body == s->m->plans.data[b->vertices[0]].body) return false;
@@ -228,6 +230,8 @@ static froe_status check_contact_search(contact_search *s, froe_diagnostic *diag
     if (s->from > s->to || s->from < s->m->begin || s->to > s->m->end)
         return support_fail(diag, FROE_E_OPTIONS, "The time %.17g .. %.17g does not lie in the window %.17g .. %.17g.",
                             s->from, s->to, s->m->begin, s->m->end);
+    if (o->neighbours && s->m->dim == 2)
+        return support_fail(diag, FROE_E_UNSUPPORTED, "Contacts of segments that share a vertex are not told of.");
     return FROE_OK;
 }
 

@@ -16,17 +16,8 @@
  *
  * Degrees in time: corners on straight lines 3, bodies that turn 5, either along parabolas 6, corners on parabolas of
  * their own and a body that turns 8. */
-#include "kinetic/contact/walk.h"
+#include "kinetic/contact/encounter.h"
 #include <string.h>
-
-enum {
-    SIDES = 0,  /* + 3 of + i: of corner i of the other, of the plane of triangle `of` */
-    PASSES = 6, /* + 3 i + j: of edges i and j */
-    IN_SPACE = 15,
-    TURNS = 15, /* + 18 axis + 9 of + 3 edge + corner */
-    GAPS = 69,  /* + 9 axis + 3 i + j */
-    ALL = WALK_POLYNOMIALS
-};
 
 /* Do the pieces of all corners have one degree, and begin and end together? */
 static bool same_times(const motion_piece piece[3]) {
@@ -66,18 +57,7 @@ static bool same_times(const motion_piece piece[3]) {
 #define EXACT
 #include "kinetic/contact/triangles_body.inc"
 
-typedef struct encounter {
-    const froe_motion *m;
-    num_arena *arena;
-    walk_room *w;
-    motion_piece piece[2][3];
-    double origin[3];
-    bool may_cross[6]; /* edge i of the first the second; 3 + j: edge j of the second the first */
-    bool may_be_flat;  /* the corners may be in one plane, at some time */
-} encounter;
-
-/* The corners and passes that tell whether an edge crosses: two sides and three passes. */
-static void crossing_signs(int edge, int out[5]) {
+void encounter_crossing_signs(int edge, int out[5]) {
     const int of = edge < 3, e = edge % 3; /* of: whose plane it is */
     out[0] = SIDES + 3 * of + e;
     out[1] = SIDES + 3 * of + (e + 1) % 3;
@@ -89,7 +69,7 @@ static void crossing_signs(int edge, int out[5]) {
 static bool surely_no_crossing(const signed char *sign, int edge) {
     int of[5];
     bool left = false, right = false;
-    crossing_signs(edge, of);
+    encounter_crossing_signs(edge, of);
     if (sign[of[0]] != NUM_UNSURE && sign[of[0]] == sign[of[1]]) return true;
     for (int i = 2; i < 5; i++) {
         left = left || sign[of[i]] == -1;
@@ -112,7 +92,7 @@ static bool may_meet(ball_patch *p) {
     bool may = p->may_be_flat = true;
     for (int i = 0; i < IN_SPACE; i++) {
         if (p->counts[i] && p->sign[i] == NUM_UNSURE) p->sign[i] = (signed char)num_ball_poly_sign_throughout(&p->f[i]);
-        p->may_be_flat = p->may_be_flat && p->sign[i] == NUM_UNSURE;
+        p->may_be_flat = p->may_be_flat && (p->sign[i] == NUM_UNSURE || !p->sign[i]);
         p->counts[i] = false;
     }
     may = p->may_be_flat;
@@ -120,7 +100,7 @@ static bool may_meet(ball_patch *p) {
         int of[5];
         p->may_cross[edge] = p->may_cross[edge] && !surely_no_crossing(p->sign, edge);
         may = may || p->may_cross[edge];
-        crossing_signs(edge, of);
+        encounter_crossing_signs(edge, of);
         for (int i = 0; i < 5; i++) p->counts[of[i]] = p->counts[of[i]] || p->may_cross[edge] || p->may_be_flat;
     }
     return may;
@@ -158,11 +138,12 @@ static bool surely_apart(encounter *g) {
     num_ball_poly of[2][3];
     for (int i = 0; i < 2; i++) shape_of_ball(NULL, g->m, g->piece[i], g->w, g->origin, &p.shape[i]);
     finish_pair_ball(NULL, &p);
-    memset(all.sign, NUM_UNSURE, sizeof all.sign);
+    memcpy(all.sign, g->w->sign, sizeof all.sign);
     for (int i = 0; i < 2; i++) {
         signed char *sign = all.sign + SIDES + 3 * i;
         for (int k = 0; k < 3; k++) {
             num_ball_poly *side = &all.f[SIDES + 3 * i + k];
+            if (sign[k] != NUM_UNSURE) continue;
             side_ball(NULL, &p, i, k, side);
             sign[k] = (signed char)num_ball_poly_sign_throughout(side);
         }
@@ -170,10 +151,11 @@ static bool surely_apart(encounter *g) {
     }
     for (int j = 0; j < 3; j++) {
         line_ball(NULL, &p, j, of);
-        for (int i = 0; i < 3; i++) pass_ball(NULL, p.shape, i, of, &all.f[PASSES + 3 * i + j]);
+        for (int i = 0; i < 3; i++)
+            if (all.sign[PASSES + 3 * i + j] == NUM_UNSURE) pass_ball(NULL, p.shape, i, of, &all.f[PASSES + 3 * i + j]);
     }
     memset(all.counts, true, sizeof all.counts);
-    memset(all.may_cross, true, sizeof all.may_cross);
+    memcpy(all.may_cross, g->may_cross, sizeof all.may_cross);
     if (!may_meet(&all) || !may_meet_in_parts(&all)) return true;
     memcpy(g->w->sign, all.sign, sizeof all.sign);
     memcpy(g->may_cross, all.may_cross, sizeof all.may_cross);
@@ -202,11 +184,10 @@ static void take_in_plane(const encounter *g, const trios_dyadic *p) {
             flat_turn_dyadic(g->arena, p, i / 9, i / 3 % 3, i % 3, axis, &f[TURNS + 18 * axis + i]);
         for (int i = 0; i < 9; i++) flat_gap_dyadic(g->arena, p, i / 3, i % 3, axis, &f[GAPS + 9 * axis + i]);
     }
-    for (int i = TURNS; i < ALL; i++) num_poly_trim(&f[i], f[i].degree);
+    for (int i = TURNS; i < ALL_SIGNS; i++) num_poly_trim(&f[i], f[i].degree);
 }
 
-/* Are the corners in one plane at an instant? */
-static bool flat_at(const encounter *g, const walk_moment *at) {
+bool encounter_is_flat(const encounter *g, const walk_moment *at) {
     for (int i = 0; i < IN_SPACE && g->may_be_flat; i++)
         if (walk_sign(g->arena, g->w, at, i)) return false;
     return g->may_be_flat;
@@ -215,11 +196,11 @@ static bool flat_at(const encounter *g, const walk_moment *at) {
 /* At any of the instants that count? */
 static bool flat_at_times(const encounter *g) {
     const walk_moment start = walk_start(), end = walk_end(g->arena);
-    bool flat = flat_at(g, &start) || flat_at(g, &end);
+    bool flat = encounter_is_flat(g, &start) || encounter_is_flat(g, &end);
     for (int k = 0; k < g->w->event_count && !flat; k++) {
         flat = g->may_be_flat;
         for (int i = 0; i < IN_SPACE && flat; i++)
-            flat = g->w->f[i].degree < 0 || (g->w->events[k].vanishing[0] >> i & 1);
+            flat = !g->w->sign[i] || g->w->f[i].degree < 0 || (g->w->events[k].vanishing[0] >> i & 1);
     }
     return flat;
 }
@@ -233,7 +214,7 @@ static bool list_events(const encounter *g) {
     finish_pair_dyadic(g->arena, &p);
     for (int edge = 0; edge < 6; edge++) {
         int of[5];
-        crossing_signs(edge, of);
+        encounter_crossing_signs(edge, of);
         for (int i = 0; i < 5 && (g->may_cross[edge] || g->may_be_flat); i++)
             needed[of[i]] = w->sign[of[i]] == NUM_UNSURE;
     }
@@ -247,16 +228,16 @@ static bool list_events(const encounter *g) {
         if (needed[i]) told = walk_list(g->arena, w, i);
     if (!told || !(always_flat || flat_at_times(g))) return told;
     take_in_plane(g, &p);
-    for (int i = TURNS; i < ALL && told && w->from < w->to && always_flat; i++) told = walk_list(g->arena, w, i);
+    for (int i = TURNS; i < ALL_SIGNS && told && w->from < w->to && always_flat; i++) told = walk_list(g->arena, w, i);
     return told;
 }
 
 /* --------------------------------------------------------------------- signs -- */
 
-static bool edge_crosses(const encounter *g, const walk_moment *at, int edge) {
+bool encounter_edge_crosses(const encounter *g, const walk_moment *at, int edge) {
     int of[5], sides[2];
     bool left = false, right = false;
-    crossing_signs(edge, of);
+    encounter_crossing_signs(edge, of);
     for (int i = 0; i < 2; i++) sides[i] = walk_sign(g->arena, g->w, at, of[i]);
     if ((!sides[0] && !sides[1]) || sides[0] * sides[1] > 0) return false;
     for (int i = 2; i < 5 && !(left && right); i++) {
@@ -307,9 +288,10 @@ static bool views_meet(const encounter *g, const walk_moment *at, int axis) {
 
 static bool do_meet(void *user, const walk_moment *at) {
     const encounter *g = user;
+    if (g->shared_count) return neighbours_meet(g, at);
     for (int edge = 0; edge < 6; edge++)
-        if (g->may_cross[edge] && edge_crosses(g, at, edge)) return true;
-    return flat_at(g, at) && views_meet(g, at, 0) && views_meet(g, at, 1) && views_meet(g, at, 2);
+        if (g->may_cross[edge] && encounter_edge_crosses(g, at, edge)) return true;
+    return encounter_is_flat(g, at) && views_meet(g, at, 0) && views_meet(g, at, 1) && views_meet(g, at, 2);
 }
 
 bool meet_triangles(const froe_motion *m, meet_worker *worker, const motion_object *p, const motion_object *q) {
@@ -320,6 +302,9 @@ bool meet_triangles(const froe_motion *m, meet_worker *worker, const motion_obje
     }
     const motion_piece *near = g.piece[g.piece[0]->corner != NULL]; /* a triangle of no body, if there is one */
     for (int k = 0; k < 3; k++) g.origin[k] = near->from->at[k];
+    memset(g.may_cross, true, sizeof g.may_cross);
+    neighbours_find(p, q, &g);
+    neighbours_signs(&g, g.w->sign, g.may_cross);
     if (surely_apart(&g)) return true;
     worker->stats.exact++;
     return list_events(&g) && walk_through(g.arena, g.w, do_meet, &g);

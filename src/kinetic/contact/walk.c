@@ -135,34 +135,33 @@ static bool walk_events(num_arena *arena, walk_room *w, walk_fn *meets, void *us
         num_isolated *before = k ? w->events[k - 1].at : NULL, *after = k < w->event_count ? w->events[k].at : NULL;
         const size_t mark = arena->top;
         if (!middle_between(arena, before, after, &at)) return false;
-        now = meets(user, &at); /* in the gap: contacts are closed, they begin and end in instants */
-        if (now) w->spans[w->span_count - 1].instant = false;
+        const bool between = meets(user, &at); /* contacts are taken as closed: they begin and end in instants */
+        if (between) pass_instant(w, &now, true, k - 1);
+        if (between) w->spans[w->span_count - 1].instant = false;
+        now = between;
         if (after)
             at.event = &w->events[k];
         else
             at = walk_end(arena);
-        pass_instant(w, &now, meets(user, &at), k);
+        pass_instant(w, &now, between || meets(user, &at), k);
         arena->top = mark;
     }
-    for (int i = 0; i < w->span_count; i++)
+    for (int i = 0; i < w->span_count; i++) {
+        w->spans[i].from_start = w->first[i] < 0;
+        w->spans[i].to_end = w->last[i] == w->event_count;
         if (!time_of_event(arena, w, w->first[i], &w->spans[i].begin) ||
             !time_of_event(arena, w, w->last[i], &w->spans[i].end))
             return false;
+    }
     return true;
 }
 
 bool walk_through(num_arena *arena, walk_room *w, walk_fn *meets, void *user) {
-    const walk_moment start = walk_start(), end = walk_end(arena);
-    const bool at_start = meets(user, &start), at_end = meets(user, &end);
-    if (w->from < w->to) {
-        if (!walk_events(arena, w, meets, user)) return false;
-    } else if (at_start) { /* an instant alone */
-        const meet_time at = {w->from, w->from};
-        w->spans[w->span_count++] = (meet_span){.begin = at, .end = at, .instant = true};
-    }
-    for (int i = 0; i < w->span_count; i++) {
-        w->spans[i].from_start = at_start && i == 0;
-        w->spans[i].to_end = at_end && i == w->span_count - 1;
-    }
+    const walk_moment start = walk_start();
+    if (w->from < w->to) return walk_events(arena, w, meets, user);
+    if (!meets(user, &start)) return true;
+    const meet_time at = {w->from, w->from}; /* an instant alone */
+    w->spans[w->span_count++] =
+        (meet_span){.begin = at, .end = at, .instant = true, .from_start = true, .to_end = true};
     return true;
 }

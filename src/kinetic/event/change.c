@@ -71,9 +71,11 @@ void change_make_anew(froe_kinetic *k, uint32_t node, uint32_t without) {
 void change_enroll(froe_kinetic *k, uint32_t segment) {
     ktree_segment *s = ktree_segment_at(&k->tree, segment);
     const uint32_t *v = k->now.segments.data[segment].end;
-    for (uint32_t i = 0; i < 2 && !s->alive; i++) { /* enters it in the lists of its vertices */
-        s->end[i].next = k->tree.vertices.data[v[i]];
-        k->tree.vertices.data[v[i]] = 2 * segment + i;
+    for (uint32_t i = 0; i < 2 && !s->alive; i++) { /* enters it in the lists of its vertices, from the last on */
+        uint32_t *at = k->tree.vertices.data + v[i];
+        while (*at != FROE_NONE && *at > 2 * segment + i) at = &ktree_segment_at(&k->tree, *at / 2)->end[*at % 2].next;
+        s->end[i].next = *at;
+        *at = 2 * segment + i;
     }
     if (!s->alive) s->bound = false;
     s->alive = true;

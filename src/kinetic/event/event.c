@@ -1,7 +1,6 @@
 /* event.c: what happens at a tick, and how the partition is repaired. */
 #include "kinetic/event/event.h"
 #include "base/floats.h"
-#include "base/sort.h"
 #include "kinetic/certificate/certify.h"
 #include "kinetic/event/change.h"
 #include "kinetic/event/pass.h"
@@ -213,14 +212,14 @@ static void add_segment(const froe_kinetic *k, event_summary *all, uint32_t segm
     add_to(e->objects, &e->object_count, corner / 3);
 }
 
-static froe_event event_at(const now_state *now, froe_event_kind kind) {
+froe_event event_now(const now_state *now, froe_event_kind kind) {
     return (froe_event){
         .kind = kind, .tick = now->tick, .early = now_time_of(now, now->tick - 2), .late = now_time_of(now, now->tick)};
 }
 
-static const now_claim no_points = {{0, NAME_NONE}, {0, NAME_NONE}, 0};
+const now_claim event_no_points = {{0, NAME_NONE}, {0, NAME_NONE}, 0};
 
-static bool tell_event(froe_kinetic *k, const event_watcher *watcher, const froe_event *event, const now_claim *claim) {
+bool event_tell(froe_kinetic *k, const event_watcher *watcher, const froe_event *event, const now_claim *claim) {
     k->counts.events[event->kind]++;
     if (!watcher->visit) return true;
     k->events.reporting = true;
@@ -250,7 +249,7 @@ static void add_names(const froe_kinetic *k, event_summary *all, const slab_item
 static event_summary describe(const froe_kinetic *k, const event_group *g) {
     size_t flops = 0;
     for (size_t i = 0; i < g->count; i++) flops += item_of(k, g, i)->kind == CERT_FLOP;
-    event_summary all = {.event = event_at(&k->now, kind_of(&k->tree, item_of(k, g, 0)))};
+    event_summary all = {.event = event_now(&k->now, kind_of(&k->tree, item_of(k, g, 0)))};
     froe_event *e = &all.event;
     for (size_t i = 0; i < g->count; i++) {
         const slab_item *item = item_of(k, g, i);
@@ -276,26 +275,6 @@ static event_summary describe_crowd(const froe_kinetic *k, const event_group *g)
 }
 
 /* ------------------------------------------------------------------ rounds -- */
-
-static int by_low(void *user, uint32_t a, uint32_t b) {
-    const slab_item *items = ((const event_state *)user)->items.data;
-    const slab_item *x = items + a, *y = items + b;
-    if (x->slab[0] != y->slab[0]) return x->slab[0] < y->slab[0] ? -1 : 1;
-    return (x->slab[1] > y->slab[1]) - (x->slab[1] < y->slab[1]);
-}
-
-/* Sorts the items by place; ties keep the order of the queue, which is a function of what happened before. */
-static void sort_items(kinetic_call *call, event_state *events) {
-    size_t n = events->items.count;
-    events->order.count = 0;
-    if (n < 2 || !call_reserve(call, &events->order, 2 * n) || !call_reserve(call, &events->items, n)) return;
-    uint32_t *order = events->order.data;
-    slab_item *items = events->items.data;
-    for (size_t i = 0; i < n; i++) order[i] = (uint32_t)i;
-    base_merge_sort(order, order + n, n, by_low, events);
-    for (size_t i = 0; i < n; i++) items[n + i] = items[order[i]];
-    for (size_t i = 0; i < n; i++) items[i] = items[n + i];
-}
 
 static void gather_flops(froe_kinetic *k) {
     event_state *events = &k->events;
@@ -337,7 +316,7 @@ static void gather_failed_certs(froe_kinetic *k) {
         }
         call_poll(&k->call);
     }
-    sort_items(&k->call, events);
+    slab_sort(k);
 }
 
 /* Does a group look like one event, in one place or on one vertical line? */
@@ -383,10 +362,10 @@ static bool repair(froe_kinetic *k, event_group *g, const event_summary *event, 
     return crowd;
 }
 
-/* Until nothing is due any more. */
-static bool settle_tick(froe_kinetic *k, const event_watcher *watcher) {
+/* So many rounds, or until nothing is due any more. The first one tells what happens. */
+static bool settle_tick(froe_kinetic *k, unsigned rounds, const event_watcher *watcher) {
     bool go_on = true;
-    for (unsigned round = 0; !k->call.stopped; round++) {
+    for (unsigned round = 0; round < rounds && !k->call.stopped; round++) {
         gather_failed_certs(k);
         const size_t count = k->events.items.count;
         if (!count || k->call.stopped) break;
@@ -410,7 +389,8 @@ static bool settle_tick(froe_kinetic *k, const event_watcher *watcher) {
                 event = describe_crowd(k, &g);
             if (k->call.stopped) break;
             k->counts.batches += event.event.kind == FROE_EVENT_BATCH;
-            if (!round) go_on &= tell_event(k, watcher, &event.event, &item_of(k, &g, 0)->claim);
+            k->events.slab[0] = g.slab[0], k->events.slab[1] = g.slab[1];
+            if (!round) go_on &= event_tell(k, watcher, &event.event, &item_of(k, &g, 0)->claim);
         }
     }
     return go_on;
@@ -419,14 +399,14 @@ static bool settle_tick(froe_kinetic *k, const event_watcher *watcher) {
 /* ------------------------------------------------------------------- steps -- */
 
 static void leave_tree(froe_kinetic *k, uint32_t segment, uint32_t tell_it) {
-    if (ktree_segment_at(&k->tree, segment)->stays) tell_it = 1;
-    ktree_segment_at(&k->tree, segment)->stays = false;
-    for (size_t i = 0; i < k->events.leaving.count; i++)
-        if (k->events.leaving.data[i] / 2 == segment) {
-            k->events.leaving.data[i] |= tell_it;
-            return;
-        }
-    call_push(&k->call, &k->events.leaving, 2 * segment + tell_it);
+    ktree_segment *s = ktree_segment_at(&k->tree, segment);
+    const uint32_t *leaving = k->events.leaving.data;
+    if (s->stays) tell_it = 1;
+    s->stays = false;
+    if (s->leaving < k->events.leaving.count && leaving[s->leaving] / 2 == segment)
+        k->events.leaving.data[s->leaving] |= tell_it;
+    else
+        renew_note_leaving(k, segment, tell_it);
 }
 
 /* The same in space of the triangles that have an edge. */
@@ -527,9 +507,10 @@ static bool enter_tree(froe_kinetic *k, const event_watcher *watcher) {
         const bool in = ktree_segment_at(&k->tree, s)->stays || ktree_segment_at(&k->tree, s)->here;
         if (there && !in) change_insert(k, s);
         ktree_segment_at(&k->tree, s)->stays = false;
-        event_summary all = {.event = event_at(&k->now, kind)};
+        event_summary all = {.event = event_now(&k->now, kind)};
         add_segment(k, &all, s);
-        if (k->events.leaving.data[i] % 2) go_on &= tell_event(k, watcher, &all.event, &no_points);
+        if (k->events.leaving.data[i] % 2 && !now_is_ghost(&k->now, object))
+            go_on &= event_tell(k, watcher, &all.event, &event_no_points);
     }
     k->events.leaving.count = 0;
     return go_on;
@@ -540,9 +521,9 @@ static bool tell_meetings(froe_kinetic *k, const event_watcher *watcher) {
     const uint32_t *pair = k->events.meeting.data;
     bool go_on = true;
     for (size_t i = 0; i < k->events.meeting.count && !k->call.stopped; i += 2) {
-        event_summary all = {.event = event_at(&k->now, FROE_EVENT_CONTACT)};
+        event_summary all = {.event = event_now(&k->now, FROE_EVENT_CONTACT)};
         for (size_t j = i; j < i + 2; j++) add_segment(k, &all, pair[j]);
-        go_on &= tell_event(k, watcher, &all.event, &no_points);
+        go_on &= event_tell(k, watcher, &all.event, &event_no_points);
     }
     k->events.meeting.count = 0;
     return go_on;
@@ -561,12 +542,17 @@ bool event_step(froe_kinetic *k, int64_t tick, const event_watcher *watcher) {
     renew_apply(k);
     turn_segments(k);
     flop_triangles(k);
-    bool go_on = settle_tick(k, watcher);
+    k->events.phase = EVENT_BEFORE;
+    /* Where all is made anew, edges of which plans go on are in the tree until then, and may have turned in between. */
+    bool go_on = settle_tick(k, all ? 1 : LAST_ROUND + 1, watcher);
     if (all && !k->call.stopped) {
         triangle_enroll_all(k);
         if (!k->call.stopped) surgery_restart(k);
     }
+    k->events.phase = EVENT_CHANGE;
     go_on &= enter_tree(k, watcher);
-    go_on &= settle_tick(k, watcher);
+    k->events.phase = EVENT_AFTER;
+    go_on &= settle_tick(k, LAST_ROUND + 1, watcher);
+    k->events.phase = EVENT_MEETING;
     return tell_meetings(k, watcher) && go_on;
 }

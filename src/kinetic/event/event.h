@@ -24,6 +24,14 @@ typedef struct event_renewal {
     int64_t tick; /**< at which it fails from now on */
 } event_renewal;
 
+/** What is told at a tick, in this order. */
+typedef enum event_phase {
+    EVENT_BEFORE, /**< groups of certificates, by place, before plans go on and lives begin and end */
+    EVENT_CHANGE, /**< plans and lives, by segment */
+    EVENT_AFTER,  /**< groups, by place */
+    EVENT_MEETING /**< ends of segments in one line */
+} event_phase;
+
 typedef struct event_state {
     ARRAY(slab_item) items;  /**< certificates that fail at this tick */
     ARRAY(uint32_t) order;   /**< of the items, while they are sorted */
@@ -36,8 +44,16 @@ typedef struct event_state {
     ARRAY(uint32_t) flopping; /**< in space: surfaces of triangles that may turn over now */
     bool reporting;           /**< a visitor is in the callback of an event, */
     now_claim reported;       /**< about this; no points: appearances and the like */
+    event_phase phase;        /**< of what is told */
+    double slab[2];           /**< of the group that is told, in x */
 } event_state;
 
+/** An event of this kind at the present tick, of no objects yet. */
+froe_event event_now(const now_state *now, froe_event_kind kind);
+/** The claim of events that are about none. */
+extern const now_claim event_no_points;
+/** Counts an event and tells it. `claim` is what froe_kinetic_instant() is about. False: the visitor asked to stop. */
+bool event_tell(froe_kinetic *k, const event_watcher *watcher, const froe_event *event, const now_claim *claim);
 /** Goes to the next tick at which something happens, or to `tick` if nothing happens before. False: the visitor asked
  * to stop. */
 bool event_step(froe_kinetic *k, int64_t tick, const event_watcher *watcher);

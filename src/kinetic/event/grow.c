@@ -8,8 +8,7 @@
 #include "kinetic/event/surgery.h"
 #include "kinetic/kinetic.h"
 
-/* The order of two points; if they coincide, their segments are bound to each other. */
-static int order_of(ktree *tree, name_point p, name_point q) {
+int surgery_order(ktree *tree, name_point p, name_point q) {
     const int order = now_compare(tree->now, p, q);
     if (!order) turn_bind(tree, p, q);
     return order;
@@ -29,7 +28,7 @@ static bool clip_border(froe_kinetic *k, uint32_t segment, uint32_t border, int 
     if (side[0] <= 0 && side[1] <= 0) return false;
     if (side[0] >= 0 && side[1] >= 0) return true;
     int out = side[0] < 0 ? KTREE_LEFT : KTREE_RIGHT;
-    if (ktree_is_end(end[out]) || (order_of(&k->tree, cut, at[out]) > 0) == (out == KTREE_LEFT)) {
+    if (ktree_is_end(end[out]) || (surgery_order(&k->tree, cut, at[out]) > 0) == (out == KTREE_LEFT)) {
         at[out] = cut;
         end[out] = border;
     }
@@ -49,20 +48,20 @@ surgery_way surgery_find(froe_kinetic *k, uint32_t segment, const ktree_cell *ce
         end[i] = KTREE_END_0 - (uint32_t)now_end(now, segment, i);
     }
     const name_point left = cell->wall[KTREE_LEFT], right = cell->wall[KTREE_RIGHT];
-    if (name_exists(left) && order_of(&k->tree, at[KTREE_RIGHT], left) <= 0) return SURGERY_BESIDE;
-    if (name_exists(right) && order_of(&k->tree, at[KTREE_LEFT], right) >= 0) return SURGERY_BESIDE;
+    if (name_exists(left) && surgery_order(&k->tree, at[KTREE_RIGHT], left) <= 0) return SURGERY_BESIDE;
+    if (name_exists(right) && surgery_order(&k->tree, at[KTREE_LEFT], right) >= 0) return SURGERY_BESIDE;
     if (cell->top != FROE_NONE && !clip_border(k, segment, cell->top, -1, at, end)) return SURGERY_ABOVE;
     if (cell->bottom != FROE_NONE && !clip_border(k, segment, cell->bottom, 1, at, end)) return SURGERY_BELOW;
     const bool cut = !ktree_is_end(end[KTREE_LEFT]) || !ktree_is_end(end[KTREE_RIGHT]);
     /* of a part that ends before the left wall, or begins after the right one, the rest went past a border */
-    if (cut && name_exists(left) && order_of(&k->tree, at[KTREE_RIGHT], left) <= 0)
+    if (cut && name_exists(left) && surgery_order(&k->tree, at[KTREE_RIGHT], left) <= 0)
         return way_past(cell, end[KTREE_RIGHT]);
-    if (cut && name_exists(right) && order_of(&k->tree, at[KTREE_LEFT], right) >= 0)
+    if (cut && name_exists(right) && surgery_order(&k->tree, at[KTREE_LEFT], right) >= 0)
         return way_past(cell, end[KTREE_LEFT]);
-    if (cut && order_of(&k->tree, at[KTREE_LEFT], at[KTREE_RIGHT]) >= 0) return way_past(cell, end[KTREE_LEFT]);
+    if (cut && surgery_order(&k->tree, at[KTREE_LEFT], at[KTREE_RIGHT]) >= 0) return way_past(cell, end[KTREE_LEFT]);
     for (int side = 0; side < 2; side++) {
         const name_point wall = cell->wall[side];
-        if (!name_exists(wall) || order_of(&k->tree, at[side], wall) * (side ? -1 : 1) > 0) continue;
+        if (!name_exists(wall) || surgery_order(&k->tree, at[side], wall) * (side ? -1 : 1) > 0) continue;
         at[side] = wall, end[side] = KTREE_NO_WALL;
     }
     return SURGERY_INSIDE;
@@ -165,9 +164,7 @@ static void grow_node(froe_kinetic *k, const surgery_task *task) {
     }
 }
 
-void surgery_grow(froe_kinetic *k, const ktree_cell *cell, uint32_t parent, uint8_t slot) {
-    ktree_attach(&k->tree, parent, slot, KTREE_LEAF);
-    sort_list(k);
+static void grow_in_space(froe_kinetic *k, const ktree_cell *cell, uint32_t parent, uint8_t slot) {
     const size_t waiting = k->surgery.tasks.count;
     push_task(k, (surgery_task){*cell, 0, k->tree.list.count, parent, slot});
     while (k->surgery.tasks.count > waiting) {
@@ -175,5 +172,14 @@ void surgery_grow(froe_kinetic *k, const ktree_cell *cell, uint32_t parent, uint
         if (!k->call.stopped) grow_node(k, &task);
         call_poll(&k->call);
     }
+}
+
+void surgery_grow(froe_kinetic *k, const ktree_cell *cell, uint32_t parent, uint8_t slot) {
+    ktree_attach(&k->tree, parent, slot, KTREE_LEAF);
+    sort_list(k);
+    if (now_is_in_space(&k->now))
+        grow_in_space(k, cell, parent, slot);
+    else
+        surgery_grow_plane(k, cell, parent, slot);
     k->tree.list.count = 0;
 }

@@ -14,6 +14,11 @@ static bool certs_tell_all(const froe_kinetic *k, uint32_t segment) {
     return true;
 }
 
+void renew_note_leaving(froe_kinetic *k, uint32_t segment, uint32_t tell_it) {
+    ktree_segment_at(&k->tree, segment)->leaving = (uint32_t)k->events.leaving.count;
+    call_push(&k->call, &k->events.leaving, 2 * segment + tell_it);
+}
+
 void renew_choose(froe_kinetic *k, int64_t tick) {
     event_state *events = &k->events;
     size_t kept = 0, staying = 0;
@@ -28,6 +33,7 @@ void renew_choose(froe_kinetic *k, int64_t tick) {
         const uint32_t s = events->leaving.data[i] / 2;
         ktree_segment *segment = ktree_segment_at(&k->tree, s);
         segment->stays = segment->stays && pays;
+        segment->leaving = (uint32_t)kept;
         if (segment->stays)
             call_push(&k->call, &events->staying, s);
         else
@@ -73,7 +79,7 @@ static void leave_after_all(froe_kinetic *k, name_point p) {
     uint32_t found[2];
     for (size_t i = staying_at(&k->tree, p, found); i-- > 0;) {
         ktree_segment_at(&k->tree, found[i])->stays = false;
-        call_push(&k->call, &k->events.leaving, 2 * found[i] + 1);
+        renew_note_leaving(k, found[i], 1);
     }
 }
 

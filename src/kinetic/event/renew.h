@@ -19,6 +19,8 @@
 #include <froe/kinetic.h>
 #include <stdint.h>
 
+/** Lists a segment that leaves, which is not listed yet, as in events.leaving. */
+void renew_note_leaving(froe_kinetic *k, uint32_t segment, uint32_t tell_it);
 /** Takes those of events.leaving that may stay, until a tick when their plans go on, out of that list. */
 void renew_choose(froe_kinetic *k, int64_t tick);
 /** Finds when the certificates of those fail that stay, and puts segments with one that does not hold just after the

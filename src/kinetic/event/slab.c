@@ -1,11 +1,9 @@
 /* slab.c: the range of x in which the points of a failed certificate are. */
 #include "kinetic/event/slab.h"
+#include "base/sort.h"
 #include "kinetic/event/participants.h"
 #include "kinetic/kinetic.h"
 #include <math.h>
-
-/* Coordinates up to 2^SAFE_TOP: participants and slabs are found by products of two differences, which stay finite. */
-enum { SAFE_TOP = 480 };
 
 bool slab_is_one_place(const ktree *tree, const slab_item *item) {
     name_point p = item->claim.p, q = item->claim.q, third;
@@ -31,10 +29,6 @@ static void reach_crossings(ktree *tree, double slab[2], uint32_t vertex, uint32
 
 void slab_find(ktree *tree, slab_item *item) {
     name_point p = item->claim.p, q = item->claim.q, third;
-    if (tree->now->motion->top > SAFE_TOP) { /* one group, and the whole tree anew */
-        item->slab[0] = -(double)INFINITY, item->slab[1] = (double)INFINITY;
-        return;
-    }
     item->slab[0] = (double)INFINITY, item->slab[1] = -(double)INFINITY;
     if (item->kind == CERT_FLOP) { /* edges change places all along */
         for (int i = 0; i < 3; i++)
@@ -51,4 +45,52 @@ void slab_find(ktree *tree, slab_item *item) {
     if (met != FROE_NONE) reach_crossings(tree, item->slab, name_is_vertex(p) ? p.a : q.a, met);
     if (name_is_crossing(p) && name_is_crossing(q) && name_third_crossing(p, q, &third))
         slab_reach(tree->now, item->slab, third);
+}
+
+/* ------------------------------------------------------------------- order -- */
+
+/* The segment that an item's certificate belongs to. */
+static uint32_t owner_of(const froe_kinetic *k, const slab_item *item) {
+    if (item->kind == CERT_TURN || item->kind == CERT_FLOP) return item->cert;
+    const uint32_t owner = k->certs.all.data[item->cert].owner;
+    return item->kind <= CERT_RIGHT ? ktree_node_at(&k->tree, owner)->segment : owner;
+}
+
+static int order_of(uint32_t a, uint32_t b) {
+    return (a > b) - (a < b);
+}
+
+/* Crossings after others: vertices and segments have numbers of their own. */
+static int order_of_names(name_point p, name_point q) {
+    const int first = p.b < 0 ? p.b : 0, second = q.b < 0 ? q.b : 0;
+    if (first != second) return first < second ? -1 : 1;
+    return p.a == q.a ? (p.b > q.b) - (p.b < q.b) : order_of(p.a, q.a);
+}
+
+/* By place, and at one place by what the items are about: the order of the queue is a function of what happened
+ * before. */
+static int from_left(void *user, uint32_t a, uint32_t b) {
+    const froe_kinetic *k = user;
+    const slab_item *x = k->events.items.data + a, *y = k->events.items.data + b;
+    if (x->slab[0] != y->slab[0]) return x->slab[0] < y->slab[0] ? -1 : 1;
+    if (x->slab[1] != y->slab[1]) return x->slab[1] < y->slab[1] ? -1 : 1;
+    const int order[] = {order_of(y->kind, x->kind), order_of_names(x->claim.p, y->claim.p),
+                         order_of_names(x->claim.q, y->claim.q), order_of(owner_of(k, x), owner_of(k, y))};
+    for (size_t i = 0; i < sizeof order / sizeof *order; i++)
+        if (order[i]) return order[i];
+    return 0;
+}
+
+void slab_sort(froe_kinetic *k) {
+    kinetic_call *call = &k->call;
+    event_state *events = &k->events;
+    size_t n = events->items.count;
+    events->order.count = 0;
+    if (n < 2 || !call_reserve(call, &events->order, 2 * n) || !call_reserve(call, &events->items, n)) return;
+    uint32_t *order = events->order.data;
+    slab_item *items = events->items.data;
+    for (size_t i = 0; i < n; i++) order[i] = (uint32_t)i;
+    base_merge_sort(order, order + n, n, from_left, k);
+    for (size_t i = 0; i < n; i++) items[n + i] = items[order[i]];
+    for (size_t i = 0; i < n; i++) items[i] = items[n + i];
 }

@@ -17,4 +17,6 @@ void slab_reach(now_state *now, double slab[2], name_point p);
 void slab_find(ktree *tree, slab_item *item);
 /** Are its points about the same segments, so that they meet in one place? */
 bool slab_is_one_place(const ktree *tree, const slab_item *item);
+/** Sorts the items of an event from left to right, in an order that is a function of the present. */
+void slab_sort(froe_kinetic *k);
 #endif

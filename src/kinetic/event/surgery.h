@@ -13,7 +13,21 @@
 #define FROE_KINETIC_SURGERY_H
 #include "kinetic/tree/ktree.h"
 
-/** A subtree that is to be made, of a part of the list. */
+/** What of a segment is in a cell of the plane. */
+typedef struct surgery_part {
+    uint32_t segment, end[2]; /**< ends as those of nodes */
+    now_spot vertex[2];       /**< the left and right end of the segment, */
+    now_spot at[2];           /**< and of the part, where that is not a wall of the cell */
+} surgery_part;
+
+/** How a part lies to a node of its cell. */
+typedef struct surgery_orders {
+    int8_t order[2][2]; /**< of its ends to the left and right wall of the node, if there are any */
+    int8_t side[2];     /**< on which side of the node's segment are the ends of its own, if it comes */
+    bool middle;        /**< between the walls */
+} surgery_orders;
+
+/** A subtree that is to be made, of a part of the list, or of the parts. */
 typedef struct surgery_task {
     ktree_cell cell;
     size_t first, count; /**< of the list: segments by key */
@@ -34,6 +48,8 @@ typedef struct surgery_work {
     ARRAY(surgery_cutting) cuttings;
     ARRAY(uint32_t) scratch;
     ARRAY(uint32_t) kept; /**< segments that are listed twice */
+    ARRAY(surgery_part) parts;
+    ARRAY(surgery_orders) orders; /**< of those of one cell */
 } surgery_work;
 
 /** Begins one: what is touched from now on gets a new stamp. */
@@ -51,6 +67,10 @@ bool surgery_clip(froe_kinetic *k, uint32_t segment, const ktree_cell *cell, uin
 bool surgery_reaches(froe_kinetic *k, uint32_t segment, const ktree_cell *cell);
 /** The tree of the segments on the list, those that reach into the cell, made from scratch. Empties the list. */
 void surgery_grow(froe_kinetic *k, const ktree_cell *cell, uint32_t parent, uint8_t slot);
+/** The same in the plane, of a list by key. */
+void surgery_grow_plane(froe_kinetic *k, const ktree_cell *cell, uint32_t parent, uint8_t slot);
+/** The order of two points; if they coincide, their segments are bound to each other. */
+int surgery_order(ktree *tree, name_point p, name_point q);
 /** Cuts the tree of a node along now.line[line]; where the parts go. REQUIRES: its place in the tree is given up. */
 void surgery_split(froe_kinetic *k, uint32_t node, int line, const uint32_t parent[2], const uint8_t slot[2]);
 /** The inverse. Sets tree.broken where the parts do not fit. */

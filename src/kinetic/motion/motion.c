@@ -10,16 +10,19 @@ enum {
     LEAST_POWER = -1074
 };
 
-froe_motion_options froe_motion_defaults(void) {
-    return (froe_motion_options){.size = sizeof(froe_motion_options), .dim = 2, .begin = NAN, .end = NAN};
+void froe_motion_defaults_into(froe_motion_options *out, size_t size) {
+    const froe_motion_options all = {.size = size, .dim = 2, .begin = NAN, .end = NAN};
+    support_defaults(out, size, &all, sizeof all);
 }
 
-froe_body froe_body_defaults(void) {
-    return (froe_body){.size = sizeof(froe_body)};
+void froe_body_defaults_into(froe_body *out, size_t size) {
+    const froe_body all = {.size = size};
+    support_defaults(out, size, &all, sizeof all);
 }
 
-froe_moving froe_moving_defaults(void) {
-    return (froe_moving){.size = sizeof(froe_moving), .group = FROE_NONE};
+void froe_moving_defaults_into(froe_moving *out, size_t size) {
+    const froe_moving all = {.size = size, .group = FROE_NONE};
+    support_defaults(out, size, &all, sizeof all);
 }
 
 const char *motion_noun(const froe_motion *m) {

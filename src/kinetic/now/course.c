@@ -1,6 +1,6 @@
 /* course.c: pieces of flight plans in doubles, each looked up when its first tick has come.
  *
- * Positions are x[0] + x[1] s + x[2] s^2 for s from 0 to span, and nowhere further off than `error`. */
+ * Positions, times 2^lift, are x[0] + x[1] s + x[2] s^2 for s from 0 to span, and nowhere further off than `error`. */
 #include "kinetic/now/now.h"
 #include <math.h>
 
@@ -16,22 +16,50 @@ static double in_doubles(const num_ball p[3], int degree, num_ball w, double spa
     return (error + size * 0x1p-50) * NUM_BALL_UP + NUM_BALL_TINY;
 }
 
+/* A piece whose knots are lifted, in `knot`. */
+static motion_piece lifted(const now_state *now, const motion_piece *piece, motion_knot knot[2]) {
+    motion_piece out = *piece;
+    knot[0] = *piece->from, knot[1] = *piece->to;
+    for (int i = 0; i < 6; i++) {
+        double *at = i < 3 ? knot[0].at + i : knot[0].control + (i - 3);
+        *at = now_lifted(now, *at);
+        if (i < 3) knot[1].at[i] = now_lifted(now, knot[1].at[i]);
+    }
+    out.from = knot, out.to = piece->to == piece->from ? knot : knot + 1;
+    return out;
+}
+
 static double span_of(const now_course *c) {
     return (double)(c->last - c->base);
+}
+
+/* The piece that the present tick belongs to: most often the next one. */
+static motion_piece find_piece(const now_state *now, uint32_t vertex) {
+    const froe_motion *m = now->motion;
+    const now_course *c = now->courses.data + vertex;
+    const motion_piece *last = &now->bends.data[vertex].piece;
+    if (c->base <= c->last && last->last < now->tick && !last->corner) { /* it was looked up, and has ended */
+        const size_t first = m->plans.data[vertex].first;
+        const motion_piece next = motion_piece_after(m, vertex, (uint32_t)(last->to - (m->knots.data + first)));
+        if (now->tick <= next.last) return next;
+    }
+    return motion_piece_at(m, vertex, now->tick);
 }
 
 void now_look_up(now_state *now, uint32_t vertex) {
     const froe_motion *m = now->motion;
     now_course *c = now->courses.data + vertex;
     now_bend *bend = now->bends.data + vertex;
-    bend->piece = motion_piece_at(m, vertex, now->tick);
+    bend->piece = find_piece(now, vertex);
     c->last = bend->piece.last < m->last_tick ? bend->piece.last : m->last_tick | 1;
     c->base = now->tick;
     c->degree = (uint32_t)bend->piece.degree;
     motion_ball_curve p;
     const int degree = bend->piece.degree;
     double x[3], y[3];
-    motion_curve_ball(m, &bend->piece, c->base, &p);
+    motion_knot knot[2];
+    const motion_piece piece = lifted(now, &bend->piece, knot);
+    motion_curve_ball(m, &piece, c->base, &p);
     const double ex = in_doubles(p.x, degree, p.w, span_of(c), x), ey = in_doubles(p.y, degree, p.w, span_of(c), y);
     if (m->dim == 3) bend->error = in_doubles(p.z, degree, p.w, span_of(c), bend->z);
     for (int i = 0; i < 2; i++) c->x[i] = x[i], c->y[i] = y[i];

@@ -67,6 +67,7 @@ froe_status now_grow_faces(now_state *now) {
                       array_reserve(alloc, &now->segments, most - now->segments.count);
     for (size_t i = before; i < all && room; i++) {
         now_face *f = now->faces.data + now->faces.count++;
+        *f = (now_face){.ghost = false};
         for (int k = 0; k < 3; k++) f->vertex[k] = m->objects.data[i].vertices[k];
     }
     if (room) {
@@ -125,12 +126,18 @@ static int volume_of(now_state *now, const uint32_t vertex[4]) {
     int sign = num_ball_sign(sum);
     if (sign == 1 || sign == -1) return sign;
     sign = now_judge_volume(now, vertex, false);
+    now->tied |= !sign;
     return sign ? sign : now_judge_volume(now, vertex, true);
 }
 
 int now_area(now_state *now, uint32_t object) {
     const uint32_t *v = now->faces.data[object].vertex;
     return turn_of(now, v[0], v[1], v[2]);
+}
+
+int now_over(now_state *now, uint32_t object, uint32_t vertex) {
+    const uint32_t *v = now->faces.data[object].vertex;
+    return volume_of(now, (uint32_t[]){v[0], v[1], v[2], vertex}) * now_area(now, object);
 }
 
 /* Is a vertex above (1) or below (-1) a triangle of that area? 0: neither, or it is beside it. */

@@ -13,7 +13,7 @@ static double limit_of(num_arena *arena, const poly_exact *top, const poly_exact
 
 void now_place_near(now_state *now, name_point p, double out[2]) {
     const now_spot spot = now_spot_of(now, p);
-    out[0] = spot.x, out[1] = spot.y;
+    out[0] = now_lowered(now, spot.x), out[1] = now_lowered(now, spot.y);
     if (spot.error < (double)INFINITY) return;
     exact_point e;
     now_exact_named(now, p, true, &e);

@@ -30,6 +30,7 @@ static void forget(now_state *now) {
     for (size_t v = 0; v < now->courses.count; v++) now->courses.data[v].base = 0, now->courses.data[v].last = -1;
     for (size_t i = 0; i < NOW_MEMORIES; i++) now->memories[i].tick = -1;
     now->edition = now->motion->edition;
+    now->lift = now->motion->top == INT16_MIN ? 0 : NOW_TOP - now->motion->top;
 }
 
 void now_catch_up(now_state *now) {
@@ -55,14 +56,25 @@ froe_status now_grow(now_state *now) {
 }
 
 /* Both points of the segment stand still for ever. */
-uint32_t now_ask(now_state *now, const double from[2], const double to[2]) {
+uint32_t now_ask(now_state *now, const double *from, const double *to) {
     uint32_t segment = (uint32_t)now->segments.count - 1, first = (uint32_t)now->courses.count - 2;
     for (uint32_t i = 0; i < 2; i++) {
         const double *at = i ? to : from;
+        double place[3] = {0, 0, 0};
+        bool finite = true; /* it may be far away from all that moves */
         motion_knot *knot = now->asked + i;
-        *knot = (motion_knot){.at = {at[0], at[1]}, .control = {(double)NAN, (double)NAN}};
-        now->courses.data[first + i] = (now_course){.last = INT64_MAX, .x = {at[0]}, .y = {at[1]}};
-        now->bends.data[first + i] = (now_bend){.piece = {.from = knot, .to = knot, .last = MOTION_FAR}};
+        *knot = (motion_knot){.control = {(double)NAN, (double)NAN}};
+        for (int k = 0; k < now->motion->dim; k++) {
+            knot->at[k] = at[k];
+            place[k] = now_lifted(now, at[k]);
+            finite = finite && isfinite(place[k]);
+        }
+        for (int k = 0; k < 3 && !finite; k++) place[k] = 0;
+        const double error = finite ? NUM_BALL_TINY : (double)INFINITY;
+        now->courses.data[first + i] =
+            (now_course){.last = INT64_MAX, .x = {place[0]}, .y = {place[1]}, .error = error};
+        now->bends.data[first + i] =
+            (now_bend){.z = {place[2]}, .error = error, .piece = {.from = knot, .to = knot, .last = MOTION_FAR}};
     }
     now_segment *s = now->segments.data + segment;
     *s = (now_segment){{first, first + 1}, segment, false, false};
@@ -106,6 +118,10 @@ void now_exact_named(now_state *now, name_point p, bool along, exact_point *out)
         exact_crossing(&now->context.arena, v, out);
 }
 
+static num_dyadic power_of_two(num_arena *arena, int power) {
+    return num_dyadic_scaled(arena, 1, 1, power);
+}
+
 static now_spot crossing_spot(now_state *now, name_point p) {
     const uint32_t *s = now->segments.data[p.a].end, *t = now->segments.data[p.b].end;
     ball2 a = vertex_ball(now, s[0]), d = minus(vertex_ball(now, s[1]), a);
@@ -119,7 +135,7 @@ static now_spot crossing_spot(now_state *now, name_point p) {
     num_arena *arena = &now->context.arena; /* rounded from exact numbers, where the filter says little */
     exact_point exact;
     now_exact_named(now, p, false, &exact);
-    const num_dyadic w = exact.w.c[0];
+    const num_dyadic w = num_dyadic_mul(arena, exact.w.c[0], power_of_two(arena, -now->lift));
     if (!w.sign) return (now_spot){0, 0, (double)INFINITY};
     now_spot spot = {num_dyadic_quotient(arena, exact.x.c[0], w), num_dyadic_quotient(arena, exact.y.c[0], w), 0};
     spot.error = (fabs(spot.x) + fabs(spot.y)) * 0x1p-52 + NUM_BALL_TINY;
@@ -156,7 +172,8 @@ static int compare_to_line(now_state *now, name_point p, double line) {
     exact_point e;
     now_exact_named(now, p, false, &e);
     if (!e.w.c[0].sign) return now->lost = true, 1;
-    num_dyadic at = num_dyadic_mul(arena, num_dyadic_from(arena, line), e.w.c[0]);
+    num_dyadic at = num_dyadic_mul(arena, num_dyadic_from(arena, line), power_of_two(arena, -now->lift));
+    at = num_dyadic_mul(arena, at, e.w.c[0]);
     int sign = num_dyadic_compare(e.x.c[0], at) * e.w.c[0].sign;
     return sign < 0 ? -1 : 1;
 }
@@ -184,20 +201,11 @@ int now_compare(now_state *now, name_point p, name_point q) {
     return order;
 }
 
-/* The sign of ab x aq, from the coordinates as they are; NUM_UNSURE where rounding or their errors may matter. */
-static inline int quick_side(now_spot a, now_spot b, now_spot q) {
-    double ux = b.x - a.x, uy = b.y - a.y, vx = q.x - a.x, vy = q.y - a.y;
-    double p = ux * vy, r = uy * vx, d = p - r, e = a.error + b.error, f = a.error + q.error;
-    double sum_u = fabs(ux) + fabs(uy), sum_v = fabs(vx) + fabs(vy);
-    double bound = (fabs(p) + fabs(r)) * 0x1p-50 + (sum_u * f + sum_v * e + 2 * e * f) * (1 + 0x1p-40) + NUM_BALL_TINY;
-    return d > bound ? 1 : d < -bound ? -1 : NUM_UNSURE;
-}
-
 int now_side(now_state *now, uint32_t segment, uint32_t vertex) {
     uint32_t u = now_vertex(now, segment, 0), v = now_vertex(now, segment, 1);
     now->context.stats.calls++;
     if (vertex == u || vertex == v) return 0;
-    int quick = quick_side(now_vertex_spot(now, u), now_vertex_spot(now, v), now_vertex_spot(now, vertex));
+    int quick = now_side_of_spots(now_vertex_spot(now, u), now_vertex_spot(now, v), now_vertex_spot(now, vertex));
     if (quick != NUM_UNSURE) return quick;
     ball2 a = vertex_ball(now, u), d = minus(vertex_ball(now, v), a);
     int sign = num_ball_sign(cross_balls(d, minus(vertex_ball(now, vertex), a)));

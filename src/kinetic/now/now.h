@@ -37,6 +37,8 @@ typedef struct now_spot {
     double x, y, error;
 } now_spot;
 
+enum { NOW_TOP = 190 }; /* products of five differences stay below 2^1000, wherever the motion is */
+
 typedef struct now_memory {
     name_point name;
     int64_t tick;
@@ -58,6 +60,8 @@ typedef struct now_face {
     uint32_t edge[3]; /**< segments; edge i from corner i on */
     uint32_t next[3]; /**< 3 object + i: the next triangle with this edge, or FROE_NONE */
     uint32_t surface; /**< segment */
+    bool ghost;       /**< it is left out, as it meets another one (ghost.h) */
+    bool leaves;      /**< while it is found out which are to be left out: this one */
 } now_face;
 
 /** The numbers that decide where doubles do not: integers of 128 bits, of 320, or dyadic numbers (judge.c). */
@@ -66,6 +70,8 @@ typedef enum now_stage { NOW_SHORT, NOW_WIDE, NOW_DYADIC, NOW_STAGES } now_stage
 typedef struct now_state {
     froe_motion *motion;
     uint64_t edition; /**< of the motion when courses, bends and memories were computed */
+    int lift;         /**< all places in doubles, those of `line` too, are times 2^lift, and less than 2^NOW_TOP so;
+                           exact numbers are as they are */
     int64_t tick;
     double line[2];
     ARRAY(now_course) courses;   /**< [vertex]; the last two are ends of a question */
@@ -88,9 +94,9 @@ froe_status now_grow(now_state *now);
 /** Forgets what it has stored about plans, if the motion has got others since. Every public function calls this
  * first. */
 void now_catch_up(now_state *now);
-/** The segment of a question: from one point to another, which do not move. It is not in the tree. The points
- * are the vertices `end` of the segment that is returned. */
-uint32_t now_ask(now_state *now, const double from[2], const double to[2]);
+/** The segment of a question: from one point to another, of the motion's dimension, which do not move. It is not in the
+ * tree. The points are the vertices `end` of the segment that is returned. */
+uint32_t now_ask(now_state *now, const double *from, const double *to);
 static inline bool now_is_question(const now_state *now, uint32_t segment) {
     return segment + 1 == now->segments.count;
 }
@@ -130,10 +136,14 @@ static inline bool now_has_end(const now_state *now, uint32_t segment, uint32_t 
     const uint32_t *end = now->segments.data[segment].end;
     return end[0] == vertex || end[1] == vertex;
 }
-/** Does an object's life hold the present tick? */
+/** Is a triangle left out, as it meets another one? */
+static inline bool now_is_ghost(const now_state *now, uint32_t object) {
+    return now_is_in_space(now) && now->faces.data[object].ghost;
+}
+/** Does an object's life hold the present tick, and is it not left out? */
 static inline bool now_is_alive(const now_state *now, uint32_t object) {
     const motion_object *o = now->motion->objects.data + object;
-    return o->first <= now->tick && now->tick <= o->last;
+    return o->first <= now->tick && now->tick <= o->last && !now_is_ghost(now, object);
 }
 /** The last odd tick of the window. */
 static inline int64_t now_last_tick(const now_state *now) {
@@ -159,6 +169,9 @@ int now_area(now_state *now, uint32_t object);
 /** 1, -1: triangle s is above or below t just after the tick. 0: they lie in one plane, or touch, for as long as the
  * pieces last. REQUIRES: they do not cross, and overlap as seen from above. */
 int now_above(now_state *now, uint32_t s, uint32_t t);
+/** 1, -1: a vertex is above or below the plane of a triangle just after the tick. 0: in it, or the triangle is upright,
+ * for as long as the pieces last. */
+int now_over(now_state *now, uint32_t object, uint32_t vertex);
 
 /* course.c */
 /** Looks up the piece that the present tick belongs to. */
@@ -179,6 +192,14 @@ static inline now_spot now_vertex_spot(now_state *now, uint32_t vertex) {
 int64_t now_course_last(now_state *now, uint32_t vertex);
 /** No coordinate of the vertex changes by more in a tick, as long as its piece lasts. */
 double now_speed(now_state *now, uint32_t vertex);
+/** A coordinate times 2^lift; of little ones what is lost is less than NUM_BALL_TINY. */
+static inline double now_lifted(const now_state *now, double x) {
+    return ldexp(x, now->lift);
+}
+/** A coordinate from one times 2^lift. */
+static inline double now_lowered(const now_state *now, double x) {
+    return ldexp(x, -now->lift);
+}
 /** The doubles next to where a vertex is at the tick. True: that is where it is. */
 bool now_round(now_state *now, uint32_t vertex, double *out);
 /** Where it is at the tick, and as polynomials from it on. */
@@ -200,6 +221,14 @@ int now_judge_volume(now_state *now, const uint32_t vertex[4], bool along);
 int now_judge_lines(now_state *now, name_point crossing, bool along);
 
 /* now.c */
+/** The sign of ab x aq, from the coordinates as they are; NUM_UNSURE where rounding or their errors may matter. */
+static inline int now_side_of_spots(now_spot a, now_spot b, now_spot q) {
+    double ux = b.x - a.x, uy = b.y - a.y, vx = q.x - a.x, vy = q.y - a.y;
+    double p = ux * vy, r = uy * vx, d = p - r, e = a.error + b.error, f = a.error + q.error;
+    double sum_u = fabs(ux) + fabs(uy), sum_v = fabs(vx) + fabs(vy);
+    double bound = (fabs(p) + fabs(r)) * 0x1p-50 + (sum_u * f + sum_v * e + 2 * e * f) * (1 + 0x1p-40) + NUM_BALL_TINY;
+    return d > bound ? 1 : d < -bound ? -1 : NUM_UNSURE;
+}
 /** REQUIRES: a vertex or a crossing. */
 now_spot now_spot_of(now_state *now, name_point p);
 /** -1, 0, 1 as p is before, at or behind q just after now. 0: for as long as the pieces last. */

@@ -59,12 +59,13 @@ typedef struct ktree_end {
 
 typedef struct ktree_segment {
     uint64_t key;
-    uint32_t nodes; /**< the first of its nodes */
-    uint32_t stamp; /**< of the last list that it is on */
-    bool alive;     /**< its life has begun and not ended */
-    bool here;      /**< the tree is made of it and others: it is alive and not a single point */
-    bool bound;     /**< a point of it coincides with a point of another segment for as long as the plans last */
-    bool stays;     /**< its plan goes on at the next tick, and it is not taken out for that (event/renew.h) */
+    uint32_t nodes;   /**< the first of its nodes */
+    uint32_t stamp;   /**< of the last list that it is on */
+    bool alive;       /**< its life has begun and not ended */
+    bool here;        /**< the tree is made of it and others: it is alive and not a single point */
+    bool bound;       /**< a point of it coincides with a point of another segment for as long as the plans last */
+    bool stays;       /**< its plan goes on at the next tick, and it is not taken out for that (event/renew.h) */
+    uint32_t leaving; /**< its place among those that leave, if it is one of them */
     ktree_end end[2];
 } ktree_segment;
 

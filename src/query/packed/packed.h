@@ -55,7 +55,8 @@ typedef struct packed_work {
     ARRAY(float) squares;          /**< of distances in a leaf */
     uint32_t *climbs;              /**< stacks of PACKED_FLIGHT vertical rays, of height + 2 nodes each */
     size_t climb_size;
-    uint64_t decided; /**< fragments that kernels left open, for tests and benches */
+    uint32_t flock_from; /**< windows of batches fly in flocks on trees of so many blocks */
+    uint64_t decided;    /**< fragments that kernels left open, for tests and benches */
 } packed_work;
 
 /** For the context of a packed tree. FROE_E_MEMORY. O(height). */

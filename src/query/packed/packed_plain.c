@@ -199,20 +199,20 @@ LANES uint32_t lanes_put(uint32_t *out, const uint32_t *ids, uint32_t which) {
 
 #ifdef PACKED_X86
 static bool has_avx512(void) {
-    return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
-           __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+    return !!__builtin_cpu_supports("avx512f") & !!__builtin_cpu_supports("avx512bw") &
+           !!__builtin_cpu_supports("avx512dq") & !!__builtin_cpu_supports("avx512vl");
 }
 static bool has_avx2(void) {
-    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("popcnt") && __builtin_cpu_supports("bmi");
+    return !!__builtin_cpu_supports("avx2") & !!__builtin_cpu_supports("popcnt") & !!__builtin_cpu_supports("bmi");
 }
 #endif
 
 const packed_kernels *packed_kernels_at(size_t i) {
-    const packed_kernels *all[4] = {NULL};
+    const packed_kernels *all[3];
     size_t count = 0;
 #ifdef PACKED_X86
-    if (has_avx512()) all[count++] = &packed_kernels_avx512;
-    if (has_avx2()) all[count++] = &packed_kernels_avx2;
+    if (has_avx512()) all[count++] = &packed_kernels_avx512; /* one way: as processors are */
+    if (has_avx2()) all[count++] = &packed_kernels_avx2;     /* one way: as processors are */
 #endif
     all[count++] = &packed_kernels_plain;
     return i < count ? all[i] : NULL;

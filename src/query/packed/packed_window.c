@@ -15,6 +15,7 @@ enum { ALL_OPEN = 15, MOST_STARTS = 9, MANY_VISITS = 64, USUAL_ANSWERS = 64 };
 enum { VISITS_AHEAD = 24, OWNERS_AHEAD = 6 }; /* visits whose blocks are on their way from memory */
 enum { FLOCK = 8, FLOCK_VISITS = 48 };      /* windows of which all visits are found before the first is made; visits */
 enum { NODES_AHEAD = 8, TABLE_AHEAD = 16 }; /* windows */
+enum { BLOCKS_CACHED = 1 << 14 };           /* 1 MB: no window waits for memory, and flocks cost a tenth */
 
 /* Cells of the table. */
 typedef struct packed_span {
@@ -27,6 +28,7 @@ froe_status packed_work_new(const froe_tree *t, packed_work **out) {
     packed_work *work = support_calloc(&t->alloc, 1, sizeof *work);
     if (!work) return FROE_E_MEMORY;
     work->kernels = packed_kernels_at(0);
+    work->flock_from = BLOCKS_CACHED;
     work->climb_size = (size_t)t->report.height + 2;
     work->climbs = support_calloc(&t->alloc, PACKED_FLIGHT * work->climb_size, sizeof *work->climbs);
     if (!work->climbs || !array_reserve(&t->alloc, &work->stack, t->report.height + 2) ||
@@ -158,12 +160,17 @@ static bool collect(froe_query *q, const packed_window *w, const packed_span *sp
     return true;
 }
 
-/* The visits of one window alone. */
-static bool collect_alone(froe_query *q, const packed_window *w) {
+/* The visits of one window. */
+static bool collect_one(froe_query *q, const packed_window *w) {
     packed_span span;
     forget_visits(q->packed);
-    q->found.count = 0;
     return collect(q, w, find_span(q->tree->packed.table, w, &span) ? &span : NULL);
+}
+
+/* The same, and nothing is found yet. */
+static bool collect_alone(froe_query *q, const packed_window *w) {
+    q->found.count = 0;
+    return collect_one(q, w);
 }
 
 /* ------------------------------------------------------------------ answers -- */
@@ -348,11 +355,21 @@ __attribute__((always_inline)) static inline void ask_nodes(const froe_tree *t, 
     if (!(last.kind & TABLE_LEAF)) __builtin_prefetch(t->nodes + last.at);
 }
 
-froe_status packed_ranges(froe_query *q, const double *const *boxes, size_t count, size_t *counts) {
+/* One window after the other. */
+static froe_status answer_in_order(froe_query *q, const double *const *boxes, size_t count, size_t *counts) {
+    for (size_t i = 0; i < count; i++) {
+        const packed_window w = window_of(boxes[i], boxes[i] + 2);
+        const size_t before = q->found.count;
+        if (!collect_one(q, &w) || !answer_visits(q, 0, q->packed->visits.count, &w)) return FROE_E_MEMORY;
+        counts[i] = q->found.count - before;
+    }
+    return FROE_OK;
+}
+
+static froe_status answer_flocks(froe_query *q, const double *const *boxes, size_t count, size_t *counts) {
     packed_work *work = q->packed;
     flying flock[3 * FLOCK];
     size_t launched = 0, asked = 0, collected = 0, done = 0;
-    q->stats.queries += count;
     while (done < count) {
         forget_visits(work);
         while (collected < count && collected - done < FLOCK && work->visits.count < FLOCK_VISITS) {
@@ -374,4 +391,10 @@ froe_status packed_ranges(froe_query *q, const double *const *boxes, size_t coun
         }
     }
     return FROE_OK;
+}
+
+froe_status packed_ranges(froe_query *q, const double *const *boxes, size_t count, size_t *counts) {
+    q->stats.queries += count;
+    return (q->tree->packed.block_count < q->packed->flock_from ? answer_in_order : answer_flocks)(q, boxes, count,
+                                                                                                   counts);
 }

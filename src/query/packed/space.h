@@ -46,7 +46,8 @@ typedef struct space_ray_state space_ray_state; /* space_rays.c */
 typedef struct space_work {
     const space_kernels *kernels;
     space_walk walk;
-    space_ray_state *batch;          /**< NULL until a batch of rays comes */
+    space_ray_state *batch; /**< NULL until a batch of rays comes */
+    uint64_t turns_from[2]; /**< rays of batches take turns on trees of so many bytes: for any hit, the first */
     ARRAY(uint32_t) objects, others; /**< from kernels */
     ARRAY(float) keys, ends;
 } space_work;

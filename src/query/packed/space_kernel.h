@@ -24,13 +24,14 @@ typedef struct space_ray {
     double entry[4];   /**< o + start d */
     double inverse[4]; /**< 1 / d, at most 2^60 */
     double start;
-    double largest; /**< component of d */
-    float step[4];  /**< 1 / d */
-    float slope[4]; /**< |step| 2^-13: what floats may cost beside a unit of a node */
-    float rest[4];  /**< slack, and what they may cost beside the start */
-    float shear[2]; /**< other components / largest */
-    int axis[3];    /**< that of the largest component last */
-    int up[3];      /**< 1 where it goes up, otherwise 0 */
+    double largest;  /**< component of d */
+    double size;     /**< the largest component of o */
+    double shear[2]; /**< other components of d / largest */
+    float step[4];   /**< 1 / d */
+    float slope[4];  /**< |step| 2^-13: what floats may cost beside a unit of a node */
+    float rest[4];   /**< slack, and what they may cost beside the start */
+    int axis[3];     /**< that of the largest component last */
+    int up[3];       /**< 1 where it goes up, otherwise 0 */
 } space_ray;
 
 /** A point; keys are squared distances in the coordinates of the wide tree. */

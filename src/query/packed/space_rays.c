@@ -5,6 +5,8 @@
  *     ray 1     [node] ........ [leaf] ........ [node] ........ [leaf] ........ [node]
  *     ray 2       [node] ....
  *
+ * Where the tree fits into the caches, rays are answered one after the other.
+ *
  * Each ray in turn takes one step of its walk (space_walk.c) and prefetches what its next step needs. The points of an
  * object are prefetched before the object is decided. Answers do not depend on the other rays of the batch: each ray
  * has a walk and a limit of its own. */
@@ -13,7 +15,6 @@
 #include <string.h>
 
 enum { RAYS_AT_ONCE = 12 };
-
 /** A ray in progress. */
 struct space_ray_state {
     space_walk walk;
@@ -118,16 +119,18 @@ static void answer_ray(const ray_batch *f, const space_ray_state *r) {
     if (r->best.object != FROE_NONE) f->hits[r->at].t = geom_hit_round(&f->query->numbers, &r->ray, &r->best.hit);
 }
 
-/* One ray alone, up to its end. */
+/* One ray after the other, each up to its end. */
 static froe_status answer_alone(ray_batch *f, space_ray_state *r) {
     bool flies;
-    const froe_status status = launch_ray(f, r, &flies);
-    if (status || !flies) return status;
-    space_step did = SPACE_ON;
-    while (did == SPACE_ON) did = step_ray(f, r, true);
-    if (did == SPACE_NO_MEMORY) return query_failed(f->query, f->diag);
-    answer_ray(f, r);
-    return FROE_OK;
+    froe_status status;
+    while (!(status = launch_ray(f, r, &flies)) && flies) {
+        space_step did = SPACE_ON;
+        while (did == SPACE_ON) did = step_ray(f, r, true);
+        if (did == SPACE_NO_MEMORY) return query_failed(f->query, f->diag);
+        answer_ray(f, r);
+        if (f->next == f->count) break;
+    }
+    return status;
 }
 
 /* The next ray takes the place of one that is answered; where none is left, the last ray of the batch does. */
@@ -162,7 +165,10 @@ froe_status space_rays(froe_query *q, const double *origins, const double *direc
     if (!q->space->batch) q->space->batch = support_calloc(&q->alloc, RAYS_AT_ONCE, sizeof *q->space->batch);
     if (!q->space->batch) return support_fail_memory(diag);
     space_ray_state *rays = q->space->batch;
-    const froe_status status = count == 1 ? answer_alone(&f, rays) : answer_in_turns(&f, rays);
+    const tree_packed *packed = &q->tree->packed;
+    const uint64_t bytes = (uint64_t)packed->block_count * PACKED_BLOCK + packed->wide->count * sizeof(wide_node);
+    const bool alone = count == 1 || bytes < q->space->turns_from[hits != NULL];
+    const froe_status status = alone ? answer_alone(&f, rays) : answer_in_turns(&f, rays);
     q->stats.exact += q->numbers.stats.exact - exact;
     return status;
 }

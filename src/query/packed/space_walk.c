@@ -9,11 +9,15 @@
 #include <string.h>
 
 enum { MOST_SORTED = 64 };
+/* Smaller trees are in the caches: rays hardly wait, and turns cost up to a quarter. A first hit reads corners, too. */
+enum { BYTES_CACHED_ANY = 16 << 20, BYTES_CACHED_FIRST = 4 << 20 };
 
 froe_status space_work_new(const froe_tree *t, space_work **out) {
     *out = support_calloc(&t->alloc, 1, sizeof **out);
     if (!*out) return FROE_E_MEMORY;
     (*out)->kernels = space_kernels_at(0);
+    (*out)->turns_from[0] = BYTES_CACHED_ANY;
+    (*out)->turns_from[1] = BYTES_CACHED_FIRST;
     return FROE_OK;
 }
 
@@ -52,12 +56,12 @@ static void powers_of_2(double x, double *above, double *inverse) {
 /* Along which axis the ray moves most, and by how much along the others meanwhile. */
 static void shear_ray(space_ray *r) {
     const double x = fabs(r->d[0]), y = fabs(r->d[1]), z = fabs(r->d[2]);
-    const int last = z > (y > x ? y : x) ? 2 : y > x;
+    const int up = (z > x) & (z > y), last = 2 * up | (!up & (y > x)); /* without a branch */
     r->axis[0] = last == 0;
     r->axis[1] = 2 - (last == 2);
     r->axis[2] = last;
     r->largest = r->d[last];
-    for (int i = 0; i < 2; i++) r->shear[i] = (float)(r->d[r->axis[i]] * r->inverse[last]);
+    for (int i = 0; i < 2; i++) r->shear[i] = r->d[r->axis[i]] * r->inverse[last];
 }
 
 /* A key that is certainly no later than t; -1: none is. */

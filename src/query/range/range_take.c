@@ -16,8 +16,9 @@ const char *froe_walk_name(froe_walk walk) {
     return (unsigned)walk < FROE_WALK_COUNT ? walks[walk] : NULL;
 }
 
-froe_range froe_range_defaults(void) {
-    return (froe_range){.size = sizeof(froe_range)};
+void froe_range_defaults_into(froe_range *out, size_t size) {
+    const froe_range all = {.size = size};
+    support_defaults(out, size, &all, sizeof all);
 }
 
 void query_range_free(query_range *r, const froe_allocator *alloc) {

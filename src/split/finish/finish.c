@@ -1,5 +1,6 @@
 /* finish.c: small cells of segments or polygons: the table is filled, then cut by masks. */
 #include "base/random.h"
+#include "split/fallback.h"
 #include "split/finish/table.h"
 
 enum { SEARCHES = 3 }; /* for other cuts of a part, at most */
@@ -20,6 +21,7 @@ static bool in_space(const finish *f) {
 
 static void load_piece(finish *f, uint32_t column, const split_fragment *piece) {
     f->t->piece[column] = *piece;
+    table_put(&f->t->free, table_bit(column), split_is_free(f->set, piece));
     in_space(f) ? table_load_plane(f, column, piece) : table_load_line(f, column, piece);
 }
 

@@ -20,7 +20,6 @@ void table_load_line(finish *f, uint32_t column, const split_fragment *piece) {
         stretch(&t->lines, 0, t->lines.x[i][column] = x[0]);
         stretch(&t->lines, 1, t->lines.y[i][column] = x[1]);
     }
-    table_put(&t->free, table_bit(column), piece->count && ring[0].edge & ring[1].edge & TREE_EDGE_CUT);
 }
 
 void table_begin_line(finish *f, uint32_t row, uint32_t object) {

@@ -2,7 +2,6 @@
 #include "base/random.h"
 #include "split/finish/table.h"
 
-#define THIN 1e-5  /* as in score/view.c */
 #define CHEAP 0.07 /* a cut that costs less than none by so much a piece is not bettered by planes across walls */
 
 typedef struct search {
@@ -98,7 +97,7 @@ static bool too_thin(const finish *f, const uint32_t *id, const table_plane *pla
         longest = filter_greater(longest, square);
     }
     const double square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
-    return !(square > THIN * THIN * longest * longest) || !(square < INFINITY);
+    return !(square > SPLIT_THIN * SPLIT_THIN * longest * longest) || !(square < INFINITY);
 }
 
 /** Through an edge of an object and a vertex. */

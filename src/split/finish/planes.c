@@ -1,9 +1,9 @@
 /* planes.c: rows of the table for planes. */
-#include "split/fallback.h"
 #include "split/finish/table.h"
+#include "split/score/mark.h"
 
-#define WIDE 0x1p-14  /* of the table: as in score/mark.c */
-#define VAGUE 0x1p-40 /* the same: images that are wrong by more are taken as they are, but nothing is sure of them */
+/* Of the table: images that are wrong by more are taken as they are, but nothing is sure of them. */
+#define VAGUE 0x1p-40
 
 /** Is there a finite image of the i-th corner? */
 static bool finite_image(const finish *f, const split_fragment *piece, uint32_t i) {
@@ -36,7 +36,6 @@ void table_begin_planes(finish *f, const split_cell *cell) {
     }
     if (width > 0 && isfinite(width)) frexp(width, &exponent);
     p->scale = ldexp(1, exponent < -1000 ? 1000 : -exponent);
-    p->packed = 0;
 }
 
 /** Its corners and extents; returns the greatest error. What is not finite becomes the centre, and its error infinite.
@@ -73,10 +72,9 @@ void table_load_plane(finish *f, uint32_t column, const split_fragment *piece) {
     p->all.bits[column] = bit;
     for (int k = 0; k < 3; k++) width = filter_greater(width, p->hi[k][column] - p->lo[k][column]);
     p->corners[column] = (uint8_t)n;
-    table_put(&f->t->free, bit, split_is_free(f->set, piece));
     table_put(&p->many, bit, n > TABLE_FEW);
     table_put(&p->most, bit, n == TABLE_CORNERS);
-    table_put(&p->wide, bit, width * p->scale > WIDE);
+    table_put(&p->wide, bit, width * p->scale > SPLIT_WIDE);
 }
 
 /* A value is sum n[k] x[k] - d with d = sum n[k] o[k], where x and o are differences from the centre, rounded once. A

@@ -53,7 +53,7 @@ typedef struct table_pack {
 /** Of polygons: local coordinates are (x - centre) scale, by a power of two that makes the cell about 1 wide. */
 typedef struct table_planes {
     table_pack all, part; /* of all columns; of the part at hand, one after the other */
-    uint32_t packed;      /* pieces in `part`, or 0 */
+    uint32_t packed;      /* pieces in `part` */
     double more[3][TABLE_CORNERS - TABLE_FEW][TABLE_ROOM];
     double lo[3][TABLE_ROOM], hi[3][TABLE_ROOM]; /* extents, absolute */
     double centre[3], scale;

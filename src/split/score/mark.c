@@ -2,8 +2,6 @@
 #include "split/score/mark.h"
 #include <math.h>
 
-#define WIDE 0x1p-14 /* of the cell; planes that are meant to be one differ by 2^-48 of it */
-
 static const split_fragment *fragment_at(const split_view *v, const split_set *set, const split_cell *cell,
                                          uint32_t i) {
     return set->items.data + cell->first + (v->pairs ? i : v->item.data[i]);
@@ -17,7 +15,7 @@ static bool is_wide(const split_view *v, uint32_t i) {
     const uint32_t first = v->pairs ? from : v->corner.data[from];
     for (uint32_t j = from + 1; j < to; j++)
         for (int k = 0; k < v->dim; k++)
-            if (fabs(x[k][v->pairs ? j : v->corner.data[j]] - x[k][first]) > WIDE) return true;
+            if (fabs(x[k][v->pairs ? j : v->corner.data[j]] - x[k][first]) > SPLIT_WIDE) return true;
     return false;
 }
 

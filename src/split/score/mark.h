@@ -12,6 +12,9 @@
 #define FROE_SPLIT_SCORE_MARK_H
 #include "split/score/view.h"
 
+/** How much of the cell a wall is wide at least: planes that are meant to be one differ by 2^-48 of it. */
+#define SPLIT_WIDE 0x1p-14
+
 /** Marks the fragments shown that doubles put in the plane of the cut and exact numbers do not. With the first mark,
  * a view for sweeps shows the outermost vertices of the scene, too: a cell that holds nothing but one wall has no other
  * vertex off the wall to lay a plane across it. `classes`: exact, of all fragments of the cell; NULL: they are found

@@ -7,8 +7,6 @@
 #include <math.h>
 #include <string.h>
 
-#define THIN 1e-5 /* vertices whose triangle is thinner than this give no plane worth trying */
-
 void split_view_free(const froe_allocator *alloc, split_view *v) {
     array_free(alloc, &v->x);
     array_free(alloc, &v->y);
@@ -370,7 +368,7 @@ bool split_view_cut(const split_view *v, const froe_scene *scene, const froe_cut
         for (uint32_t i = 0; i < (uint32_t)v->dim; i++) corners[i] = scene_corner(scene, cut->id[0], i);
         return plane_through(v, scene, corners, v->dim, 0, out);
     default:
-        return plane_through(v, scene, cut->id, v->dim, THIN, out);
+        return plane_through(v, scene, cut->id, v->dim, SPLIT_THIN, out);
     }
 }
 

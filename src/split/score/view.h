@@ -19,6 +19,8 @@
 #include "split/grow.h"
 #include "split/score/price.h"
 
+/** Vertices whose triangle is thinner than this give no plane worth trying. */
+#define SPLIT_THIN 1e-5
 enum { SPLIT_VIEW_FEW = 256, SPLIT_VIEW_ENDS = 32, SPLIT_CHECKS = 64, SPLIT_CHECKED = 256 };
 
 /** A plane, by its vertices in ascending order, or its object. */

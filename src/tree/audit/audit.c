@@ -51,8 +51,9 @@ typedef struct audit {
     finding *findings;         /* per worker */
 } audit;
 
-froe_audit_options froe_audit_defaults(void) {
-    return (froe_audit_options){.size = sizeof(froe_audit_options)};
+void froe_audit_defaults_into(froe_audit_options *out, size_t size) {
+    const froe_audit_options all = {.size = size};
+    support_defaults(out, size, &all, sizeof all);
 }
 
 static froe_status bad_node(const audit *a, uint32_t node, const char *what) {
@@ -138,11 +139,11 @@ static bool differs(comparison *c, uint32_t node, const char *what) {
 /* The next piece is in no place of the object; the node that lists it is found by looking through all lists. */
 static bool stray(comparison *c) {
     uint32_t node = 0, piece = *c->next;
-    for (; node < c->tree->node_count; node++) {
+    for (; node + 1 < c->tree->node_count; node++) { /* some list has it */
         tree_objects list = tree_list(c->tree, node);
         if (piece >= list.first && piece - list.first < list.count) break;
     }
-    return differs(c, node < c->tree->node_count ? node : FROE_NONE, "a piece where the object is not");
+    return differs(c, node, "a piece where the object is not");
 }
 
 /* Is the stored ring that of the place? Rings of polygons may begin at any corner; entries are unique within a ring. */
@@ -176,7 +177,8 @@ static const char *packed_wrong(const comparison *c, const trace_place *place, u
 static bool take_piece(comparison *c, uint32_t node, const tree_objects *list) {
     c->next++;
     const bool twice = c->next < c->end && *c->next - list->first < list->count;
-    return !twice || differs(c, node, "two pieces of the object");
+    if (twice) return differs(c, node, "two pieces of the object");
+    return true;
 }
 
 /* Places and pieces come in the same order. In packed trees of space objects may also be listed beside the cells they
@@ -191,7 +193,8 @@ static bool compare_place(void *user, const trace_place *place) {
         bool must = place->must;
         c->no_memory = place->unsure && trace_cell_meets(c->trace, place->node, &must) != FROE_OK;
         if (c->no_memory) return false;
-        return !must || differs(c, place->node, "no piece where the object is");
+        if (must) return differs(c, place->node, "no piece where the object is");
+        return true;
     }
     if (space) return true;
     const char *why = tree_is_packed(c->tree) ? packed_wrong(c, place, *c->next - list.first)

@@ -38,6 +38,13 @@ static bool add_ray(normals *m, uint32_t one, uint32_t other) {
     return array_push(&m->alloc, &m->rays, ray);
 }
 
+/* One x other and other x one. */
+static bool add_rays(normals *m, uint32_t one, uint32_t other) {
+    bool room = true;
+    for (int turn = 0; turn < 2 && room; turn++) room = add_ray(m, turn ? other : one, turn ? one : other);
+    return room;
+}
+
 /* Cuts off what has a negative product with d. Any extreme ray of what is left is an old one, or lies across d and
  * another vector (an axis, where all differences lie in a plane). */
 static bool cut_off(normals *m, geom_vector d) {
@@ -47,7 +54,7 @@ static bool cut_off(normals *m, geom_vector d) {
     m->rays.count = kept;
     if (!array_push(&m->alloc, &m->vectors, d)) return false;
     for (uint32_t i = m->dim == 2 ? 2 : 0; i < (m->dim == 2 ? 3 : last); i++)
-        if (!add_ray(m, i, last) || !add_ray(m, last, i)) return false;
+        if (!add_rays(m, i, last)) return false;
     return true;
 }
 
@@ -118,7 +125,7 @@ froe_status normals_apart(normals *m, bool *apart) {
         if (!array_push(&m->alloc, &m->vectors, (geom_vector){origin, axes[k]})) return FROE_E_MEMORY;
     for (uint32_t i = 0; i < (uint32_t)m->dim; i++) {
         uint32_t j = m->dim == 2 ? 2 : (i + 1) % 3;
-        if (!add_ray(m, i, j) || !add_ray(m, j, i)) return FROE_E_MEMORY;
+        if (!add_rays(m, i, j)) return FROE_E_MEMORY;
     }
     while (m->rays.count && !*apart) {
         geom_vector worst;

@@ -59,12 +59,8 @@ froe_status tree_measure(const froe_tree *t, const char *name, double *out) {
         *out = (double)t->node_count;
     } else if (!strcmp(name, "path_length")) {
         return path_length(t, out);
-    } else if (!strcmp(name, "size")) {
-        *out = (double)r->size;
     } else if (!strcmp(name, "fragments")) {
         *out = (double)r->fragments;
-    } else if (!strcmp(name, "leaf_load")) {
-        *out = (double)r->max_leaf;
     } else if (!strcmp(name, "guard_leaves")) {
         *out = 1;
         for (uint32_t i = 0; i < t->node_count; i++) *out += in_stage(t, TREE_GUARD, i);

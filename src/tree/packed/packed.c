@@ -43,13 +43,6 @@ void packed_write(packed_header *block, const packed_box *box, uint32_t owner, c
 
 /* ----------------------------------------------------------------- finding -- */
 
-uint32_t packed_count(const froe_tree *t) {
-    uint32_t sum = 0;
-    for (uint32_t i = 0; i < t->node_count; i++)
-        if (tree_is_leaf(t->nodes + i)) sum += t->nodes[i].u.list.count;
-    return sum;
-}
-
 uint32_t packed_leaf_in(const froe_tree *t, uint32_t piece, double *lo, double *hi) {
     uint32_t node = 0;
     for (int k = 0; k < t->scene->dim; k++) lo[k] = t->meta.root_lo[k], hi[k] = t->meta.root_hi[k];

@@ -98,8 +98,6 @@ static inline void packed_ends(const froe_scene *s, uint32_t object, const doubl
 void packed_write(packed_header *block, const packed_box *box, uint32_t owner, const packed_fragment *fragments,
                   uint32_t count);
 
-/** Sum of the pieces of all leaves. The nodes may be unvalidated input: then it may be any number. */
-uint32_t packed_count(const froe_tree *t);
 /** Does the block of a leaf of the plane begin at `*blocks`, with room for its pieces before the sentinel? Moves
  * *blocks behind it. */
 bool packed_takes_place(const froe_tree *t, const tree_node *leaf, uint32_t *blocks);

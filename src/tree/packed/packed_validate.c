@@ -63,7 +63,7 @@ froe_status packed_validate(const froe_tree *t, froe_diagnostic *diag) {
     packed_check c = {.tree = t, .diag = diag};
     tree_walk walk = {.tree = t};
     const tree_meta *m = &t->meta;
-    bool fits = t->scene->dim == 2 && m->root_lo[0] <= m->root_hi[0] && m->root_lo[1] <= m->root_hi[1];
+    bool fits = m->root_lo[0] <= m->root_hi[0] && m->root_lo[1] <= m->root_hi[1];
     froe_status status = fits && !t->cut_count ? FROE_OK : bad_block(&c, 0, "blocks that such a tree cannot have");
     while (!status && tree_walk_next(&walk)) {
         const tree_node *n = t->nodes + walk.node;

@@ -45,7 +45,7 @@ void packer_free(tree_packer *p) {
 }
 
 froe_status packer_split(tree_packer *p, uint32_t node, int axis, double value, uint32_t *child) {
-    if (p->nodes.count + 2 > TREE_MOST) return FROE_E_LIMIT;
+    if (p->nodes.count + 2 > TREE_MOST) return FROE_E_LIMIT; /* one way: so many take 32 GB */
     if (!array_reserve(&p->alloc, &p->nodes, 2)) return FROE_E_MEMORY;
     *child = (uint32_t)p->nodes.count;
     p->nodes.data[node] = (tree_node){.u.value = value, .child = *child, .type = TREE_PLAIN, .axis = (uint8_t)axis};
@@ -57,10 +57,10 @@ froe_status packer_split(tree_packer *p, uint32_t node, int axis, double value, 
 /* Takes blocks and pieces. */
 static froe_status take_blocks(tree_packer *p, uint32_t size, uint32_t pieces) {
     uint64_t need = (uint64_t)p->block_count + size, room = p->block_room + p->block_room / 2 + 16;
-    if (pieces > TREE_MOST - p->piece_count) return FROE_E_LIMIT;
+    if (pieces > TREE_MOST - p->piece_count) return FROE_E_LIMIT; /* one way: so many take 32 GB */
     if (need > p->block_room) {
-        if (need >= UINT32_MAX - 1) return FROE_E_LIMIT;
-        if (room < need || room >= UINT32_MAX - 1) room = need;
+        if (need >= UINT32_MAX - 1) return FROE_E_LIMIT;        /* one way: so many take 32 GB */
+        if (room < need || room >= UINT32_MAX - 1) room = need; /* one way: so many take 32 GB */
         if (resize(p, (uint32_t)room)) return FROE_E_MEMORY;
     }
     p->piece_count += pieces;
@@ -109,7 +109,7 @@ froe_status packer_space_leaf(tree_packer *p, uint32_t node, const froe_scene *s
 froe_status packer_place_for(tree_packer *p, uint32_t node, const tree_packer *subtree, packer_place *out) {
     const size_t nodes = subtree->nodes.count - 1, owners = subtree->owners.count;
     *out = (packer_place){node, (uint32_t)p->nodes.count, p->block_count, (uint32_t)p->owners.count, p->piece_count};
-    if (p->nodes.count + nodes > TREE_MOST) return FROE_E_LIMIT;
+    if (p->nodes.count + nodes > TREE_MOST) return FROE_E_LIMIT; /* one way: so many take 32 GB */
     if (!array_reserve(&p->alloc, &p->nodes, nodes) || !array_reserve(&p->alloc, &p->owners, owners))
         return FROE_E_MEMORY;
     froe_status status = take_blocks(p, subtree->block_count, subtree->piece_count);
@@ -121,8 +121,7 @@ froe_status packer_place_for(tree_packer *p, uint32_t node, const tree_packer *s
 
 void packer_put(const tree_packer *p, const tree_packer *subtree, const packer_place *place) {
     const size_t nodes = subtree->nodes.count, owners = subtree->owners.count;
-    if (subtree->block_count)
-        memcpy(block_at(p, place->blocks), block_at(subtree, 0), (size_t)subtree->block_count * PACKED_BLOCK);
+    memcpy(block_at(p, place->blocks), block_at(subtree, 0), (size_t)subtree->block_count * PACKED_BLOCK);
     if (owners) memcpy(p->owners.data + place->owners, subtree->owners.data, owners * sizeof *p->owners.data);
     for (size_t i = 0; i < nodes; i++) {
         tree_node node = subtree->nodes.data[i];

@@ -6,8 +6,9 @@
 #include "view/visibility/order.h"
 #include <math.h>
 
-froe_picture_options froe_picture_defaults(void) {
-    return (froe_picture_options){.size = sizeof(froe_picture_options), .crease = 30};
+void froe_picture_defaults_into(froe_picture_options *out, size_t size) {
+    const froe_picture_options all = {.size = size, .crease = 30};
+    support_defaults(out, size, &all, sizeof all);
 }
 
 const char *froe_paint_name(froe_paint paint) {

@@ -52,6 +52,28 @@ static uint32_t vertex_at(const view_sightlines *s, const piece_ring *o, uint32_
     return view_cut_has(s, (cut_before ? before : after) & ~TREE_EDGE_CUT, vertex) ? vertex : FROE_NONE;
 }
 
+/* Drops sides along the line of the side before, which have no length as the eye sees them. A wall of the method
+ * `cylindrical` is sheared by an infinitely small eps, and a piece may lie between it and the upright face that it
+ * touches: where the two lines have opposite directions nothing of the piece is seen, and the ring becomes empty. */
+static void drop_flat(const view_sightlines *s, view_ring *ring) {
+    size_t kept = 0;
+    for (size_t i = 0; i < ring->count; i++) {
+        const view_corner *k = ring->data + i;
+        if (k->ray.x[0] != 0 || k->ray.x[1] != 0 || k->ray.x[2] != 0) { /* the lines meet at a point */
+            ring->data[kept++] = *k;
+            continue;
+        }
+        const view_way before = ring->data[i ? i - 1 : ring->count - 1].way;
+        const double *a = s->lines.data[before >> 1].image.x, *b = s->lines.data[k->way >> 1].image.x;
+        const bool along = (a[0] * b[0] + a[1] * b[1] + a[2] * b[2] > 0) != ((before ^ k->way) & 1);
+        if (!along) {
+            ring->count = 0;
+            return;
+        }
+    }
+    ring->count = kept < 3 ? 0 : kept;
+}
+
 /* Corners in the order of turning left; a corner lies between entries i - 1 and i of the ring. */
 static bool make_ring(view_sightlines *s, uint32_t piece, const piece_ring *o, view_ring *ring) {
     const int facing = view_facing(s, o->object);
@@ -72,6 +94,7 @@ static bool make_ring(view_sightlines *s, uint32_t piece, const piece_ring *o, v
         const view_way before = ring->data[i ? i - 1 : ring->count - 1].way;
         k->ray = k->vertex != FROE_NONE ? s->rays[k->vertex] : view_meeting(s, before, k->way);
     }
+    drop_flat(s, ring);
     return true;
 }
 

@@ -5,7 +5,7 @@
 
 typedef ARRAY(view_corner) view_ring;
 
-/** The beam of a piece; the eye is not in its plane. False without memory. */
+/** The beam of a piece; the eye is not in its plane. Empty where the piece has no width. False without memory. */
 bool view_beam_of(view_sightlines *sights, uint32_t piece, view_ring *ring);
 /** The beam of a whole polygon. */
 bool view_beam_of_object(view_sightlines *sights, uint32_t object, view_ring *ring);

@@ -25,7 +25,7 @@ static bool keep_crossed(view_crosser *c, uint32_t node, uint32_t patch, view_st
         ok = view_beam_of(s, list.first + k, &c->list_ring);
         for (size_t i = 0; ok && i < c->open.count; i++) { /* its part inside that piece of the list */
             view_stretch part = c->open.data[i];
-            bool left = true; /* unless it runs along the border */
+            bool left = c->list_ring.count > 0; /* unless it runs along the border */
             for (size_t j = 0; left && j < c->list_ring.count; j++)
                 left = view_cut_stretch(s, part.edge, c->list_ring.data[j].way, &part);
             if (left) ok = array_push(&s->alloc, out, part);

@@ -9,8 +9,9 @@
 
 enum { EYES_PER_WORD = 32, NODES_PER_TASK = 4096 };
 
-froe_order_options froe_order_defaults(void) {
-    return (froe_order_options){.size = sizeof(froe_order_options)};
+void froe_order_defaults_into(froe_order_options *out, size_t size) {
+    const froe_order_options all = {.size = size};
+    support_defaults(out, size, &all, sizeof all);
 }
 
 static froe_status check_orders(const froe_tree *tree, const froe_order_options **options,

@@ -8,8 +8,9 @@
 #include <math.h>
 #include <string.h>
 
-froe_visibility_options froe_visibility_defaults(void) {
-    return (froe_visibility_options){.size = sizeof(froe_visibility_options)};
+void froe_visibility_defaults_into(froe_visibility_options *out, size_t size) {
+    const froe_visibility_options all = {.size = size};
+    support_defaults(out, size, &all, sizeof all);
 }
 
 typedef struct visibility_search {
@@ -114,6 +115,7 @@ static froe_status look_at(visibility_search *k, uint32_t piece, uint32_t place)
     const int facing = view_facing(&v->sights, object);
     if (!facing || (o->cull_back && facing < 0)) return FROE_OK;
     if (!view_beam_of(&v->sights, piece, &k->ring)) return FROE_E_MEMORY;
+    if (!k->ring.count) return FROE_OK;
     const bool opaque = !o->clear || !o->clear[patch];
     froe_status status = view_screen_look(&k->screen, k->ring.data, (uint32_t)k->ring.count, opaque);
     if (!status && k->screen.seen.count) status = look_at_edges(k, piece);

@@ -151,15 +151,30 @@ export class Pane {
 
     #paint(context) {
         if (!this.#shown) return;
-        const { nodes, rank, order } = this.#shown, steps = this.#steps, look = colours();
+        const look = colours(), points = this.chart.still(context, [this.#step, look.ink], (layer) => this.#paintPartition(layer, look));
+        if (this.#hovered >= 0) this.#paintHovered(context, look, points);
+    }
+    /* All but what the pointer is over. Returns the pixels of the pieces' corners. */
+    #paintPartition(context, look) {
+        const { nodes, rank, order } = this.#shown, steps = this.#steps;
         const front = [];
         for (let i = 0; i < nodes.parents.length; i++) {
             const parent = nodes.parents[i];
             if (rank[i] >= steps && (parent === 0 || rank[parent - 1] < steps)) front.push(i);
         }
         const last = steps ? order[steps - 1] : -1;
-        if (this.chart.dim === 2) this.#paintPlane(context, look, front, last, steps);
-        else this.#paintSpace(context, look, front, last);
+        if (this.chart.dim === 2) return this.#paintPlane(context, look, front, last, steps);
+        return this.#paintSpace(context, look, front, last);
+    }
+    /* The piece under the pointer and the others of its list lie over all others. */
+    #paintHovered(context, look, points) {
+        const { pieces, nodes } = this.#shown, node = pieces.nodes[this.#hovered] - 1, from = nodes.firstPieces[node];
+        const list = Array.from({ length: nodes.pieceCounts[node] }, (_, i) => from + i).filter((i) => i !== this.#hovered);
+        if (this.chart.dim === 2) {
+            this.#strokePieces(context, points, list, look.mark, 3);
+            this.#strokePieces(context, points, [this.#hovered], look.hit, 4);
+        } else for (const i of [...list, this.#hovered])
+            this.#fillPiece(context, points, i, i === this.#hovered ? look.hit : look.mark, look.ink);
     }
     #paintPlane(context, look, front, last, steps) {
         const { cells, cellOf, cuts, cutOf, order, pieces, nodes } = this.#shown;
@@ -182,20 +197,18 @@ export class Pane {
             context.stroke();
         }
         context.globalAlpha = 1;
-        const list = this.#listOfHovered(), points = this.chart.project(pieces.coords);
-        this.#paintPieces(context, points, look.ink, 1.2, (i) => !list.has(i));
-        this.#paintPieces(context, points, look.mark, 3, (i) => list.has(i));
-        if (this.#hovered >= 0) this.#paintPieces(context, points, look.hit, 4, (i) => i === this.#hovered);
+        const points = this.chart.project(pieces.coords);
+        this.#strokePieces(context, points, pieces.objects.keys(), look.ink, 1.2);
         if (last >= 0 && this.#step >= 0 && cutOf[last] >= 0) this.#stroke(context, lines, cuts.starts[cutOf[last]], cuts.starts[cutOf[last] + 1], look.hit, 2.5);
+        return points;
     }
-    #paintPieces(context, points, colour, width, when) {
+    #strokePieces(context, points, which, colour, width) {
         const { pieces } = this.#shown;
         context.strokeStyle = context.fillStyle = colour;
         context.lineWidth = width;
         context.lineCap = "round";
         context.beginPath();
-        for (let i = 0; i < pieces.objects.length; i++) {
-            if (!when(i)) continue;
+        for (const i of which) {
             const from = pieces.starts[i], to = pieces.starts[i + 1];
             if (to - from === 1) context.fillRect(points[2 * from] - width, points[2 * from + 1] - width, 2 * width, 2 * width);
             for (let c = from; c < to; c++) context[c === from ? "moveTo" : "lineTo"](points[2 * c], points[2 * c + 1]);
@@ -209,23 +222,14 @@ export class Pane {
         for (const node of front) owner[node] = node;
         const depths = new Float64Array(pieces.coords.length / 3), points = this.chart.project(pieces.coords, depths);
         const near = nearness(depths, pieces.starts), order = Uint32Array.from(near, (_, i) => i).sort((a, b) => near[a] - near[b]);
-        const list = this.#listOfHovered();
-        context.lineJoin = "round";
         for (const i of order) {
-            trace(context, points, pieces.starts[i], pieces.starts[i + 1]);
             const cell = this.#cellOfNode(owner, pieces.nodes[i] - 1);
-            context.fillStyle = i === this.#hovered ? look.hit : list.has(i) ? look.mark : cell < 0 ? look.card : cellColour(cell);
-            context.fill();
-            context.strokeStyle = look.ink;
-            context.globalAlpha = 0.55;
-            context.lineWidth = 0.5;
-            context.stroke();
-            context.globalAlpha = 1;
+            this.#fillPiece(context, points, i, cell < 0 ? look.card : cellColour(cell), look.ink);
         }
-        if (last < 0 || this.#step < 0) return;
+        if (last < 0 || this.#step < 0) return points;
         const box = this.chart.project(cells.coords), cell = cellOf[last];
         for (let f = cells.faces[cell]; f < cells.faces[cell + 1]; f++) this.#stroke(context, box, cells.starts[f], cells.starts[f + 1], look.soft, 1);
-        if (cutOf[last] < 0) return;
+        if (cutOf[last] < 0) return points;
         const cut = this.chart.project(cuts.coords);
         trace(context, cut, cuts.starts[cutOf[last]], cuts.starts[cutOf[last] + 1]);
         context.fillStyle = look.hit;
@@ -233,6 +237,19 @@ export class Pane {
         context.fill();
         context.globalAlpha = 1;
         this.#stroke(context, cut, cuts.starts[cutOf[last]], cuts.starts[cutOf[last] + 1], look.hit, 2);
+        return points;
+    }
+    #fillPiece(context, points, i, fill, edge) {
+        const { starts } = this.#shown.pieces;
+        trace(context, points, starts[i], starts[i + 1]);
+        context.fillStyle = fill;
+        context.fill();
+        context.strokeStyle = edge;
+        context.globalAlpha = 0.55;
+        context.lineWidth = 0.5;
+        context.lineJoin = "round";
+        context.stroke();
+        context.globalAlpha = 1;
     }
     /* The node of the front above a node; -2: the cut has been made, and the piece lies in it. */
     #cellOfNode(owner, node) {
@@ -244,11 +261,6 @@ export class Pane {
         const found = owner[node] === -1 ? -2 : owner[node];
         for (const passed of way) owner[passed] = found;
         return found;
-    }
-    #listOfHovered() {
-        if (this.#hovered < 0) return new Set();
-        const { pieces, nodes } = this.#shown, node = pieces.nodes[this.#hovered] - 1, from = nodes.firstPieces[node];
-        return new Set(Array.from({ length: nodes.pieceCounts[node] }, (_, i) => from + i));
     }
     #stroke(context, points, from, to, colour, width) {
         trace(context, points, from, to);

@@ -42,7 +42,6 @@ class AskRoom {
     #answered = null;  // { question, ids, values, statistics }
     #asking = false;
     #late = false;     // was there a question meanwhile?
-    #base = null;      // the scene as it is seen now: { key, canvas, points, depths, near }
     #age = 0;
     #dark = matchMedia("(prefers-color-scheme: dark)");
     #redraw = () => this.#chart.draw();
@@ -125,7 +124,6 @@ class AskRoom {
         this.#worker?.end();
         this.#worker = this.#tree = this.#scene = this.#answered = null;
         this.#asking = this.#late = false;
-        this.#base = null;
         const { facts, list, times } = this.#parts;
         for (const part of [facts, list, times]) part.replaceChildren();
         delete facts.dataset.asked;
@@ -263,27 +261,20 @@ class AskRoom {
 
     #paint(context) {
         if (!this.#scene) return;
-        const look = colours(), base = this.#seen(look), it = this.#answered, dots = devicePixelRatio || 1;
-        context.drawImage(base.canvas, 0, 0, base.canvas.width / dots, base.canvas.height / dots);
+        const look = colours(), it = this.#answered, seen = this.#chart.still(context, look.ink, (layer) => this.#paintScene(layer, look));
         const first = it?.question.kind === "ray" && it.ids.length ? it.ids[0] : -1;
-        if (it) this.#paintFound(context, look, base, [...it.ids], first);
+        if (it) this.#paintFound(context, look, seen, [...it.ids], first);
         this.#paintQuestion(context, look);
     }
-    /* The scene without answers. It is drawn once for each view, since that of a large model takes longer than a frame. */
-    #seen(look) {
-        const { turn, tilt, zoom, x, y } = this.#host.state, { width, height } = this.#chart, dots = devicePixelRatio || 1;
-        const key = [turn, tilt, zoom, x, y, width, height, dots, look.ink].join();
-        if (this.#base?.key === key) return this.#base;
-        const { dim, shapes, objects } = this.#scene, canvas = new OffscreenCanvas(Math.round(width * dots), Math.round(height * dots)), context = canvas.getContext("2d");
+    #paintScene(context, look) {
+        const { dim, shapes, objects } = this.#scene;
         const depths = dim === 3 ? new Float64Array(shapes.coords.length / 3) : null, points = this.#chart.project(shapes.coords, depths);
         const order = Uint32Array.from({ length: objects }, (_, i) => i), near = depths ? nearness(depths, shapes.starts, shapes.corners) : null;
         if (near) order.sort((a, b) => near[a] - near[b]);
-        context.scale(dots, dots);
         context.lineCap = context.lineJoin = "round";
         if (near) this.#paintFaces(context, points, order, () => look.faint, look.soft);
         else this.#paintLines(context, points, order, look.ink, 1);
-        this.#base = { key, canvas, points, near };
-        return this.#base;
+        return { points, near };
     }
     /* What was found lies over the scene: it is seen where something is before it, too. */
     #paintFound(context, look, { points, near }, ids, first) {

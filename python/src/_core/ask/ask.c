@@ -39,8 +39,8 @@ bool core_ask_ran(core_ask *ask, froe_status status) {
     return core_call_end(&ask->call, status);
 }
 
-bool core_ask_points(core_ask *ask, PyObject *points, const char *name) {
-    return core_input_take(&ask->in[0], points, name, 'd', ask->dim, false);
+bool core_ask_points(core_ask *ask, PyObject *points) {
+    return core_input_take(&ask->in[0], points, "points", 'd', ask->dim, false);
 }
 
 static void free_answers(void *block) {
@@ -64,4 +64,20 @@ PyObject *core_ask_array(core_ask *ask, froe_status status, void *results, const
     if (core_ask_ran(ask, status)) return core_array_of(results, format, count, width);
     core_release(results, core_array_bytes(format, count, width), 1);
     return NULL;
+}
+
+PyObject *core_ask_rows(PyObject *self, const char *name, const char *what, size_t corners, core_rows_fn *batch,
+                        PyObject *const *args, Py_ssize_t count) {
+    core_ask ask;
+    PyObject *answer = NULL;
+    if (!core_ask_begin(&ask, self, name, args, count, 3)) return NULL;
+    const core_input *rows = &ask.in[0];
+    if (core_input_take(&ask.in[0], args[0], what, 'd', corners * ask.dim, false)) {
+        froe_answers answers;
+        core_ask_run(&ask);
+        const froe_status status = batch(ask.query, rows->data, rows->count, &ask.options, &answers, &ask.call.diag);
+        answer = core_ask_answers(&ask, status, &answers);
+    }
+    core_ask_end(&ask);
+    return answer;
 }

@@ -35,5 +35,13 @@ PyObject *core_ask_answers(core_ask *ask, froe_status status, const froe_answers
 PyObject *core_ask_array(core_ask *ask, froe_status status, void *results, const char *format, size_t count,
                          size_t width);
 /** The first input's rows of dim doubles are points. */
-bool core_ask_points(core_ask *ask, PyObject *points, const char *name);
+bool core_ask_points(core_ask *ask, PyObject *points);
+
+/** A batch whose questions are rows of doubles and nothing else. */
+typedef froe_status core_rows_fn(froe_query *query, const double *rows, size_t count, const froe_batch_options *options,
+                                 froe_answers *out, froe_diagnostic *diag);
+/** All of a method with the arguments rows, threads and progress. A row has `corners` times dim doubles. Messages call
+ * the rows `what`. */
+PyObject *core_ask_rows(PyObject *self, const char *name, const char *what, size_t corners, core_rows_fn *batch,
+                        PyObject *const *args, Py_ssize_t count);
 #endif

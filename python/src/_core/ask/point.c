@@ -1,33 +1,14 @@
 /* point.c: what is at points, nearest to them, above them; and which objects meet one another. */
 #include "ask/ask.h"
 
-typedef froe_status batch_points(froe_query *query, const double *points, size_t count,
-                                 const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag);
-
-/* args: points, threads, progress */
-static PyObject *ask_points(PyObject *self, const char *name, batch_points *batch, PyObject *const *args,
-                            Py_ssize_t count) {
-    core_ask ask;
-    PyObject *answer = NULL;
-    if (!core_ask_begin(&ask, self, name, args, count, 3)) return NULL;
-    const core_input *points = &ask.in[0];
-    if (core_ask_points(&ask, args[0], "points")) {
-        froe_answers answers;
-        core_ask_run(&ask);
-        const froe_status status =
-            batch(ask.query, points->data, points->count, &ask.options, &answers, &ask.call.diag);
-        answer = core_ask_answers(&ask, status, &answers);
-    }
-    core_ask_end(&ask);
-    return answer;
-}
-
+/* locate(points, threads, progress) */
 PyObject *core_ask_locate(PyObject *self, PyObject *const *args, Py_ssize_t count) {
-    return ask_points(self, "locate", froe_batch_locate, args, count);
+    return core_ask_rows(self, "locate", "points", 1, froe_batch_locate, args, count);
 }
 
+/* groups(points, threads, progress) */
 PyObject *core_ask_groups(PyObject *self, PyObject *const *args, Py_ssize_t count) {
-    return ask_points(self, "groups", froe_batch_groups, args, count);
+    return core_ask_rows(self, "groups", "points", 1, froe_batch_groups, args, count);
 }
 
 /* near(points, k, bound, threads, progress) */
@@ -38,7 +19,7 @@ PyObject *core_ask_near(PyObject *self, PyObject *const *args, Py_ssize_t count)
     if (!core_ask_begin(&ask, self, "near", args, count, 5)) return NULL;
     const core_input *points = &ask.in[0];
     const double bound = PyFloat_AsDouble(args[2]);
-    if (!PyErr_Occurred() && core_unsigned(args[1], "k", UINT32_MAX, &k) && core_ask_points(&ask, args[0], "points")) {
+    if (!PyErr_Occurred() && core_unsigned(args[1], "k", UINT32_MAX, &k) && core_ask_points(&ask, args[0])) {
         froe_answers answers;
         core_ask_run(&ask);
         const froe_status status =
@@ -65,8 +46,7 @@ PyObject *core_ask_vertical(PyObject *self, PyObject *const *args, Py_ssize_t co
     PyObject *answer = NULL;
     if (!core_ask_begin(&ask, self, "vertical", args, count, 4)) return NULL;
     bool below;
-    if (core_flag(args[1], &below) && core_ask_points(&ask, args[0], "points"))
-        answer = ask_vertical(&ask, below ? -1 : 1);
+    if (core_flag(args[1], &below) && core_ask_points(&ask, args[0])) answer = ask_vertical(&ask, below ? -1 : 1);
     core_ask_end(&ask);
     return answer;
 }
@@ -92,7 +72,7 @@ PyObject *core_ask_nearest_points(PyObject *self, PyObject *const *args, Py_ssiz
     PyObject *answer = NULL;
     if (!core_ask_begin(&ask, self, "nearest_points", args, count, 4)) return NULL;
     core_input *objects = &ask.in[1];
-    if (core_ask_points(&ask, args[1], "points") &&
+    if (core_ask_points(&ask, args[1]) &&
         core_input_take_count(objects, args[0], "objects", 'I', 1, ask.in[0].count, false)) {
         const size_t rows = objects->count;
         double *nearest = core_allocate(rows, ask.dim * sizeof *nearest);

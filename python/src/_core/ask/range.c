@@ -143,19 +143,7 @@ PyObject *core_ask_ranges(PyObject *self, PyObject *const *args, Py_ssize_t coun
 
 /* boxes(boxes, threads, progress): exact windows as plain doubles */
 PyObject *core_ask_boxes(PyObject *self, PyObject *const *args, Py_ssize_t count) {
-    core_ask ask;
-    PyObject *answer = NULL;
-    if (!core_ask_begin(&ask, self, "boxes", args, count, 3)) return NULL;
-    const core_input *boxes = &ask.in[0];
-    if (core_input_take(&ask.in[0], args[0], "boxes", 'd', 2 * ask.dim, false)) {
-        froe_answers answers;
-        core_ask_run(&ask);
-        const froe_status status =
-            froe_batch_boxes(ask.query, boxes->data, boxes->count, &ask.options, &answers, &ask.call.diag);
-        answer = core_ask_answers(&ask, status, &answers);
-    }
-    core_ask_end(&ask);
-    return answer;
+    return core_ask_rows(self, "boxes", "boxes", 2, froe_batch_boxes, args, count);
 }
 
 /* One window: the ids are copied, since they belong to the context. */

@@ -1,0 +1,13 @@
+/* render_writer.h: which function writes a picture, and what the files of many pictures are called. */
+#ifndef FROE_CLI_RENDER_WRITER_H
+#define FROE_CLI_RENDER_WRITER_H
+#include <froe/render.h>
+
+/** froe_render(), or one of the same form that a library has. */
+typedef __typeof__(froe_render) render_fn;
+
+/** PNG and DXF are written by libraries; *write stays as it is for other endings. Returns 0 or an exit code. */
+int render_find_writer(const char *path, render_fn **write);
+/** The name of frame i: "pic-%03d.svg" has one %d, perhaps with a width; false: it has not. */
+bool render_name_frame(const char *pattern, size_t i, char *out, size_t room);
+#endif

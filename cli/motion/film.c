@@ -1,0 +1,143 @@
+/* film.c: see film.h. */
+#include "motion/film.h"
+#include "commands/render_writer.h"
+#include "exit.h"
+#include "progress.h"
+#include "report/report.h"
+#include "support/path.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool cli_is_moving(const render_args *args) {
+    return args->frames || !isnan(args->at) || !isnan(args->moving.from) || !isnan(args->moving.to) ||
+           !isnan(args->moving.deviation) || args->moving.animation || args->moving.poses ||
+           !strcmp(support_path_extension(args->tree.scene.path).text, "mfjson");
+}
+
+typedef struct film_run {
+    const render_args *args;
+    froe_motion *motion;
+    froe_motion_report read;
+    froe_render_options *options;
+    froe_render_report last;
+    froe_film_report film;
+} film_run;
+
+/* The picture of one instant, from a tree of its own. */
+static froe_status draw_instant(film_run *r, double time, render_fn *write, const char *path, froe_diagnostic *diag) {
+    froe_scene *scene = NULL;
+    froe_tree *tree = NULL;
+    froe_build_options o = froe_build_defaults();
+    o.purpose = "draw", o.seed = r->args->common.seed, o.threads = (unsigned)r->args->common.threads;
+    froe_status status = froe_motion_scene(r->motion, time, NULL, &scene, diag);
+    if (!status) status = froe_build(scene, &o, &tree, diag);
+    if (!status) status = write(tree, path, r->options, &r->last, diag);
+    froe_tree_free(tree), froe_scene_free(scene);
+    return status;
+}
+
+static froe_status draw_frames(film_run *r, size_t frames, render_fn *write, froe_diagnostic *diag) {
+    const froe_motion_options window = froe_motion_window(r->motion);
+    froe_camera *cameras = calloc(frames, sizeof *cameras);
+    if (!cameras) return FROE_E_MEMORY;
+    froe_status status =
+        froe_film_cameras(r->motion, &r->options->camera, r->args->turntable > 0, frames, cameras, diag);
+    for (size_t i = 0; i < frames && !status; i++) {
+        char path[4096];
+        const double share = (double)i / (double)frames;
+        r->options->camera = cameras[i];
+        status = render_name_frame(r->args->output.path, i, path, sizeof path)
+                     ? draw_instant(r, window.begin * (1 - share) + window.end * share, write, path, diag)
+                     : FROE_E_ARG;
+    }
+    free(cameras);
+    return status;
+}
+
+static froe_status draw_one(film_run *r, render_fn *write, froe_diagnostic *diag) {
+    froe_camera camera;
+    const froe_status status = froe_film_cameras(r->motion, &r->options->camera, false, 1, &camera, diag);
+    if (status) return status;
+    r->options->camera = camera;
+    return draw_instant(r, r->args->at, write, r->args->output.path, diag);
+}
+
+static json_t *report_film(const film_run *r) {
+    json_t *all = json_pack("{s:o, s:o}", "model", cli_name_json(r->args->tree.scene.path), "output",
+                            cli_name_json(r->args->output.name));
+    cli_report_moving(&r->read, all);
+    if (!r->args->animate) return all;
+    json_object_set_new(all, "pictures", json_integer((json_int_t)r->film.pictures));
+    json_object_set_new(all, "shown", json_integer((json_int_t)r->film.shown));
+    json_object_set_new(all, "changes", json_integer((json_int_t)r->film.changes));
+    json_object_set_new(all, "late", json_real(r->film.late));
+    json_object_set_new(all, "paths", json_integer((json_int_t)r->film.paths));
+    json_object_set_new(all, "bytes", json_integer((json_int_t)r->film.bytes));
+    return all;
+}
+
+static int check_film(const render_args *args) {
+    char path[4096];
+    const bool many = args->frames || args->turntable;
+    if (args->tree.method || args->tree.save || args->section.count)
+        return cli_fail(CLI_USE, NULL,
+                        "--method, --save-tree, --section: A moving model has a tree of its own at each instant.");
+    if (!isnan(args->at) && (many || args->animate))
+        return cli_fail(CLI_USE, NULL, "--at: It is one picture, and excludes --frames, --turntable and --animate.");
+    if (isnan(args->at) && !args->animate && !many)
+        return cli_fail(CLI_USE, args->tree.scene.path, "A moving model needs --at, --frames or --animate.");
+    if (args->frames && args->turntable && args->frames != args->turntable)
+        return cli_fail(CLI_USE, NULL, "--frames: There is one picture for each place of the turntable.");
+    if (many && !args->animate && !render_name_frame(args->output.path, 0, path, sizeof path))
+        return cli_fail(CLI_USE, NULL, "--frames: '%s' is not like pic-%%03d.svg.", args->output.name);
+    return 0;
+}
+
+static int draw(film_run *r) {
+    const render_args *args = r->args;
+    froe_diagnostic diag = {.message = "Out of memory."};
+    render_fn *write = froe_render;
+    int code = args->animate ? 0 : render_find_writer(args->output.path, &write);
+    if (code) return code;
+    cli_progress bar = cli_progress_begin(&args->common, "looking");
+    r->options->progress = cli_progress_step, r->options->user = &bar;
+    froe_film_options film = froe_film_defaults();
+    const uint64_t frames = args->turntable ? args->turntable : args->frames ? args->frames : film.frames;
+    film.frames = (uint32_t)frames, film.turn = args->turntable > 0;
+    if (!isnan(args->seconds)) film.seconds = args->seconds;
+    const froe_status status = !isnan(args->at) ? draw_one(r, write, &diag)
+                               : args->animate
+                                   ? froe_film(r->motion, args->output.path, r->options, &film, &r->film, &diag)
+                                   : draw_frames(r, (size_t)frames, write, &diag);
+    cli_progress_end(&bar);
+    if (status) return cli_output_fail(&args->output, status, &diag);
+    return cli_report(&args->common, NULL, report_film(r));
+}
+
+int cli_render_moving(const render_args *args) {
+    film_run r = {.args = args};
+    froe_diagnostic diag;
+    froe_scene *scene = NULL;
+    render_prepared prepared = {.values = NULL};
+    cli_moving_args moving = args->moving;
+    moving.path = args->tree.scene.path, moving.format = args->tree.scene.format;
+    int code = check_film(args);
+    if (!code) code = cli_read_moving(&args->common, &moving, &r.motion, &r.read);
+    if (code) return code;
+    const froe_motion_options window = froe_motion_window(r.motion);
+    if (window.dim != 3)
+        code = cli_fail(CLI_USE, moving.path, "A motion in the plane has no hidden surfaces. froe simulate shows it.");
+    if (!code && !(isnan(args->at) || (args->at >= window.begin && args->at <= window.end)))
+        code = cli_fail(CLI_USE, NULL, "--at: '%g' is not from %g to %g.", args->at, window.begin, window.end);
+    const froe_status status = code ? FROE_OK : froe_motion_scene(r.motion, window.begin, NULL, &scene, &diag);
+    if (status) code = cli_fail_status(CLI_WORKING, moving.path, status, &diag);
+    if (!code && froe_scene_set_up(scene, r.read.up)) code = cli_fail_memory();
+    if (!code) code = render_prepare(args, scene, &prepared);
+    r.options = &prepared.options;
+    if (!code) code = draw(&r);
+    render_release(&prepared);
+    froe_scene_free(scene);
+    froe_motion_free(r.motion);
+    return code;
+}

@@ -1,0 +1,21 @@
+/* follow.h: a motion followed event by event, for froe simulate. */
+#ifndef FROE_CLI_MOTION_FOLLOW_H
+#define FROE_CLI_MOTION_FOLLOW_H
+#include "args/output.h"
+#include "command.h"
+#include <froe/io.h>
+#include <jansson.h>
+
+typedef struct cli_follow {
+    const char *events, *places; /**< files to write, or NULL */
+    cli_output tree;
+    double at;      /**< when the tree is taken; NaN: never */
+    bool unrounded; /**< rather no tree than one with rounded coordinates */
+    bool augmented; /**< segments turn upright for nothing */
+} cli_follow;
+
+/** Goes through the window of a motion from a file, if anything is asked for; events are written as they happen.
+ * *report: what there was, or null. Returns an exit code, after saying why. */
+int cli_follow_motion(const cli_common *common, const cli_follow *asked, const char *file, froe_motion *motion,
+                      json_t **report);
+#endif

@@ -1,0 +1,11 @@
+# What scripts/coverage counts: branches of everything but the tests, by clang. Counters are not atomic, because tests
+# would take eight times as long: threads that meet at a counter lose a count, and may make a way seem taken.
+foreach(target froe_support froe_input froe_core froe_io_core froe_draw_core froe_cli_linked froe_cli_opened froe_program)
+  if(TARGET ${target})
+    target_compile_options(${target} PRIVATE -fprofile-instr-generate -fcoverage-mapping)
+  endif()
+endforeach()
+# What believes no file: each condition by itself, too.
+set(wary ${core_sources})
+list(FILTER wary INCLUDE REGEX "^src/tree/(audit/.*|packed/.*_(audit|validate)|open|file|gate|validate)\\.c$")
+set_source_files_properties(${wary} PROPERTIES COMPILE_OPTIONS -fcoverage-mcdc)

@@ -1,0 +1,207 @@
+/* build.c: folders of shards by several ranks, in the steps of froe/shard_parts.h. */
+#include "exchange.h"
+#include "support/alloc.h"
+#include "support/fail.h"
+#include <string.h>
+
+struct froe_mpi_builder {
+    mpi_ranks ranks;
+    int dim;
+    uint64_t objects; /* of this rank */
+    froe_shards_options o;
+    froe_allocator alloc;
+    char *folder; /* in which the new one grows; the draft is rank 0's */
+    size_t folder_size;
+    froe_shard_draft *draft;
+    froe_shard_sample *sample;
+    froe_shard_buckets *spool, *buckets;
+    froe_shard_plan *plan;
+    froe_shard_entry *entries;
+    froe_shard_records batch;
+    froe_mpi_cost began;
+    froe_mpi_costs costs;
+    froe_status status; /* of what this rank has done so far */
+    froe_diagnostic diag;
+};
+
+/* Collective. Brings the folder to its place, or leaves everything as it was, and frees the builder. */
+static froe_status end_builder(froe_mpi_builder *b, froe_status status, froe_diagnostic *diag) {
+    const froe_allocator alloc = b->alloc;
+    const mpi_ranks ranks = b->ranks;
+    b->diag.status = status;
+    froe_shard_buckets_free(b->spool);
+    froe_shard_buckets_free(b->buckets);
+    if (b->draft) status = froe_shard_draft_end(b->draft, status, &b->diag);
+    status = mpi_agree(&ranks, status, &b->diag);
+    if (status && diag) *diag = b->diag;
+    froe_shard_sample_free(b->sample);
+    if (b->entries) support_free(&alloc, b->entries, froe_shard_plan_count(b->plan) * sizeof *b->entries);
+    froe_shard_plan_free(b->plan);
+    froe_shard_records_free(&b->batch);
+    support_free(&alloc, b->folder, b->folder_size);
+    support_free(&alloc, b, sizeof *b);
+    return status;
+}
+
+/* Collective: rank 0 begins the draft, and all know its folder. */
+static froe_status begin_draft(froe_mpi_builder *b, const char *path) {
+    froe_status status = FROE_OK;
+    if (!b->ranks.rank) status = froe_shard_draft_begin(path, NULL, &b->draft, &b->diag);
+    if ((status = mpi_agree(&b->ranks, status, &b->diag))) return status;
+    uint64_t size = b->draft ? strlen(froe_shard_draft_folder(b->draft)) + 1 : 0;
+    MPI_Bcast(&size, 1, MPI_UINT64_T, 0, b->ranks.comm);
+    b->folder = support_calloc(&b->alloc, size, 1);
+    b->folder_size = size;
+    status = mpi_agree(&b->ranks, b->folder ? FROE_OK : support_fail_memory(&b->diag), &b->diag);
+    if (status) return status;
+    if (b->draft) memcpy(b->folder, froe_shard_draft_folder(b->draft), size);
+    MPI_Bcast(b->folder, (int)size, MPI_CHAR, 0, b->ranks.comm);
+    return FROE_OK;
+}
+
+froe_status froe_mpi_begin(MPI_Comm comm, const char *path, int dim, const froe_shards_options *options,
+                           froe_mpi_builder **out, froe_diagnostic *diag) {
+    const mpi_ranks ranks = mpi_ranks_of(comm);
+    const froe_allocator alloc = support_allocator(NULL);
+    froe_diagnostic why = {0};
+    froe_mpi_builder *b = support_calloc(&alloc, 1, sizeof *b);
+    froe_status status = mpi_agree(&ranks, b ? FROE_OK : support_fail_memory(&why), &why);
+    if (status) {
+        support_free(&alloc, b, sizeof *b);
+        if (diag) *diag = why;
+        return status;
+    }
+    *b = (froe_mpi_builder){.ranks = ranks, .dim = dim, .alloc = alloc, .began = mpi_now()};
+    b->o = options ? *options : froe_shards_defaults();
+    b->o.progress = NULL, b->o.alloc = NULL;
+    status = begin_draft(b, path);
+    if (!status && b->o.size != sizeof b->o) status = support_fail_defaults(&b->diag, "froe_shards_defaults");
+    if (!status && (dim < 2 || dim > FROE_MAX_DIM))
+        status = support_fail(&b->diag, FROE_E_ARG, "The dimension %d is not within 2 and %d.", dim, FROE_MAX_DIM);
+    if (!status && froe_shard_sample_new(dim, NULL, &b->sample)) status = support_fail_memory(&b->diag);
+    if (!status) status = froe_shard_buckets_new(b->folder, 1, NULL, &b->spool, &b->diag);
+    status = mpi_agree(&b->ranks, status, &b->diag);
+    if (status) return end_builder(b, status, diag);
+    *out = b;
+    return FROE_OK;
+}
+
+void froe_mpi_fail(froe_mpi_builder *b, const froe_diagnostic *why) {
+    if (b->status) return;
+    b->diag = *why;
+    b->status = why->status;
+}
+
+froe_status froe_mpi_add(froe_mpi_builder *b, const froe_objects *batch, uint64_t first, froe_diagnostic *diag) {
+    froe_status status = b->status;
+    if (!status && (batch->groups || batch->group != FROE_NONE))
+        status = support_fail(&b->diag, FROE_E_UNSUPPORTED, "Objects with groups are not built by several processes.");
+    b->batch.count = 0;
+    if (!status) status = froe_shard_records_add(&b->batch, b->dim, batch, first, &b->diag);
+    if (!status) status = froe_shard_buckets_add(b->spool, 0, b->batch.bytes, b->batch.count, &b->diag);
+    if (!status && froe_shard_sample_add(b->sample, b->batch.bytes, b->batch.count))
+        status = support_fail_memory(&b->diag);
+    if (status && diag) *diag = b->diag;
+    if (!status) b->objects += batch->count;
+    return b->status = status;
+}
+
+/* ------------------------------------------------------------------- finish -- */
+
+/* Collective: the samples of all ranks as one, and the plan that they give. */
+static froe_status make_plan(froe_mpi_builder *b) {
+    const int ranks = b->ranks.count;
+    froe_shard_sample *all = NULL;
+    size_t words = 0;
+    const uint64_t *mine = froe_shard_sample_words(b->sample, &words);
+    int *counts = support_calloc(&b->alloc, 2 * (size_t)ranks, sizeof *counts), *starts = counts + ranks;
+    uint64_t *sum = NULL;
+    size_t total = 0;
+    const int count = (int)words; /* 2^17 objects are fewer than 2^31 words */
+    froe_status status =
+        counts && mine && !froe_shard_sample_new(b->dim, NULL, &all) ? FROE_OK : support_fail_memory(&b->diag);
+    if (!(status = mpi_agree(&b->ranks, status, &b->diag))) {
+        MPI_Allgather(&count, 1, MPI_INT, counts, 1, MPI_INT, b->ranks.comm);
+        for (int r = 0; r < ranks; r++) starts[r] = (int)total, total += (size_t)counts[r];
+        sum = support_calloc(&b->alloc, total, sizeof *sum);
+        status = sum && total < INT32_MAX ? FROE_OK : support_fail_memory(&b->diag);
+    }
+    if (!(status = mpi_agree(&b->ranks, status, &b->diag))) {
+        MPI_Allgatherv(mine, count, MPI_UINT64_T, sum, counts, starts, MPI_UINT64_T, b->ranks.comm);
+        for (int r = 0; r < ranks && !status; r++)
+            if (froe_shard_sample_merge(all, sum + starts[r], (size_t)counts[r]))
+                status = support_fail_memory(&b->diag);
+        if (!status) status = froe_shard_plan_new(all, b->o.shards, b->o.memory, &b->plan, &b->diag);
+    }
+    support_free(&b->alloc, sum, total * sizeof *sum);
+    support_free(&b->alloc, counts, 2 * (size_t)ranks * sizeof *counts);
+    froe_shard_sample_free(all);
+    return mpi_agree(&b->ranks, status, &b->diag);
+}
+
+static froe_status send_all(froe_mpi_builder *b) {
+    froe_status status = make_plan(b);
+    if (status) return status;
+    const uint32_t count = froe_shard_plan_count(b->plan);
+    b->entries = support_calloc(&b->alloc, count, sizeof *b->entries);
+    if (!b->entries) status = support_fail_memory(&b->diag);
+    if (!status) status = froe_shard_buckets_new(b->folder, count, NULL, &b->buckets, &b->diag);
+    if ((status = mpi_agree(&b->ranks, status, &b->diag))) return status;
+    status = mpi_exchange(&b->ranks, b->plan, b->spool, b->buckets, &b->costs.sent, &b->diag);
+    return mpi_agree(&b->ranks, status, &b->diag);
+}
+
+static froe_status gather(void *user, const void *records, size_t count) {
+    return froe_shard_records_append(user, records, count, NULL);
+}
+
+/* This rank's shards, then all entries at rank 0 and the manifest. */
+static froe_status build_all(froe_mpi_builder *b) {
+    const uint32_t count = froe_shard_plan_count(b->plan);
+    froe_status status = FROE_OK;
+    for (uint32_t s = (uint32_t)b->ranks.rank; s < count && !status; s += (uint32_t)b->ranks.count) {
+        b->batch.count = 0;
+        status = froe_shard_buckets_take(b->buckets, s, gather, &b->batch, &b->diag);
+        if (!status) status = froe_shard_build(&b->batch, b->plan, s, NULL, &b->o, b->folder, &b->entries[s], &b->diag);
+        froe_shard_records_free(&b->batch);
+    }
+    if ((status = mpi_agree(&b->ranks, status, &b->diag))) return status;
+    MPI_Allreduce(MPI_IN_PLACE, b->entries, (int)(count * sizeof *b->entries), MPI_BYTE, MPI_BOR, b->ranks.comm);
+    if (b->draft) status = froe_shard_manifest_write(b->plan, b->entries, b->folder, NULL, &b->diag);
+    return mpi_agree(&b->ranks, status, &b->diag);
+}
+
+static froe_shards_report report_of(const froe_mpi_builder *b, uint64_t objects) {
+    froe_shards_report r = {.shards = froe_shard_plan_count(b->plan), .objects = objects};
+    for (uint32_t i = 0; i < r.shards; i++) {
+        const froe_shard_entry *e = &b->entries[i];
+        r.copies += e->objects;
+        r.bytes += e->bytes;
+        r.most = e->objects > r.most ? e->objects : r.most;
+    }
+    return r;
+}
+
+froe_status froe_mpi_finish(froe_mpi_builder *b, froe_shards_report *out, froe_mpi_costs *costs,
+                            froe_diagnostic *diag) {
+    const mpi_ranks ranks = b->ranks;
+    froe_shards_report report = {0};
+    froe_mpi_costs spent = {.read = mpi_since(b->began)};
+    froe_status status = mpi_agree(&ranks, b->status, &b->diag);
+    const uint64_t objects = status ? 0 : mpi_sum(&ranks, b->objects);
+    if (!status && !objects) status = support_fail(&b->diag, FROE_E_INPUT, "There are no objects.");
+    froe_mpi_cost then = mpi_now();
+    if (!status) status = send_all(b);
+    spent.exchange = mpi_since(then), spent.sent = b->costs.sent;
+    then = mpi_now();
+    if (!status) status = build_all(b);
+    spent.build = mpi_since(then);
+    if (!status) report = report_of(b, objects);
+    status = end_builder(b, status, diag);
+    if (status) return status;
+    spent.read = mpi_slowest(&ranks, spent.read), spent.exchange = mpi_slowest(&ranks, spent.exchange);
+    spent.build = mpi_slowest(&ranks, spent.build), spent.sent = mpi_sum(&ranks, spent.sent);
+    if (out) *out = report;
+    if (costs) *costs = spent;
+    return FROE_OK;
+}

@@ -1,0 +1,15 @@
+/* rows.h: a CSV of objects, of which each rank reads a part */
+#ifndef FROE_MPI_ROWS_H
+#define FROE_MPI_ROWS_H
+#include "ranks.h"
+
+/** A part of the rows, as the core's own reader gives them; false stops. `first`: the number of the first row in the
+ * whole file, from 0. `scene` is freed after the call. `tagged`: its objects have tags of their own. */
+typedef bool mpi_rows_fn(void *user, const froe_scene *scene, uint64_t first, bool tagged);
+/** Collective. Calls fn for the parts of this rank, some 10^5 rows at a time; the status is this rank's own. A record
+ * is one line: quotation marks are refused. FROE_E_IO, FROE_E_UNSUPPORTED, and the failures of froe_read_own(), of
+ * which the message says from which row on the part is. */
+froe_status mpi_rows_read(const mpi_ranks *ranks, const char *path, mpi_rows_fn *fn, void *user, froe_diagnostic *diag);
+/** The dimension of the objects, by the header and the first row. Every rank reads them by itself. */
+froe_status mpi_rows_dim(const char *path, int *dim, froe_diagnostic *diag);
+#endif

@@ -1,0 +1,12 @@
+# An overlay port of the checkout that it lies in: vcpkg install froe --overlay-ports=packaging/vcpkg
+get_filename_component(SOURCE_PATH ${CURRENT_PORT_DIR}/../../.. ABSOLUTE)
+vcpkg_check_features(OUT_FEATURE_OPTIONS options FEATURES io FROE_IO draw FROE_DRAW cli FROE_CLI)
+vcpkg_cmake_configure(SOURCE_PATH ${SOURCE_PATH} OPTIONS ${options} -DFROE_TESTS=OFF -DFROE_WERROR=OFF)
+vcpkg_cmake_install()
+vcpkg_cmake_config_fixup(CONFIG_PATH lib/cmake/froe)
+vcpkg_fixup_pkgconfig()
+if("cli" IN_LIST FEATURES)
+  vcpkg_copy_tools(TOOL_NAMES froe AUTO_CLEAN)
+endif()
+file(REMOVE_RECURSE ${CURRENT_PACKAGES_DIR}/debug/include ${CURRENT_PACKAGES_DIR}/debug/share)
+vcpkg_install_copyright(FILE_LIST ${SOURCE_PATH}/LICENSE)

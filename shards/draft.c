@@ -1,0 +1,194 @@
+/* draft.c: a folder that appears whole or not at all.
+ *
+ *     fill PARENT/.NAME.building  ->  exchange it with PARENT/NAME, in one step  ->  remove the old one
+ *
+ * The draft is locked as long as its program lives. One without a lock was left by a program that was killed, and is
+ * emptied and used again. Where the system cannot exchange two folders, the old one is moved aside before the new one
+ * takes its place; a kill between these two steps leaves the old one as .NAME.building. */
+#define _GNU_SOURCE 1 /* renameat2, realpath */
+#include "manifest.h"
+#include "support/fail.h"
+#include "support/floats.h"
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { MORE_NAME = 16 };
+
+struct froe_shard_draft {
+    char target[PATH_MAX];             /* where the new folder is to be, behind all links */
+    char folder[PATH_MAX + MORE_NAME]; /* the draft */
+    int lock;                          /* a descriptor of it */
+    bool replaces;
+    froe_allocator alloc;
+};
+
+/* ------------------------------------------------------------------ folders -- */
+
+/* May a folder of shards have a file of this name? */
+static bool is_own_name(const char *name) {
+    unsigned number;
+    char again[32];
+    if (!strcmp(name, SHARDS_MANIFEST)) return true;
+    if (sscanf(name, "shard-%u.froe", &number) != 1) return false;
+    snprintf(again, sizeof again, "shard-%04u.froe", number);
+    return !strcmp(name, again);
+}
+
+/* Is this nothing but a folder of shards, or empty? `other`: the name of something else in it. */
+static bool is_own_folder(const char *path, char other[NAME_MAX + 1]) {
+    DIR *folder = opendir(path);
+    bool own = folder != NULL;
+    *other = '\0';
+    for (struct dirent *entry; own && (entry = readdir(folder));) {
+        if (!strcmp(entry->d_name, ".") || !strcmp(entry->d_name, "..")) continue;
+        struct stat info;
+        own = (is_own_name(entry->d_name) || !strncmp(entry->d_name, ".froe-", 6)) &&
+              !fstatat(dirfd(folder), entry->d_name, &info, AT_SYMLINK_NOFOLLOW) && !S_ISDIR(info.st_mode);
+        if (!own) snprintf(other, NAME_MAX + 1, "%s", entry->d_name);
+    }
+    if (folder) closedir(folder);
+    return own;
+}
+
+/* Removes the files of a folder, all of which are its own. */
+static void empty_folder(const char *path) {
+    DIR *folder = opendir(path);
+    for (struct dirent *entry; folder && (entry = readdir(folder));)
+        if (is_own_name(entry->d_name) || !strncmp(entry->d_name, ".froe-", 6))
+            unlinkat(dirfd(folder), entry->d_name, 0);
+    if (folder) closedir(folder);
+}
+
+static void sync_folder(const char *path) {
+    const int folder = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (folder < 0) return;
+    (void)fsync(folder);
+    close(folder);
+}
+
+/* -------------------------------------------------------------------- begin -- */
+
+/* Splits the path of the new folder into the folder it is in and its name, behind all links. Returns an errno. */
+static int find_target(froe_shard_draft *d, const char *path) {
+    char given[PATH_MAX], *real;
+    size_t length = strlen(path);
+    while (length > 1 && path[length - 1] == '/') length--;
+    if (!length || length >= sizeof given) return length ? ENAMETOOLONG : ENOENT;
+    memcpy(given, path, length);
+    given[length] = '\0';
+    real = realpath(given, d->target);
+    d->replaces = real != NULL;
+    if (real) return 0;
+    if (errno != ENOENT) return errno;
+    char *slash = strrchr(given, '/');
+    const char *name = slash ? slash + 1 : given, *parent = !slash ? "." : slash == given ? "/" : given;
+    if (!strcmp(name, "..") || !strcmp(name, ".")) return ENOENT;
+    if (slash) *slash = '\0';
+    if (!realpath(parent, d->target)) return errno;
+    length = strlen(d->target);
+    if (strlen(name) > NAME_MAX || length + strlen(name) + 2 > sizeof d->target) return ENAMETOOLONG;
+    if (length > 1) d->target[length++] = '/';
+    memcpy(d->target + length, name, strlen(name) + 1);
+    struct stat info;
+    d->replaces = !lstat(d->target, &info); /* a link to nothing, which is in the way */
+    return 0;
+}
+
+/* Makes the draft, or takes over one that a killed program left. Returns an errno; EWOULDBLOCK: it is in use. */
+static int make_draft(froe_shard_draft *d) {
+    const char *slash = strrchr(d->target, '/');
+    snprintf(d->folder, sizeof d->folder, "%.*s.%s.building", (int)(slash + 1 - d->target), d->target, slash + 1);
+    if (mkdir(d->folder, 0777) && errno != EEXIST) return errno;
+    d->lock = open(d->folder, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    if (d->lock < 0) return errno;
+    if (flock(d->lock, LOCK_EX | LOCK_NB)) return errno;
+    empty_folder(d->folder);
+    return 0;
+}
+
+froe_status froe_shard_draft_begin(const char *path, const froe_allocator *alloc, froe_shard_draft **out,
+                                   froe_diagnostic *diag) {
+    SUPPORT_FLOATS_OWN;
+    if (!path || !out) return support_fail_null(diag, __func__);
+    const froe_allocator own = support_allocator(alloc);
+    froe_shard_draft *d = support_calloc(&own, 1, sizeof *d);
+    if (!d) return support_fail_memory(diag);
+    d->alloc = own;
+    d->lock = -1;
+    char other[NAME_MAX + 1] = "";
+    froe_status status = FROE_OK;
+    int error = find_target(d, path);
+    if (!error && d->replaces && access(d->target, R_OK) && errno == EACCES) {
+        error = EACCES;
+    } else if (!error && d->replaces && !is_own_folder(d->target, other)) {
+        status = *other ? support_fail(diag, FROE_E_IO, "%s: The folder is not replaced, because it holds '%.60s'.",
+                                       support_short(path), other)
+                        : support_fail(diag, FROE_E_IO, "%s: What is there is no folder, and is not replaced.",
+                                       support_short(path));
+    } else if (!error) {
+        error = make_draft(d);
+    }
+    if (error == EWOULDBLOCK)
+        status = support_fail(diag, FROE_E_IO, "%s: Another program is building this folder.", support_short(path));
+    else if (error)
+        status = support_fail_file(diag, "written", path, error);
+    if (!status) {
+        *out = d;
+        return FROE_OK;
+    }
+    if (d->lock >= 0) close(d->lock);
+    support_free(&own, d, sizeof *d);
+    return status;
+}
+
+const char *froe_shard_draft_folder(const froe_shard_draft *d) {
+    return d ? d->folder : NULL;
+}
+
+/* ---------------------------------------------------------------------- end -- */
+
+/* The draft is at the place of the target, and what was there at its own. Returns an errno. */
+static int exchange(const froe_shard_draft *d) {
+    if (!d->replaces) return rename(d->folder, d->target) ? errno : 0;
+#ifdef RENAME_EXCHANGE
+    if (!renameat2(AT_FDCWD, d->folder, AT_FDCWD, d->target, RENAME_EXCHANGE)) return 0;
+    if (errno != ENOSYS && errno != EINVAL) return errno;
+#endif
+    char aside[sizeof d->folder + 4];
+    snprintf(aside, sizeof aside, "%s.old", d->folder);
+    if (rename(d->target, aside)) return errno;
+    if (!rename(d->folder, d->target)) return rename(aside, d->folder) ? errno : 0;
+    const int error = errno;
+    (void)rename(aside, d->target);
+    return error;
+}
+
+froe_status froe_shard_draft_end(froe_shard_draft *d, froe_status status, froe_diagnostic *diag) {
+    SUPPORT_FLOATS_OWN;
+    if (!d) return status;
+    const froe_allocator alloc = d->alloc;
+    if (!status) {
+        sync_folder(d->folder);
+        const int error = exchange(d);
+        if (error) status = support_fail_file(diag, "written", d->target, error);
+    }
+    if (status || d->replaces) {
+        empty_folder(d->folder);
+        rmdir(d->folder);
+    }
+    if (!status) {
+        char *slash = strrchr(d->target, '/');
+        slash[slash == d->target] = '\0';
+        sync_folder(d->target);
+    }
+    close(d->lock);
+    support_free(&alloc, d, sizeof *d);
+    return status;
+}

@@ -1,0 +1,256 @@
+/* reach.c: one shard asked, all shards in reach asked, and what they found; see ask.h. */
+#include "ask.h"
+#include "record.h"
+#include "support/fail.h"
+#include "support/floats.h"
+#include <math.h>
+#include <stdlib.h>
+
+/* ------------------------------------------------------------------- gather -- */
+
+bool shards_gather_take(void *gather, size_t i, const froe_find *find) {
+    shards_gather *g = gather;
+    return array_push(&g->alloc, &g->list, (shards_placed){i, *find});
+}
+
+static int by_tag(const void *a, const void *b) {
+    const froe_find *x = a, *y = b;
+    if (x->tag != y->tag) return x->tag < y->tag ? -1 : 1;
+    if (x->shard != y->shard) return x->shard < y->shard ? -1 : 1;
+    return (x->object > y->object) - (x->object < y->object);
+}
+
+void shards_sort_by_tag(froe_find *items, size_t count) {
+    qsort(items, count, sizeof *items, by_tag);
+}
+
+/* Merges from below, which keeps the order of equal values: a shard tells them in their exact order. */
+static void sort_by_value(froe_find *items, froe_find *room, size_t count) {
+    for (size_t width = 1; width < count; width *= 2) {
+        for (size_t first = 0; first < count; first += 2 * width) {
+            const size_t middle = width < count - first ? first + width : count;
+            const size_t end = width < count - middle ? middle + width : count;
+            for (size_t to = first, a = first, b = middle; to < end; to++)
+                room[to] = b == end || (a < middle && items[a].value <= items[b].value) ? items[a++] : items[b++];
+        }
+        memcpy(items, room, count * sizeof *items);
+    }
+}
+
+froe_status shards_gather_finds(shards_gather *g, size_t questions, froe_finds *out) {
+    froe_finds f = {.questions = questions, .alloc = g->alloc};
+    const size_t starts = (questions + 2) * sizeof *f.starts, items = (g->list.count + 1) * sizeof *f.items;
+    froe_find *room = g->values ? support_realloc(&g->alloc, NULL, 0, items) : NULL;
+    f.starts = support_calloc(&g->alloc, 1, starts);
+    f.items = support_calloc(&g->alloc, 1, items);
+    const bool made = f.starts && f.items && (room || !g->values);
+    if (made) {
+        size_t *at = f.starts + 1; /* [i + 1] counts first; then it is where question i goes on */
+        for (size_t i = 0; i < g->list.count; i++) at[g->list.data[i].question + 1]++;
+        for (size_t i = 0; i < questions; i++) at[i + 1] += at[i];
+        for (size_t i = 0; i < g->list.count; i++) f.items[at[g->list.data[i].question]++] = g->list.data[i].find;
+        for (size_t i = 0; i < questions; i++) {
+            const size_t count = f.starts[i + 1] - f.starts[i];
+            if (g->values)
+                sort_by_value(f.items + f.starts[i], room, count);
+            else
+                shards_sort_by_tag(f.items + f.starts[i], count);
+        }
+        *out = f;
+    } else {
+        if (f.starts) support_free(&g->alloc, f.starts, starts);
+        if (f.items) support_free(&g->alloc, f.items, items);
+    }
+    if (room) support_free(&g->alloc, room, items);
+    array_free(&g->alloc, &g->list);
+    return made ? FROE_OK : FROE_E_MEMORY;
+}
+
+/* ---------------------------------------------------------------- one shard -- */
+
+froe_status shards_call_begin(froe_shards *s, const shards_question *q, const froe_batch_options *options,
+                              shards_call *out, froe_diagnostic *diag) {
+    if (options && options->size != sizeof *options) return support_fail_defaults(diag, "froe_batch_defaults");
+    *out = (shards_call){.s = s, .q = q, .options = froe_batch_defaults(), .limit = q->count};
+    if (options) {
+        out->options.threads = options->threads;
+        out->progress = options->progress;
+        out->user = options->user;
+    }
+    return FROE_OK;
+}
+
+froe_status shards_call_progress(const shards_call *call, double done, froe_diagnostic *diag) {
+    const volatile double share = done;
+    return !call->progress || support_callback(call->progress(call->user, share)) ? FROE_OK
+                                                                                  : support_fail_cancelled(diag);
+}
+
+froe_status shards_call_end(const shards_call *call, froe_diagnostic *diag) {
+    if (call->limit == call->q->count) return FROE_OK;
+    if (diag) *diag = call->bad;
+    return call->bad.status;
+}
+
+/* Is a shard the first of those that are asked question i and have an object with this box? See ask.h. */
+static bool is_first(const shards_call *call, size_t i, uint32_t shard, const double *lo, const double *hi) {
+    const shards_question *q = call->q;
+    const froe_shards *s = call->s;
+    const froe_shard_plan *plan = s->manifest.plan;
+    bool inside = true; /* the cell, so that no other has it */
+    for (int a = 0; a < s->dim; a++)
+        inside = inside && lo[a] > shards_cell_lo(plan, shard)[a] && hi[a] < shards_cell_hi(plan, shard)[a];
+    if (inside) return true;
+    if (q->box) {
+        double box_lo[FROE_MAX_DIM], box_hi[FROE_MAX_DIM];
+        q->box(q, i, box_lo, box_hi);
+        for (int a = 0; a < s->dim; a++) box_lo[a] = box_lo[a] > lo[a] ? box_lo[a] : lo[a];
+        return shards_plan_first(plan, box_lo) == shard;
+    }
+    if (!shards_boxes_meet(lo, hi, shards_cell_lo(plan, shard), shards_cell_hi(plan, shard), s->dim)) return false;
+    const double bound = q->bound(q, i, shards_entry(s, shard)->lo, shards_entry(s, shard)->hi);
+    for (uint32_t t = 0; t < s->count; t++) {
+        const froe_shard_entry *e = shards_entry(s, t);
+        if (t == shard || !e->objects ||
+            !shards_boxes_meet(lo, hi, shards_cell_lo(plan, t), shards_cell_hi(plan, t), s->dim))
+            continue;
+        const double other = q->bound(q, i, e->lo, e->hi);
+        if (isfinite(other) && (other < bound || (other == bound && t < shard))) return false;
+    }
+    return true;
+}
+
+/* Hands over what a shard found, but for what another one reports. */
+static froe_status take_answers(shards_call *call, uint32_t shard, const size_t *which, const bool *alone,
+                                const froe_answers *answers, froe_diagnostic *diag) {
+    const froe_scene *scene = froe_tree_scene(call->s->slots[shard].tree);
+    for (size_t j = 0; j < answers->queries; j++)
+        for (size_t at = answers->starts[j]; at < answers->starts[j + 1]; at++) {
+            double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+            froe_find find = {
+                .shard = shard, .object = answers->ids[at], .value = answers->values ? answers->values[at] : 0};
+            if (call->q->groups) {
+                find.tag = find.object;
+                find.object = FROE_NONE;
+                if (!call->take(call->take_user, which[j], &find)) return support_fail_memory(diag);
+                continue;
+            }
+            if (!alone[j] && !call->q->any) {
+                shards_scene_box(scene, find.object, lo, hi);
+                if (!is_first(call, which[j], shard, lo, hi)) continue;
+            }
+            find.tag = froe_scene_object(scene, find.object).tag;
+            if (!call->take(call->take_user, which[j], &find)) return support_fail_memory(diag);
+        }
+    return FROE_OK;
+}
+
+froe_status shards_call_shard(shards_call *call, uint32_t shard, const size_t *which, const bool *alone, size_t count,
+                              froe_diagnostic *diag) {
+    froe_query *query;
+    froe_answers answers = {0};
+    froe_diagnostic why;
+    while (count && which[count - 1] >= call->limit) count--;
+    if (!count) return FROE_OK;
+    froe_status status = shards_query(call->s, shard, &query, diag);
+    if (status) return status;
+    status = call->q->ask(call->q, query, which, count, &call->options, &answers, &why);
+    if ((status == FROE_E_INPUT || status == FROE_E_UNSUPPORTED) && why.object < count) {
+        call->limit = which[why.object];
+        why.object = (uint32_t)call->limit;
+        call->bad = why;
+        return FROE_OK;
+    }
+    if (status) {
+        if (diag) *diag = why;
+        return shards_name_file(call->s, shard, status, diag);
+    }
+    if (call->limit == call->q->count) status = take_answers(call, shard, which, alone, &answers, diag);
+    froe_answers_free(&answers);
+    return status;
+}
+
+/* --------------------------------------------------------- all that is reached -- */
+
+/* Which shards are asked which questions. */
+typedef struct reached {
+    size_t *starts; /* [questions + 1] */
+    ARRAY(uint32_t) shards;
+    size_t *shard_starts; /* [shards + 1], the same by shards */
+    size_t *which;
+    bool *alone;
+} reached;
+
+/* The shards of question i that may have answers; writes their numbers. A question that reaches none is asked of one,
+ * which finds out whether it is a question. */
+static uint32_t shards_in_reach(const froe_shards *s, const shards_question *q, size_t i, uint32_t *cells) {
+    uint32_t count = 0, kept = 0;
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    if (q->box) {
+        q->box(q, i, lo, hi);
+        count = shards_plan_cells(s->manifest.plan, lo, hi, cells);
+    }
+    for (uint32_t j = 0; j < (q->box ? count : s->count); j++) {
+        const uint32_t shard = q->box ? cells[j] : j;
+        const froe_shard_entry *e = shards_entry(s, shard);
+        if (!e->objects) continue;
+        const bool met = q->groups || (q->box ? shards_boxes_meet(lo, hi, e->lo, e->hi, s->dim)
+                                              : isfinite(q->bound(q, i, e->lo, e->hi)));
+        if (met) cells[kept++] = shard;
+    }
+    if (!kept) cells[kept++] = s->first;
+    return kept;
+}
+
+static bool find_reached(const froe_shards *s, const shards_question *q, reached *r) {
+    uint32_t *cells = support_calloc(&s->alloc, s->count, sizeof *cells);
+    r->starts = support_calloc(&s->alloc, q->count + 1, sizeof *r->starts);
+    r->shard_starts = support_calloc(&s->alloc, (size_t)s->count + 2, sizeof *r->shard_starts);
+    bool ok = cells && r->starts && r->shard_starts;
+    for (size_t i = 0; i < q->count && ok; i++) {
+        const uint32_t count = shards_in_reach(s, q, i, cells);
+        ok = array_append(&s->alloc, &r->shards, cells, count);
+        r->starts[i + 1] = r->shards.count;
+        for (uint32_t j = 0; j < count; j++) r->shard_starts[cells[j] + 2]++;
+    }
+    support_free(&s->alloc, cells, cells ? s->count * sizeof *cells : 0);
+    r->which = ok ? support_calloc(&s->alloc, r->shards.count, sizeof *r->which) : NULL;
+    r->alone = ok ? support_calloc(&s->alloc, r->shards.count, sizeof *r->alone) : NULL;
+    if (!r->which || !r->alone) return false;
+    size_t *at = r->shard_starts + 1; /* of each shard, where it goes on; in the end where it ends */
+    for (uint32_t i = 0; i < s->count; i++) at[i + 1] += at[i];
+    for (size_t i = 0; i < q->count; i++)
+        for (size_t j = r->starts[i]; j < r->starts[i + 1]; j++) {
+            const size_t place = at[r->shards.data[j]]++;
+            r->which[place] = i;
+            r->alone[place] = r->starts[i + 1] - r->starts[i] == 1 && !s->manifest.plan->areas;
+        }
+    return true;
+}
+
+static void free_reached(const froe_shards *s, const shards_question *q, reached *r) {
+    if (r->starts) support_free(&s->alloc, r->starts, (q->count + 1) * sizeof *r->starts);
+    if (r->shard_starts) support_free(&s->alloc, r->shard_starts, ((size_t)s->count + 2) * sizeof *r->shard_starts);
+    if (r->which) support_free(&s->alloc, r->which, r->shards.count * sizeof *r->which);
+    if (r->alone) support_free(&s->alloc, r->alone, r->shards.count * sizeof *r->alone);
+    array_free(&s->alloc, &r->shards);
+}
+
+froe_status shards_reach(froe_shards *s, const shards_question *q, const froe_batch_options *options,
+                         shards_take_fn *take, void *user, froe_diagnostic *diag) {
+    shards_call call;
+    reached r = {0};
+    froe_status status = shards_call_begin(s, q, options, &call, diag);
+    if (status) return status;
+    call.take = take;
+    call.take_user = user;
+    status = find_reached(s, q, &r) ? FROE_OK : support_fail_memory(diag);
+    for (uint32_t i = 0; i < s->count && !status; i++) {
+        const size_t first = r.shard_starts[i], count = r.shard_starts[i + 1] - first;
+        if (!count) continue;
+        status = shards_call_shard(&call, i, r.which + first, r.alone + first, count, diag);
+        if (!status) status = shards_call_progress(&call, (double)r.shard_starts[i + 1] / (double)r.shards.count, diag);
+    }
+    free_reached(s, q, &r);
+    return status ? status : shards_call_end(&call, diag);
+}

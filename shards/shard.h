@@ -1,0 +1,15 @@
+/* shard.h: the tree of one cell, from its records to its file. */
+#ifndef FROE_SHARDS_SHARD_H
+#define FROE_SHARDS_SHARD_H
+#include "plan.h"
+#include "record.h"
+
+enum { SHARDS_NAME = 24 };
+/** The path of a shard's file; `size` is that of `out`: SHARDS_NAME more than the length of `folder` suffice. */
+void shards_file_name(char *out, size_t size, const char *folder, uint32_t shard);
+/** Reads the checksum of the header of a tree file, and the size of the file. FROE_E_IO; FROE_E_FORMAT: it is too short
+ * to have a header. */
+froe_status shards_file_check(const char *path, uint64_t *bytes, uint64_t *check, froe_diagnostic *diag);
+/** Is the struct from froe_shards_defaults()? */
+froe_status shards_check_options(const froe_shards_options *options, froe_diagnostic *diag);
+#endif

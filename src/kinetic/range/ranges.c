@@ -1,0 +1,400 @@
+/* ranges.c: time goes on in ranges of x at once, on threads.
+ *
+ *     t  |   range 0   :   range 1   :   range 2      In a window of time each range goes on by itself (range.h). What
+ *     ^  |=============:=============:==========      all have told is told again in order of time, and from left to
+ *     |  |   window    :             :                right within a tick, as one partition would have told it. So
+ *        |=============:=============:==========      neither events nor their order depend on how many ranges there
+ *        +------------------------------------> x     are. The shorter a window, the fewer segments come near a border
+ *                                                     and belong to two ranges; but each window makes its parts anew.
+ *
+ * Like the conservative simulation of events in independent regions (Chandy and Misra 1979), but without any message
+ * between regions: what lies beyond a border is known from the plans. */
+#include "kinetic/range/ranges.h"
+#include "base/sort.h"
+#include "kinetic/kinetic.h"
+#include "kinetic/range/range.h"
+#include "support/fail.h"
+#include <math.h>
+
+enum { SAMPLES = 2048, EXTENTS_PER_JOB = 256 };
+
+ranges_tuning ranges_defaults(void) {
+    return (ranges_tuning){
+        .least = 512, .pays = 3, .most = 24, .again = 1.3, .guard = {0x1p-12, 0x1p-4}, .each = 2, .size = 4096};
+}
+
+/* Where a segment is during the window, as now_lifted(). */
+typedef struct range_extent {
+    double low, high; /* low > high: it is not there */
+} range_extent;
+
+typedef struct window {
+    froe_kinetic *k;
+    int64_t tick; /* its end */
+    size_t n, count, members;
+    range_extent *extents; /* [n] */
+    uint32_t *home;        /* [n]: the first range that a segment comes into */
+    double *samples;       /* [2 SAMPLES]: where segments are, and where events were */
+    kinetic_range *ranges;
+    kinetic_range **heap; /* those that have something to tell, the first to tell on top */
+    size_t room;          /* of these */
+} window;
+
+static void free_ranges(window *w) {
+    for (size_t i = 0; i < w->count; i++) range_free(w->ranges + i);
+    w->count = 0;
+}
+
+static void free_window(window *w) {
+    const froe_allocator *alloc = &w->k->call.alloc;
+    free_ranges(w);
+    if (w->extents) support_free(alloc, w->extents, w->n * sizeof *w->extents);
+    if (w->home) support_free(alloc, w->home, w->n * sizeof *w->home);
+    if (w->samples) support_free(alloc, w->samples, 2 * SAMPLES * sizeof *w->samples);
+    if (w->ranges) support_free(alloc, w->ranges, w->room * sizeof *w->ranges);
+    if (w->heap) support_free(alloc, w->heap, w->room * sizeof(kinetic_range *));
+}
+
+static bool new_window(froe_kinetic *k, window *out) {
+    const froe_allocator *alloc = &k->call.alloc;
+    const size_t n = k->tree.segments.count, some = (size_t)k->call.task.threads * k->ranges.tuning.each;
+    const size_t many = n / k->ranges.tuning.size;
+    *out = (window){.k = k, .n = n, .room = many > some ? many : some};
+    out->extents = support_calloc(alloc, out->n, sizeof *out->extents);
+    out->home = support_calloc(alloc, out->n, sizeof *out->home);
+    out->samples = support_calloc(alloc, 2 * SAMPLES, sizeof *out->samples);
+    out->ranges = support_calloc(alloc, out->room, sizeof *out->ranges);
+    out->heap = support_calloc(alloc, out->room, sizeof(kinetic_range *));
+    return out->extents && out->home && out->samples && out->ranges && out->heap;
+}
+
+/* ----------------------------------------------------------------- extents -- */
+
+static void extend_by_knot(const motion_knot *knot, bool curved, double low[3], double high[3]) {
+    const double x = curved ? knot->control[0] : knot->at[0];
+    low[0] = fmin(low[0], x), high[0] = fmax(high[0], x); /* NaN: straight */
+}
+
+/* Where a vertex comes between two times, in x. */
+static void extend_by_plan(const froe_motion *m, uint32_t vertex, double from, double to, double low[3],
+                           double high[3]) {
+    const motion_knot *first = m->knots.data + m->plans.data[vertex].first;
+    motion_piece piece = motion_piece_at_time(m, vertex, from);
+    for (;;) {
+        const bool ends = piece.last != MOTION_FAR && piece.to->time < to;
+        if (ends && piece.from->time >= from) { /* all of it */
+            for (int i = 0; i < 2; i++) extend_by_knot(piece.from, i, low, high);
+            extend_by_knot(piece.to, false, low, high);
+        } else {
+            motion_extend(m, &piece, from, ends ? piece.to->time : to, low, high);
+        }
+        if (!ends) return;
+        from = piece.to->time;
+        piece = motion_piece_after(m, vertex, (uint32_t)(piece.to - first));
+    }
+}
+
+static range_extent extent_of(const window *w, uint32_t object) {
+    const now_state *now = &w->k->now;
+    const motion_object *o = now->motion->objects.data + object;
+    const double begin = now_time_of(now, now->tick), end = now_time_of(now, w->tick);
+    const double from = fmax(begin, o->birth), to = w->k->ranges.tuning.unguarded ? from : fmin(end, o->death);
+    double low[3], high[3];
+    if (!(from <= to)) return (range_extent){1, -1};
+    for (int i = 0; i < 3; i++) low[i] = (double)INFINITY, high[i] = -(double)INFINITY;
+    for (int e = 0; e < 2; e++) extend_by_plan(now->motion, o->vertices[e], from, to, low, high);
+    return (range_extent){now_lifted(now, low[0]), now_lifted(now, high[0])};
+}
+
+static froe_status find_extents(void *user, unsigned worker, size_t job) {
+    const window *w = user;
+    const size_t first = job * EXTENTS_PER_JOB, end = first + EXTENTS_PER_JOB < w->n ? first + EXTENTS_PER_JOB : w->n;
+    (void)worker;
+    for (size_t i = first; i < end; i++) w->extents[i] = extent_of(w, (uint32_t)i);
+    return FROE_OK;
+}
+
+/* ----------------------------------------------------------------- borders -- */
+
+/* Samples of where segments are, and of where events were, which take most of the time. Returns how many. */
+static size_t take_samples(const window *w, double *low, double *high) {
+    const ranges_state *r = &w->k->ranges;
+    size_t sampled = 0;
+    const size_t step = w->n / SAMPLES + 1, seldom = r->places.count ? 8 : 1;
+    *low = (double)INFINITY, *high = -(double)INFINITY;
+    for (size_t i = 0; i < w->n; i++) {
+        const range_extent *e = w->extents + i;
+        if (!(e->low <= e->high)) continue;
+        *low = fmin(*low, e->low), *high = fmax(*high, e->high);
+        if (i % (step * seldom) == 0) w->samples[sampled++] = 0.5 * e->low + 0.5 * e->high;
+    }
+    for (size_t i = 0; i < r->places.count; i++) w->samples[sampled++] = r->places.data[i];
+    return sampled;
+}
+
+/* Divides x so that each range has about as much to do. */
+static void place_borders(window *w, size_t most) {
+    double low, high;
+    const size_t sampled = take_samples(w, &low, &high);
+    base_sort(w->samples, sampled, sizeof *w->samples, base_compare_doubles);
+    double border = -(double)INFINITY;
+    for (size_t i = 0; i < most && sampled; i++) {
+        const double next = i + 1 < most ? w->samples[sampled * (i + 1) / most] : (double)INFINITY;
+        if (!(next > border)) continue;
+        const double guard = (high - low) * w->k->ranges.guard;
+        w->ranges[w->count] =
+            (kinetic_range){.whole = w->k, .number = (uint32_t)w->count, .low = border, .high = next, .guard = guard};
+        w->count++;
+        border = next;
+    }
+}
+
+/* How far beyond its borders a range knows all segments. */
+static double guard_of(const window *w, const kinetic_range *r) {
+    return w->k->ranges.tuning.unguarded ? 0 : 1.25 * r->guard;
+}
+
+/* The first range that reaches to a place. */
+static uint32_t first_range(const window *w, double place) {
+    uint32_t low = 0, high = (uint32_t)w->count - 1;
+    while (low < high) {
+        const uint32_t middle = low + (high - low) / 2;
+        const kinetic_range *r = w->ranges + middle;
+        if (place > r->high + guard_of(w, r))
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low;
+}
+
+/* Lists the members of each range. */
+static bool list_members(window *w) {
+    w->members = 0;
+    for (uint32_t s = 0; s < w->n; s++) {
+        const range_extent *e = w->extents + s;
+        w->home[s] = FROE_NONE;
+        if (!(e->low <= e->high)) continue;
+        for (uint32_t i = w->home[s] = first_range(w, e->low); i < w->count; i++) {
+            kinetic_range *r = w->ranges + i;
+            if (e->high < r->low - guard_of(w, r)) break;
+            if (!array_push(&w->k->call.alloc, &r->members, s)) return false;
+            w->members++;
+        }
+    }
+    return true;
+}
+
+/* Has fewer ranges, and a shorter window, until parts have little in common. No ranges: it does not pay any more. */
+static froe_status divide(window *w, double rate) {
+    const ranges_tuning *tuning = &w->k->ranges.tuning;
+    const int64_t now = w->k->now.tick;
+    const size_t jobs = (w->n + EXTENTS_PER_JOB - 1) / EXTENTS_PER_JOB, least = w->k->call.task.threads;
+    for (size_t most = w->room;; most = most / 2 > least ? most / 2 : least) {
+        free_ranges(w);
+        if (rate * (double)(w->tick - now) < tuning->pays * (double)w->n) return FROE_OK;
+        froe_status status = base_run(&w->k->call.task, 0, jobs, find_extents, w);
+        if (status) return status;
+        place_borders(w, most);
+        if (w->count && !list_members(w)) return FROE_E_MEMORY;
+        if (w->count > 1 && (double)w->members <= tuning->again * (double)w->n) return FROE_OK;
+        if (most == least) w->tick = now + ((w->tick - now) / 4) * 2;
+    }
+}
+
+/* ------------------------------------------------------------------ window -- */
+
+typedef struct following {
+    window *w;
+    range_window *shared;
+} following;
+
+static froe_status follow_range(void *user, unsigned worker, size_t job) {
+    const following *f = user;
+    (void)worker;
+    return range_follow(f->w->ranges + job, f->shared);
+}
+
+/* All ranges go through the window, or until one of them stops. *end: the tick until which all have come. */
+static froe_status follow_all(window *w, int64_t *end) {
+    range_window shared = {.tick = w->tick, .home = w->home, .task = &w->k->call.task};
+    following f = {w, &shared};
+    atomic_init(&shared.stopped, NOW_NEVER);
+    const froe_status status = base_run(&w->k->call.task, 0, w->count, follow_range, &f);
+    const int64_t stopped = atomic_load(&shared.stopped);
+    *end = stopped - 2 < w->tick ? stopped - 2 : w->tick;
+    return status;
+}
+
+static bool comes_before(const range_event *a, const range_event *b) {
+    if (a->tick != b->tick) return a->tick < b->tick;
+    if (a->phase != b->phase) return a->phase < b->phase;
+    return a->phase == EVENT_CHANGE ? a->objects[0] < b->objects[0] : a->place < b->place;
+}
+
+static bool tell(froe_kinetic *k, const event_watcher *watcher, const range_event *kept) {
+    k->now.tick = kept->tick;
+    if (kept->claim.p.b == NAME_SEGMENT) k->now.segments.data[kept->claim.p.a].turned = kept->turned;
+    froe_event event = event_now(&k->now, (froe_event_kind)kept->kind);
+    event.object_count = kept->count;
+    for (unsigned i = 0; i < 4 && i < kept->count; i++) event.objects[i] = kept->objects[i];
+    return event_tell(k, watcher, &event, &kept->claim);
+}
+
+static const range_event *next_of(const kinetic_range *r) {
+    return r->events.data + r->told;
+}
+
+static void sink_range(kinetic_range **heap, size_t count, size_t at) {
+    kinetic_range *r = heap[at];
+    for (size_t child = 2 * at + 1; child < count; child = 2 * at + 1) {
+        if (child + 1 < count && comes_before(next_of(heap[child + 1]), next_of(heap[child]))) child++;
+        if (!comes_before(next_of(heap[child]), next_of(r))) break;
+        heap[at] = heap[child];
+        at = child;
+    }
+    heap[at] = r;
+}
+
+/* Tells the events of all ranges up to a tick in their order. False: the visitor asked to stop, and the tick is that
+ * of the last event. */
+static bool tell_all(window *w, int64_t *tick, const event_watcher *watcher) {
+    bool go_on = true;
+    size_t count = 0;
+    for (size_t i = 0; i < w->count; i++)
+        if (w->ranges[i].events.count) w->heap[count++] = w->ranges + i;
+    for (size_t i = count / 2; i-- > 0;) sink_range(w->heap, count, i);
+    while (count && next_of(w->heap[0])->tick <= *tick) {
+        kinetic_range *first = w->heap[0];
+        go_on &= tell(w->k, watcher, next_of(first));
+        if (!go_on) *tick = next_of(first)->tick;
+        if (++first->told == first->events.count) w->heap[0] = w->heap[--count];
+        if (count) sink_range(w->heap, count, 0);
+    }
+    return go_on;
+}
+
+/* Remembers where events were, for the next window. Without memory it does not. */
+static void note_places(window *w) {
+    ranges_state *r = &w->k->ranges;
+    size_t all = 0, next = 0;
+    r->places.count = 0;
+    if (!array_reserve(&w->k->call.alloc, &r->places, SAMPLES)) return;
+    for (size_t i = 0; i < w->count; i++) all += w->ranges[i].events.count;
+    for (size_t i = 0, done = 0; i < w->count; done += w->ranges[i++].events.count)
+        for (; next < done + w->ranges[i].events.count; next += all / SAMPLES + 1) {
+            const range_event *e = w->ranges[i].events.data + (next - done);
+            if (e->phase != EVENT_CHANGE) r->places.data[r->places.count++] = e->place;
+        }
+}
+
+static void add_counts(froe_kinetic_stats *all, const froe_kinetic_stats *part) {
+    all->surgeries += part->surgeries, all->batches += part->batches, all->crowds += part->crowds;
+    all->restarts += part->restarts, all->stuck += part->stuck;
+    all->nodes_touched += part->nodes_touched, all->certificates_made += part->certificates_made;
+}
+
+/* The whole takes over where the ranges have come to. */
+static void take_over(window *w, int64_t tick) {
+    froe_kinetic *k = w->k;
+    k->now.tick = tick;
+    for (size_t i = 0; i < w->count; i++) {
+        range_give_back(w->ranges + i, &k->now);
+        add_counts(&k->counts, &w->ranges[i].part->counts);
+    }
+}
+
+/* ---------------------------------------------------------------- together -- */
+
+typedef enum window_outcome {
+    THROUGH, /* to the end of the window */
+    STOPPED, /* a part of it, or the visitor asked to stop */
+    NOT_AT_ALL
+} window_outcome;
+
+/* Did no range stop first at what is wider than its guard? */
+static bool guards_suffice(const window *w, int64_t end) {
+    for (size_t i = 0; i < w->count; i++)
+        if (w->ranges[i].wide && w->ranges[i].stopped - 2 == end) return false;
+    return true;
+}
+
+/* Goes through one window, towards a tick. */
+static window_outcome go_through(window *w, double rate, int64_t tick, const event_watcher *watcher, bool *go_on,
+                                 froe_status *status) {
+    froe_kinetic *k = w->k;
+    const int64_t before = k->now.tick;
+    const double share = k->ranges.places.count ? 1 : 0.25; /* soon, to learn where most happens */
+    const double most = share * k->ranges.tuning.most * (double)w->n / rate;
+    w->tick = most < (double)(tick - before) ? before + 2 * (int64_t)(0.5 * most) : tick;
+    *status = divide(w, rate);
+    if (*status || !w->count) return NOT_AT_ALL;
+    int64_t end;
+    *status = follow_all(w, &end);
+    if (*status) return NOT_AT_ALL;
+    if (!guards_suffice(w, end)) k->ranges.guard = fmin(2 * k->ranges.guard, k->ranges.tuning.guard[1]);
+    k->ranges.windows++;
+    k->ranges.stopped += end < w->tick;
+    if (end <= before) return NOT_AT_ALL;
+    *go_on = tell_all(w, &end, watcher);
+    take_over(w, end);
+    if (end < w->tick) return STOPPED;
+    note_places(w);
+    return THROUGH;
+}
+
+/* Events for a tick, since the last window began. */
+static double rate_of(const froe_kinetic *k) {
+    return (double)(kinetic_event_count(k) - k->ranges.events) / (double)(k->now.tick - k->ranges.tick);
+}
+
+static bool may_pay(const froe_kinetic *k, int64_t tick) {
+    const ranges_state *r = &k->ranges;
+    const froe_kinetic_options *o = &k->options;
+    const double n = (double)k->tree.segments.count;
+    if (k->call.task.threads < 2 || now_is_in_space(&k->now) || o->epoch || o->swap || o->augmented) return false;
+    if (k->collinear.count) return false; /* which pairs are known depends on what happened before */
+    if (k->tree.segments.count < r->tuning.least || kinetic_event_count(k) < r->next) return false;
+    return rate_of(k) * (double)(tick - k->now.tick) >= r->tuning.pays * n;
+}
+
+static window_outcome go_on_from(froe_kinetic *k, int64_t tick, const event_watcher *watcher, bool *go_on,
+                                 froe_status *status) {
+    window w;
+    const uint64_t events = kinetic_event_count(k);
+    const int64_t now = k->now.tick;
+    const double rate = rate_of(k);
+    *status = FROE_E_MEMORY;
+    const window_outcome out = new_window(k, &w) ? go_through(&w, rate, tick, watcher, go_on, status) : NOT_AT_ALL;
+    free_window(&w);
+    if (out != NOT_AT_ALL) k->ranges.events = events, k->ranges.tick = now;
+    return out;
+}
+
+bool ranges_advance(froe_kinetic *k, int64_t tick, const event_watcher *watcher, bool *go_on, froe_diagnostic *diag,
+                    froe_status *status) {
+    const int64_t before = k->now.tick;
+    window_outcome out = THROUGH;
+    *status = FROE_OK;
+    if (!(k->ranges.guard > 0)) k->ranges.guard = k->ranges.tuning.guard[0];
+    const double guard = k->ranges.guard;
+    if (!may_pay(k, tick)) return false;
+    while (out == THROUGH && *go_on && k->now.tick < tick && may_pay(k, tick))
+        out = go_on_from(k, tick, watcher, go_on, status);
+    if (*status == FROE_E_MEMORY) *status = FROE_OK;            /* one partition needs less */
+    if (out != THROUGH && *go_on && k->ranges.guard <= guard) { /* it does not pay here, or not now */
+        k->ranges.wait = 2 * k->ranges.wait + k->tree.segments.count / 4;
+        k->ranges.next = kinetic_event_count(k) + k->ranges.wait;
+    } else {
+        k->ranges.wait = 0;
+    }
+    if (k->now.tick > before && !*status) {
+        const uint64_t restarts = k->counts.restarts;
+        kinetic_make_anew(k);
+        k->counts.restarts = restarts;
+    } else if (k->now.tick > before) {
+        call_stop(&k->call); /* the tree is to be made anew by the next call */
+    }
+    if (*status) support_fail_cancelled(diag);
+    return *status || k->now.tick > before;
+}

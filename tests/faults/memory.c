@@ -1,0 +1,122 @@
+/* memory.c: what gives memory, and what tells of progress, in a program whose calls of them are led here (--wrap). The
+ * parts of the C library that take memory by themselves, and then say ENOMEM, count as well, and so does jansson. What
+ * GDAL, assimp and Cairo take does not: they end as docs/reference/errors.md says. */
+#define _GNU_SOURCE 1 /* mmap() of memory alone */
+#include "faults.h"
+#include <errno.h>
+#include <jansson.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdatomic.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/mman.h>
+#include <sys/types.h>
+
+typedef struct counted {
+    unsigned at; /* the number of the call with a fault; 0: none */
+    int kind;
+    atomic_uint calls; /* so far */
+} counted;
+static counted memory, steps;
+static int log_to = -1;
+
+static void tell(void) {
+    if (log_to >= 0) dprintf(log_to, "memory %u steps %u\n", memory.calls, steps.calls);
+}
+
+/* Counts a call; true when it shall fail. */
+static bool meets(counted *c) {
+    const unsigned number = atomic_fetch_add(&c->calls, 1) + 1;
+    if (!c->at || number < c->at || (number > c->at && c->kind != FAULT_FOREVER)) return false;
+    if (c->kind == FAULT_INTERRUPT || c->kind == FAULT_TERMINATE) {
+        raise(c->kind == FAULT_INTERRUPT ? SIGINT : SIGTERM);
+        return false;
+    }
+    errno = ENOMEM;
+    return true;
+}
+
+void *__real_malloc(size_t size);
+void *__wrap_malloc(size_t size);
+void *__wrap_malloc(size_t size) {
+    return meets(&memory) ? NULL : __real_malloc(size);
+}
+
+void *__real_calloc(size_t count, size_t size);
+void *__wrap_calloc(size_t count, size_t size);
+void *__wrap_calloc(size_t count, size_t size) {
+    return meets(&memory) ? NULL : __real_calloc(count, size);
+}
+
+void *__real_realloc(void *block, size_t size);
+void *__wrap_realloc(void *block, size_t size);
+void *__wrap_realloc(void *block, size_t size) {
+    return meets(&memory) ? NULL : __real_realloc(block, size);
+}
+
+char *__real_strdup(const char *text);
+char *__wrap_strdup(const char *text);
+char *__wrap_strdup(const char *text) {
+    return meets(&memory) ? NULL : __real_strdup(text);
+}
+
+char *__real_strndup(const char *text, size_t most);
+char *__wrap_strndup(const char *text, size_t most);
+char *__wrap_strndup(const char *text, size_t most) {
+    return meets(&memory) ? NULL : __real_strndup(text, most);
+}
+
+FILE *__real_fopen(const char *path, const char *mode);
+FILE *__wrap_fopen(const char *path, const char *mode);
+FILE *__wrap_fopen(const char *path, const char *mode) {
+    return meets(&memory) ? NULL : __real_fopen(path, mode);
+}
+
+FILE *__real_open_memstream(char **text, size_t *size);
+FILE *__wrap_open_memstream(char **text, size_t *size);
+FILE *__wrap_open_memstream(char **text, size_t *size) {
+    return meets(&memory) ? NULL : __real_open_memstream(text, size);
+}
+
+ssize_t __real_getline(char **line, size_t *size, FILE *file);
+ssize_t __wrap_getline(char **line, size_t *size, FILE *file);
+ssize_t __wrap_getline(char **line, size_t *size, FILE *file) {
+    return meets(&memory) ? -1 : __real_getline(line, size, file);
+}
+
+void *__real_mmap(void *at, size_t size, int rights, int flags, int file, off_t offset);
+void *__wrap_mmap(void *at, size_t size, int rights, int flags, int file, off_t offset);
+void *__wrap_mmap(void *at, size_t size, int rights, int flags, int file, off_t offset) {
+    return meets(&memory) ? MAP_FAILED : __real_mmap(at, size, rights, flags, file, offset);
+}
+
+int __real_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*run)(void *), void *user);
+int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*run)(void *), void *user);
+int __wrap_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*run)(void *), void *user) {
+    return meets(&memory) ? EAGAIN : __real_pthread_create(thread, attributes, run, user);
+}
+
+bool __real_cli_progress_step(void *progress, double done);
+bool __wrap_cli_progress_step(void *progress, double done);
+bool __wrap_cli_progress_step(void *progress, double done) {
+    (void)meets(&steps);
+    return __real_cli_progress_step(progress, done);
+}
+
+static void read_plan(const char *name, counted *c) {
+    const char *plan = getenv(name);
+    if (plan && sscanf(plan, "%u %d", &c->at, &c->kind) != 2) c->at = 0;
+}
+
+static void begin(void) __attribute__((constructor));
+static void begin(void) {
+    const char *log = getenv("FROE_FAULT_COUNTS");
+    read_plan("FROE_FAULT_MEMORY", &memory);
+    read_plan("FROE_FAULT_STEPS", &steps);
+    if (log) log_to = atoi(log);
+    json_set_alloc_funcs(__wrap_malloc, free);
+    if (log_to >= 0) atexit(tell);
+}

@@ -1,0 +1,233 @@
+/* test_ranges.c: partitions whose time goes on in ranges of x at once, on threads, against those that go from event to
+ * event: the same events in the same order, and the same tree with the same certificates. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "kinetic/moving.h"
+#include "support/memory.h"
+
+/* What is compared: each event, and when it happened between two doubles. */
+typedef struct told {
+    froe_event event;
+    double instant[2];
+} told;
+
+typedef struct record {
+    froe_kinetic *kinetic;
+    ARRAY(told) events;
+    size_t stop; /* the visitor asks to stop after so many events */
+} record;
+
+static bool note(void *user, const froe_event *event) {
+    record *r = user;
+    const froe_allocator alloc = support_allocator(NULL);
+    told t = {.event = *event};
+    assert_int_equal(froe_kinetic_instant(r->kinetic, t.instant, NULL), FROE_OK);
+    assert_true(froe_kinetic_time(r->kinetic) == event->late);
+    assert_true(array_push(&alloc, &r->events, t));
+    return r->events.count < r->stop;
+}
+
+/* As one partition, in ranges, and in ranges that are not guarded or do not stop at what is wider than the guard. */
+typedef enum manner { ONE, RANGES, UNGUARDED, WIDE } manner;
+
+static void set_tuning(froe_kinetic *k, manner how) {
+    k->ranges.tuning = (ranges_tuning){
+        .least = 4, .pays = 0.02, .most = 3, .again = 100, .guard = {0x1p-8, 0x1p-5}, .each = 2, .size = 64};
+    k->ranges.tuning.unguarded = how == UNGUARDED;
+    k->ranges.tuning.wide = how == WIDE;
+}
+
+static froe_kinetic *start(froe_motion *m, unsigned threads, uint64_t seed, manner how) {
+    froe_kinetic_options o = froe_kinetic_defaults();
+    froe_kinetic *k = NULL;
+    froe_diagnostic why = {0};
+    o.seed = seed;
+    o.threads = how == ONE ? 1 : threads;
+    if (froe_kinetic_new(m, &o, NULL, &k, &why)) fail_msg("%s", why.message);
+    set_tuning(k, how);
+    return k;
+}
+
+static void go(froe_kinetic *k, record *r, double time) {
+    froe_diagnostic why = {0};
+    r->kinetic = k;
+    const froe_status status = froe_kinetic_advance(k, time, note, r, &why);
+    if (status != (r->events.count >= r->stop ? FROE_E_CANCELLED : FROE_OK)) fail_msg("%s", why.message);
+}
+
+/* ---------------------------------------------------------------- comparing -- */
+
+static bool is_same_event(const told *s, const told *t) {
+    return s->event.kind == t->event.kind && s->event.object_count == t->event.object_count &&
+           s->event.tick == t->event.tick && !memcmp(s->event.objects, t->event.objects, sizeof s->event.objects) &&
+           s->event.early == t->event.early && s->event.late == t->event.late && s->instant[0] == t->instant[0] &&
+           s->instant[1] == t->instant[1];
+}
+
+static bool is_same(const record *r, const froe_kinetic *const k[2]) {
+    uint32_t found[2];
+    if (r[0].events.count != r[1].events.count) return false;
+    for (size_t i = 0; i < r[0].events.count; i++)
+        if (!is_same_event(r[0].events.data + i, r[1].events.data + i)) return false;
+    for (int i = 0; i < FROE_EVENT_KINDS; i++)
+        if (k[0]->counts.events[i] != k[1]->counts.events[i]) return false;
+    assert_int_equal(kinetic_compare(k[0], k[1], true, found), FROE_OK);
+    return k[0]->now.tick == k[1]->now.tick && !found[0] && !found[1];
+}
+
+typedef struct sums {
+    uint64_t windows, stopped, events, kinds[FROE_EVENT_KINDS];
+} sums;
+
+/* Are events and trees of both the same throughout? In thirds, one of which ends where the visitor stops. */
+static bool compare_runs(const moving_kind *kind, uint64_t seed, unsigned threads, manner how, sums *all) {
+    const froe_allocator alloc = support_allocator(NULL);
+    froe_motion *m = moving_new(kind, seed, NULL);
+    froe_kinetic *const k[2] = {start(m, 1, seed, ONE), start(m, threads, seed, how)};
+    record r[2] = {{.stop = SIZE_MAX}, {.stop = SIZE_MAX}};
+    bool same = true;
+    for (int part = 1; part <= 4 && same; part++) {
+        const size_t stop = part == 2 ? r[0].events.count + 20 : SIZE_MAX;
+        for (int i = 0; i < 2; i++) {
+            r[i].stop = stop;
+            go(k[i], r + i, part == 4 ? MOVING_TIME : MOVING_TIME * (part == 1 ? 0.3 : 0.7));
+        }
+        same = is_same(r, (const froe_kinetic *const *)k);
+    }
+    if (same) assert_int_equal(froe_kinetic_audit(k[1], NULL), FROE_OK);
+    all->windows += k[1]->ranges.windows, all->stopped += k[1]->ranges.stopped;
+    all->events += r[0].events.count;
+    for (int i = 0; i < FROE_EVENT_KINDS; i++) all->kinds[i] += k[0]->counts.events[i];
+    for (int i = 0; i < 2; i++) {
+        froe_kinetic_free(k[i]);
+        array_free(&alloc, &r[i].events);
+    }
+    froe_motion_free(m);
+    return same;
+}
+
+/* On two to eight threads. */
+static void test_events_and_trees_do_not_depend_on_threads(void **state) {
+    (void)state;
+    sums all = {0};
+    for (size_t i = 0; i < MOVING_KINDS; i++)
+        for (uint64_t seed = 1; seed <= 3; seed++)
+            if (!compare_runs(moving_kinds + i, seed, 2 + (unsigned)(i + seed) % 7, RANGES, &all))
+                fail_msg("%s, seed %u", moving_kinds[i].name, (unsigned)seed);
+    assert_true(all.events > 50000);
+    assert_true(all.windows - all.stopped > 300 && all.stopped > 100);
+    for (int i = 0; i < FROE_EVENT_FLOP; i++) assert_true(all.kinds[i]);
+}
+
+/* How many of 60 runs are not what they should be. */
+static unsigned count_wrong(manner how) {
+    unsigned wrong = 0;
+    sums all = {0};
+    for (size_t i = 0; i < MOVING_KINDS; i++)
+        for (uint64_t seed = 1; seed <= 2; seed++) wrong += !compare_runs(moving_kinds + i, seed, 4, how, &all);
+    return wrong;
+}
+
+static void test_ranges_need_their_guards(void **state) {
+    (void)state;
+    assert_true(count_wrong(UNGUARDED) > 10);
+}
+
+static void test_ranges_need_to_stop_at_what_is_wide(void **state) {
+    (void)state;
+    assert_true(count_wrong(WIDE) > 0);
+}
+
+/* -------------------------------------------------------------------- calls -- */
+
+static const moving_kind many = {
+    .name = "many", .count = 200, .grid = 8192, .length = 500, .speed = 64, .spin = 16, .legs = 2};
+
+typedef struct asked {
+    unsigned calls, most;
+} asked;
+
+static bool go_on(void *user, double done) {
+    asked *a = user;
+    (void)done;
+    return ++a->calls < a->most;
+}
+
+/* Wherever the call is cancelled, the next one goes on. */
+static void test_cancelled(void **state) {
+    (void)state;
+    froe_motion *m = moving_new(&many, 1, NULL);
+    unsigned cancelled = 0;
+    for (unsigned most = 1; most < 400; most = most * 5 / 4 + 1) {
+        froe_kinetic *k = start(m, 3, 1, RANGES);
+        asked a = {0, most};
+        froe_kinetic_watch(k, go_on, &a);
+        const froe_status status = froe_kinetic_advance(k, MOVING_TIME, NULL, NULL, NULL);
+        assert_true(status == FROE_OK || status == FROE_E_CANCELLED);
+        cancelled += status == FROE_E_CANCELLED;
+        froe_kinetic_watch(k, NULL, NULL);
+        assert_int_equal(froe_kinetic_advance(k, MOVING_TIME, NULL, NULL, NULL), FROE_OK);
+        assert_int_equal(froe_kinetic_audit(k, NULL), FROE_OK);
+        froe_kinetic_free(k);
+    }
+    assert_true(cancelled > 5);
+    froe_motion_free(m);
+}
+
+static froe_status with_memory(void *user, const froe_allocator *alloc) {
+    froe_kinetic *k = NULL;
+    froe_kinetic_options o = froe_kinetic_defaults();
+    o.threads = 2;
+    froe_status status = froe_kinetic_new(user, &o, alloc, &k, NULL);
+    if (status) return status;
+    set_tuning(k, RANGES);
+    status = froe_kinetic_advance(k, MOVING_TIME / 8.0, NULL, NULL, NULL);
+    if (!status) status = froe_kinetic_audit(k, NULL);
+    if (!status) assert_true(k->ranges.windows);
+    froe_kinetic_free(k);
+    return status;
+}
+
+static void test_memory_runs_out(void **state) {
+    (void)state;
+    moving_kind few = many;
+    few.count = 20, few.length = 3000;
+    froe_motion *m = moving_new(&few, 1, NULL);
+    test_memory_each(with_memory, m);
+    froe_motion_free(m);
+}
+
+/* Where that is not possible, time goes on in one partition. */
+static void test_one_partition_otherwise(void **state) {
+    (void)state;
+    froe_motion *m = moving_new(&many, 1, NULL);
+    for (int i = 0; i < 4; i++) {
+        froe_kinetic_options o = froe_kinetic_defaults();
+        froe_kinetic *k = NULL;
+        o.threads = 4;
+        o.augmented = i == 1, o.swap = i == 2 ? 100 : 0, o.epoch = i == 3 ? 100 : 0;
+        assert_int_equal(froe_kinetic_new(m, &o, NULL, &k, NULL), FROE_OK);
+        set_tuning(k, RANGES);
+        assert_int_equal(froe_kinetic_advance(k, MOVING_TIME / 4.0, NULL, NULL, NULL), FROE_OK);
+        assert_int_equal(k->ranges.windows > 0, i == 0);
+        froe_kinetic_free(k);
+    }
+    froe_motion_free(m);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_events_and_trees_do_not_depend_on_threads),
+        cmocka_unit_test(test_ranges_need_their_guards),
+        cmocka_unit_test(test_ranges_need_to_stop_at_what_is_wide),
+        cmocka_unit_test(test_cancelled),
+        cmocka_unit_test(test_memory_runs_out),
+        cmocka_unit_test(test_one_partition_otherwise),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

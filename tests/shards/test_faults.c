@@ -1,0 +1,122 @@
+/* test_faults.c: a folder is whole whatever happens while another takes its place: kill -9, a full disk; and no change
+ * of its manifest goes unnoticed. */
+#define _DEFAULT_SOURCE 1 /* usleep */
+#include "shards/folders.h"
+#include "shards/manifest.h"
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { OLD_OBJECTS = 400, NEW_OBJECTS = 3000, SHARDS = 5 };
+
+static froe_status build(const char *path, size_t count) {
+    one_object *list = lattice_objects(2, FROE_SEGMENT, count, 50, count);
+    froe_shards_options o = froe_shards_defaults();
+    o.shards = SHARDS, o.threads = 1;
+    const froe_status status = build_folder(path, 2, list, count, &o, NULL, NULL);
+    free(list);
+    return status;
+}
+
+/* How many objects a folder has that is whole. */
+static uint64_t objects_of(const char *path) {
+    froe_shards *shards;
+    assert_int_equal(froe_shards_open(path, NULL, &shards, NULL), FROE_OK);
+    assert_int_equal(froe_shards_check(shards, NULL, NULL), FROE_OK);
+    const uint64_t objects = froe_shards_about(shards).objects;
+    froe_shards_close(shards);
+    return objects;
+}
+
+static void a_killed_program_leaves_the_old_folder_or_the_new_one(void **state) {
+    (void)state;
+    int old = 0, rounds = 0;
+    assert_int_equal(build("killed.froes", OLD_OBJECTS), FROE_OK);
+    for (useconds_t wait = 0; wait < 400000 && rounds < 40; wait += 500 + wait / 3, rounds++) {
+        const pid_t child = fork();
+        assert_true(child >= 0);
+        if (!child) _exit(build("killed.froes", NEW_OBJECTS) != FROE_OK);
+        usleep(wait);
+        kill(child, SIGKILL);
+        assert_int_equal(waitpid(child, NULL, 0), child);
+        const uint64_t objects = objects_of("killed.froes");
+        assert_true(objects == OLD_OBJECTS || objects == NEW_OBJECTS);
+        old += objects == OLD_OBJECTS;
+        assert_int_equal(build("killed.froes", OLD_OBJECTS), FROE_OK); /* which tidies up */
+        assert_int_equal(access(".killed.froes.building", F_OK), -1);
+        assert_int_equal(access(".killed.froes.building.old", F_OK), -1);
+    }
+    assert_true(old > 5);
+}
+
+static void a_full_disk_leaves_the_old_folder_and_nothing_beside_it(void **state) {
+    (void)state;
+    int failed = 0, made = 0;
+    assert_int_equal(build("full.froes", OLD_OBJECTS), FROE_OK);
+    for (rlim_t most = 100; most < 1 << 21; most = most * 3 / 2) {
+        const pid_t child = fork();
+        int result;
+        assert_true(child >= 0);
+        if (!child) { /* files beyond the limit cannot be written, as on a full disk */
+            signal(SIGXFSZ, SIG_IGN);
+            setrlimit(RLIMIT_FSIZE, &(struct rlimit){most, most});
+            _exit((int)build("full.froes", NEW_OBJECTS));
+        }
+        assert_int_equal(waitpid(child, &result, 0), child);
+        assert_true(WIFEXITED(result));
+        const int status = WEXITSTATUS(result);
+        assert_true(status == FROE_OK || status == FROE_E_IO);
+        assert_int_equal(objects_of("full.froes"), status ? OLD_OBJECTS : NEW_OBJECTS);
+        assert_int_equal(access(".full.froes.building", F_OK), -1);
+        failed += status != FROE_OK;
+        made += status == FROE_OK;
+        if (!status) assert_int_equal(build("full.froes", OLD_OBJECTS), FROE_OK);
+    }
+    assert_true(failed > 5 && made > 0);
+}
+
+static void every_changed_byte_of_a_manifest_is_noticed(void **state) {
+    (void)state;
+    const froe_allocator alloc = support_allocator(NULL);
+    size_t count = 0, read = 0;
+    assert_int_equal(build("changed.froes", OLD_OBJECTS), FROE_OK);
+    char *text = read_whole("changed.froes/froe.shards", &count);
+    assert_non_null(text);
+    for (size_t i = 0; i < count; i++)
+        for (int bit = 0; bit < 8; bit++) {
+            shards_manifest m;
+            text[i] = (char)(text[i] ^ 1 << bit);
+            assert_int_equal(shards_manifest_parse(text, count, "m", &alloc, &m, NULL), FROE_E_FORMAT);
+            text[i] = (char)(text[i] ^ 1 << bit);
+        }
+    for (size_t cut = 0; cut < count; cut++) {
+        shards_manifest m;
+        assert_int_equal(shards_manifest_parse(text, cut, "m", &alloc, &m, NULL), FROE_E_FORMAT);
+    }
+    const size_t lines = count - strlen("end 0123456789abcdef\n");
+    for (size_t i = 0; i < lines; i++) /* with a right checksum: refused, or another right text */
+        for (int bit = 0; bit < 7; bit++) {
+            shards_manifest m;
+            char sum[24];
+            text[i] = (char)(text[i] ^ 1 << bit);
+            snprintf(sum, sizeof sum, "end %016llx\n", (unsigned long long)shards_manifest_sum(text, lines));
+            memcpy(text + lines, sum, strlen(sum));
+            if (shards_manifest_parse(text, count, "m", &alloc, &m, NULL) == FROE_OK) {
+                read++;
+                shards_manifest_free(&m);
+            }
+            text[i] = (char)(text[i] ^ 1 << bit);
+        }
+    assert_true(read > 10 && read < lines * 3);
+    free(text);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_killed_program_leaves_the_old_folder_or_the_new_one),
+        cmocka_unit_test(a_full_disk_leaves_the_old_folder_and_nothing_beside_it),
+        cmocka_unit_test(every_changed_byte_of_a_manifest_is_noticed),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

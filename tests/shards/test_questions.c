@@ -1,0 +1,396 @@
+/* test_questions.c: folders of 1, 2, 7 and 64 shards answer every question as a single tree does, also where cuts go
+ * through corners of objects and of questions. With a number as argument: so many objects of every kind, in all of
+ * these folders. */
+#include "shards/folders.h"
+#include "shards/plan.h"
+#include <froe/shard_parts.h>
+#include <math.h>
+
+enum { MOST = 24, QUESTIONS = 200 };
+static size_t object_count = 400;
+static bool thorough;
+
+/* ------------------------------------------------------------------- worlds -- */
+
+/* The same objects as a single tree, in the order of their tags, and as a folder. */
+typedef struct world {
+    int dim;
+    froe_scene *scene;
+    froe_tree *tree;
+    froe_query *query;
+    froe_shards *shards;
+    uint64_t state; /* of random numbers */
+} world;
+
+/* Cuts at whole numbers, where corners of lattice objects lie: axis after axis, each cell halved. */
+static froe_shard_plan *plan_on_lattice(int dim, uint32_t shards) {
+    const froe_allocator alloc = support_allocator(NULL);
+    froe_shard_plan *plan = shards_plan_make(dim, &alloc);
+    struct part {
+        uint32_t shards;
+        int axis;
+        double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    } stack[64], part = {.shards = shards};
+    int depth = 0;
+    for (int a = 0; a < dim; a++) part.hi[a] = MOST;
+    stack[depth++] = part;
+    while (depth) {
+        part = stack[--depth];
+        const int axis = part.shards > 1 ? part.axis : -1;
+        const double value = axis < 0 ? 0 : floor((part.lo[axis] + part.hi[axis]) / 2);
+        assert_true(array_push(&alloc, &plan->nodes, (shards_node){.axis = axis, .value = value}));
+        if (axis < 0) continue;
+        struct part lower = part, upper = part;
+        lower.axis = upper.axis = (axis + 1) % dim;
+        lower.shards = part.shards / 2;
+        upper.shards = part.shards - lower.shards;
+        lower.hi[axis] = upper.lo[axis] = value;
+        stack[depth++] = upper;
+        stack[depth++] = lower;
+    }
+    assert_int_equal(shards_plan_join(plan), FROE_OK);
+    return plan;
+}
+
+static froe_status gather(void *user, const void *records, size_t count) {
+    return froe_shard_records_append(user, records, count, NULL);
+}
+
+/* Builds a folder with a plan of the test's own. */
+static void build_by_plan(const char *path, froe_shard_plan *plan, const one_object *list) {
+    froe_shard_draft *draft;
+    froe_shard_buckets *buckets;
+    froe_shard_entry entries[64];
+    const froe_shards_options o = froe_shards_defaults();
+    assert_int_equal(froe_shard_draft_begin(path, NULL, &draft, NULL), FROE_OK);
+    assert_int_equal(froe_shard_buckets_new(froe_shard_draft_folder(draft), plan->count, NULL, &buckets, NULL),
+                     FROE_OK);
+    for (size_t i = 0; i < object_count; i++) {
+        froe_shard_records one = {0};
+        size_t starts[2];
+        double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+        uint32_t cells[64];
+        const froe_objects batch = batch_of(list + i, starts);
+        assert_int_equal(froe_shard_records_add(&one, plan->dim, &batch, 0, NULL), FROE_OK);
+        froe_shard_record_box(one.bytes, lo, hi);
+        const uint32_t count = froe_shard_plan_cells(plan, lo, hi, cells);
+        for (uint32_t c = 0; c < count; c++)
+            assert_int_equal(froe_shard_buckets_add(buckets, cells[c], one.bytes, one.count, NULL), FROE_OK);
+        froe_shard_records_free(&one);
+    }
+    for (uint32_t s = 0; s < plan->count; s++) {
+        froe_shard_records records = {0};
+        assert_int_equal(froe_shard_buckets_take(buckets, s, gather, &records, NULL), FROE_OK);
+        assert_int_equal(
+            froe_shard_build(&records, plan, s, NULL, &o, froe_shard_draft_folder(draft), &entries[s], NULL), FROE_OK);
+        froe_shard_records_free(&records);
+    }
+    assert_int_equal(froe_shard_manifest_write(plan, entries, froe_shard_draft_folder(draft), NULL, NULL), FROE_OK);
+    froe_shard_buckets_free(buckets);
+    assert_int_equal(froe_shard_draft_end(draft, FROE_OK, NULL), FROE_OK);
+    froe_shard_plan_free(plan);
+}
+
+/* shards > 0: cut at medians; < 0: so many, cut at whole numbers. */
+static world make_world(int dim, froe_kind kind, int shards, uint64_t seed) {
+    world w = {.dim = dim, .state = seed};
+    one_object *list = lattice_objects(dim, kind, object_count, MOST, seed);
+    froe_shards_options o = froe_shards_defaults();
+    o.shards = (uint32_t)abs(shards);
+    if (shards < 0)
+        build_by_plan("asked.froes", plan_on_lattice(dim, o.shards), list);
+    else
+        assert_int_equal(build_folder("asked.froes", dim, list, object_count, &o, NULL, NULL), FROE_OK);
+    assert_int_equal(froe_shards_open("asked.froes", NULL, &w.shards, NULL), FROE_OK);
+    qsort(list, object_count, sizeof *list, by_tag_of_object);
+    assert_int_equal(froe_scene_new(dim, NULL, &w.scene), FROE_OK);
+    for (size_t i = 0; i < object_count; i++) {
+        size_t starts[2];
+        const froe_objects batch = batch_of(list + i, starts);
+        assert_int_equal(froe_scene_add(w.scene, &batch, NULL), FROE_OK);
+    }
+    froe_build_options b = froe_build_defaults();
+    b.purpose = "query";
+    assert_int_equal(froe_build(w.scene, &b, &w.tree, NULL), FROE_OK);
+    assert_int_equal(froe_query_new(w.tree, &w.query, NULL), FROE_OK);
+    free(list);
+    return w;
+}
+
+static void free_world(world *w) {
+    froe_query_free(w->query);
+    froe_tree_free(w->tree);
+    froe_scene_free(w->scene);
+    froe_shards_close(w->shards);
+}
+
+/* ---------------------------------------------------------------- comparing -- */
+
+static uint64_t tag_of(const world *w, uint32_t object) {
+    return froe_scene_object(w->scene, object).tag;
+}
+
+static int by_id(const void *a, const void *b) {
+    const uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+    return (x > y) - (x < y);
+}
+
+/* Ids ascend with tags. */
+static void compare_finds(const world *w, froe_answers *tree, froe_finds *folder, bool ordered) {
+    assert_int_equal(tree->queries, folder->questions);
+    for (size_t i = 0; i < tree->queries; i++) {
+        const size_t first = tree->starts[i], count = tree->starts[i + 1] - first;
+        assert_int_equal(folder->starts[i + 1] - folder->starts[i], count);
+        if (!ordered) qsort(tree->ids + first, count, sizeof *tree->ids, by_id);
+        for (size_t j = 0; j < count; j++) {
+            const froe_find *find = folder->items + folder->starts[i] + j;
+            assert_int_equal(find->tag, tag_of(w, tree->ids[first + j]));
+            assert_true(find->value == (tree->values ? tree->values[first + j] : 0));
+            const froe_tree *shard;
+            assert_int_equal(froe_shards_tree(w->shards, find->shard, &shard, NULL), FROE_OK);
+            assert_int_equal(froe_scene_object(froe_tree_scene(shard), find->object).tag, find->tag);
+        }
+    }
+    froe_answers_free(tree);
+    froe_finds_free(folder);
+}
+
+static double halves(world *w) {
+    return on_lattice(&w->state, 2 * MOST) / 2;
+}
+
+static double *random_points(world *w, size_t count) {
+    double *points = calloc(count * (size_t)w->dim, sizeof *points);
+    assert_non_null(points);
+    for (size_t i = 0; i < count * (size_t)w->dim; i++) points[i] = halves(w);
+    return points;
+}
+
+/* ---------------------------------------------------------------- questions -- */
+
+static void compare_ranges(world *w) {
+    enum { POINTS = FROE_MAX_DIM + 1 };
+    const size_t dim = (size_t)w->dim;
+    froe_range *ranges = calloc(QUESTIONS, sizeof *ranges);
+    double *points = random_points(w, QUESTIONS * POINTS), *offsets = random_points(w, QUESTIONS);
+    uint64_t expected[QUESTIONS], counts[QUESTIONS];
+    froe_find any[QUESTIONS];
+    froe_answers answers;
+    froe_finds finds;
+    for (size_t i = 0; i < QUESTIONS; i++) {
+        froe_range *r = ranges + i;
+        double *p = points + i * POINTS * dim;
+        *r = froe_range_defaults();
+        do r->shape = (froe_range_shape)(next_random(&w->state) % FROE_SHAPE_COUNT);
+        while (dim > 3 && r->shape == FROE_SHAPE_RAY);
+        r->points = p;
+        r->count = r->shape == FROE_SHAPE_HULL || r->shape == FROE_SHAPE_HALFSPACES ? 3 : 0;
+        r->radius = on_lattice(&w->state, 8) / 2;
+        r->offsets = offsets + i;
+        for (size_t a = 0; a < dim; a++) { /* small, but for some */
+            const double wide = i % 9 ? on_lattice(&w->state, 6) / 2 : on_lattice(&w->state, 30);
+            if (r->shape == FROE_SHAPE_BOX || r->shape == FROE_SHAPE_SEGMENT) p[dim + a] = p[a] + wide;
+            if (r->shape == FROE_SHAPE_RAY || r->shape == FROE_SHAPE_HALFSPACES) p[dim + a] = wide - 2;
+        }
+        if (r->shape == FROE_SHAPE_RAY) p[dim] += p[dim] == 0;
+        if (r->shape == FROE_SHAPE_BOX && i % 7 == 0) p[dim] = INFINITY;
+    }
+    assert_int_equal(froe_batch_range(w->query, ranges, QUESTIONS, NULL, &answers, NULL), FROE_OK);
+    assert_int_equal(froe_shards_range(w->shards, ranges, QUESTIONS, NULL, &finds, NULL), FROE_OK);
+    compare_finds(w, &answers, &finds, false);
+    assert_int_equal(froe_batch_count(w->query, ranges, QUESTIONS, NULL, expected, NULL), FROE_OK);
+    assert_int_equal(froe_shards_count(w->shards, ranges, QUESTIONS, NULL, counts, NULL), FROE_OK);
+    assert_memory_equal(expected, counts, sizeof counts);
+    assert_int_equal(froe_shards_any(w->shards, ranges, QUESTIONS, NULL, any, NULL), FROE_OK);
+    for (size_t i = 0; i < QUESTIONS; i++) {
+        bool found = false;
+        assert_int_equal(any[i].object != FROE_NONE, counts[i] > 0);
+        froe_list list;
+        assert_int_equal(froe_query_range(w->query, ranges + i, &list, NULL), FROE_OK);
+        for (size_t j = 0; j < list.count; j++) found = found || tag_of(w, list.ids[j]) == any[i].tag;
+        assert_true(found || !counts[i]);
+    }
+    free(ranges), free(points), free(offsets);
+}
+
+static void compare_points(world *w) {
+    double *points = random_points(w, QUESTIONS);
+    static const size_t some[] = {1, 3, 20};
+    static const double bounds[] = {INFINITY, 4, 1, 0};
+    froe_answers answers;
+    froe_finds finds;
+    assert_int_equal(froe_batch_locate(w->query, points, QUESTIONS, NULL, &answers, NULL), FROE_OK);
+    assert_int_equal(froe_shards_locate(w->shards, points, QUESTIONS, NULL, &finds, NULL), FROE_OK);
+    compare_finds(w, &answers, &finds, false);
+    for (size_t i = 0; i < 12; i++) {
+        const size_t k = some[i % 3];
+        assert_int_equal(froe_batch_near(w->query, points, QUESTIONS / 4, k, bounds[i / 3], NULL, &answers, NULL),
+                         FROE_OK);
+        assert_int_equal(froe_shards_near(w->shards, points, QUESTIONS / 4, k, bounds[i / 3], NULL, &finds, NULL),
+                         FROE_OK);
+        compare_finds(w, &answers, &finds, true);
+    }
+    for (int way = -1; way <= 1 && w->dim == 2; way += 2) {
+        uint32_t objects[QUESTIONS];
+        froe_find found[QUESTIONS];
+        assert_int_equal(froe_batch_vertical(w->query, points, QUESTIONS, way, NULL, objects, NULL), FROE_OK);
+        assert_int_equal(froe_shards_vertical(w->shards, points, QUESTIONS, way, NULL, found, NULL), FROE_OK);
+        for (size_t i = 0; i < QUESTIONS; i++) {
+            assert_int_equal(found[i].object != FROE_NONE, objects[i] != FROE_NONE);
+            if (objects[i] != FROE_NONE) assert_int_equal(found[i].tag, tag_of(w, objects[i]));
+        }
+    }
+    free(points);
+}
+
+static void compare_rays(world *w) {
+    const size_t dim = (size_t)w->dim;
+    double *origins = random_points(w, QUESTIONS), *directions = calloc(QUESTIONS * dim, sizeof *directions);
+    static const double ends[] = {INFINITY, 2, 0.5};
+    for (size_t i = 0; i < QUESTIONS; i++) {
+        for (size_t a = 0; a < dim; a++) directions[i * dim + a] = on_lattice(&w->state, 6) - 3;
+        if (i % 3 == 0) /* along an axis, where many objects are met at one point */
+            for (size_t a = 0; a < dim; a++) directions[i * dim + a] = a == i / 3 % dim;
+        directions[i * dim] += directions[i * dim] == 0;
+    }
+    for (int e = 0; e < 3; e++) {
+        froe_hit hits[QUESTIONS];
+        froe_find first[QUESTIONS], any[QUESTIONS];
+        froe_answers answers;
+        froe_finds finds;
+        assert_int_equal(froe_batch_ray(w->query, origins, directions, QUESTIONS, ends[e], NULL, hits, NULL), FROE_OK);
+        assert_int_equal(froe_shards_ray(w->shards, origins, directions, QUESTIONS, ends[e], NULL, first, NULL),
+                         FROE_OK);
+        assert_int_equal(froe_shards_ray_any(w->shards, origins, directions, QUESTIONS, ends[e], NULL, any, NULL),
+                         FROE_OK);
+        for (size_t i = 0; i < QUESTIONS; i++) {
+            assert_int_equal(first[i].object != FROE_NONE, hits[i].object != FROE_NONE);
+            assert_int_equal(any[i].object != FROE_NONE, hits[i].object != FROE_NONE);
+            if (hits[i].object == FROE_NONE) continue;
+            assert_int_equal(first[i].tag, tag_of(w, hits[i].object));
+            assert_true(first[i].value == hits[i].t);
+        }
+        assert_int_equal(froe_batch_ray_all(w->query, origins, directions, QUESTIONS, ends[e], NULL, &answers, NULL),
+                         FROE_OK);
+        assert_int_equal(froe_shards_ray_all(w->shards, origins, directions, QUESTIONS, ends[e], NULL, &finds, NULL),
+                         FROE_OK);
+        compare_finds(w, &answers, &finds, true);
+    }
+    free(origins), free(directions);
+}
+
+typedef struct pair_list {
+    uint64_t (*pairs)[3];
+    size_t count, room;
+} pair_list;
+
+static bool keep_pair(void *user, const froe_found_pair *pair) {
+    pair_list *l = user;
+    if (l->count < l->room) {
+        l->pairs[l->count][0] = pair->a.tag;
+        l->pairs[l->count][1] = pair->b.tag;
+        l->pairs[l->count][2] = pair->kind;
+    }
+    l->count++;
+    return true;
+}
+
+static int by_pair(const void *a, const void *b) {
+    const uint64_t *x = a, *y = b;
+    if (x[0] != y[0]) return x[0] < y[0] ? -1 : 1;
+    return (x[1] > y[1]) - (x[1] < y[1]);
+}
+
+static void compare_pairs(world *w) {
+    for (int shared = 0; shared < 2; shared++) {
+        froe_pairs pairs;
+        assert_int_equal(froe_batch_pair_array(w->query, shared, NULL, &pairs, NULL), FROE_OK);
+        pair_list found = {.pairs = calloc(pairs.count + 1, sizeof *found.pairs), .room = pairs.count};
+        assert_non_null(found.pairs);
+        assert_int_equal(froe_shards_pairs(w->shards, shared, NULL, keep_pair, &found, NULL), FROE_OK);
+        assert_int_equal(found.count, pairs.count);
+        qsort(found.pairs, found.count, sizeof *found.pairs, by_pair);
+        for (size_t i = 0; i < pairs.count; i++) {
+            assert_int_equal(found.pairs[i][0], tag_of(w, pairs.pairs[i].a));
+            assert_int_equal(found.pairs[i][1], tag_of(w, pairs.pairs[i].b));
+            assert_int_equal(found.pairs[i][2], pairs.pairs[i].kind);
+        }
+        free(found.pairs);
+        froe_pairs_free(&pairs);
+    }
+}
+
+static void compare_everything(int dim, froe_kind kind) {
+    static const int shards[] = {7, -7, -2, 64, -64, 1, 2};
+    const size_t folders = thorough ? 7 : kind == FROE_KIND_COUNT ? 5 : 2;
+    for (size_t i = 0; i < folders; i++) {
+        world w = make_world(dim, kind, shards[i], 1 + i + 10 * (uint64_t)kind);
+        const froe_shards_info info = froe_shards_about(w.shards);
+        assert_int_equal(info.objects, object_count);
+        assert_int_equal(froe_shards_check(w.shards, NULL, NULL), FROE_OK);
+        compare_ranges(&w);
+        compare_points(&w);
+        if (dim <= 3 || kind != FROE_POLYGON) compare_rays(&w);
+        compare_pairs(&w);
+        free_world(&w);
+    }
+}
+
+static void of_objects_in_the_plane(void **state) {
+    (void)state;
+    for (int kind = 0; kind <= FROE_KIND_COUNT; kind++)
+        if (kind != FROE_POLYGON) compare_everything(2, (froe_kind)kind);
+}
+
+static void of_objects_in_space(void **state) {
+    (void)state;
+    for (int kind = 0; kind <= FROE_KIND_COUNT; kind++) compare_everything(3, (froe_kind)kind);
+}
+
+static void of_objects_above_space(void **state) {
+    (void)state;
+    compare_everything(4, FROE_BOX);
+    compare_everything(5, FROE_POINT);
+}
+
+/* Distances and parameters of different exact values that round to one double: their exact order is the order, and it
+ * tells which are the first k, in one shard as in several. From (1e17, 0) the points at 1, 2 and 3 are 1e17 away,
+ * rounded. */
+static void values_that_round_to_one_double(void **state) {
+    (void)state;
+    const double places[] = {1, 2, 3, 1e16}, from[] = {1e17, 0}, back[] = {-1, 0};
+    const uint64_t tags[] = {4, 3, 2, 1};
+    one_object list[4] = {0};
+    for (int i = 0; i < 4; i++)
+        list[i] = (one_object){.kind = FROE_POINT, .corners = 1, .at = {places[i], 0}, .tag = (uint64_t)i + 1};
+    for (uint32_t count = 1; count <= 4; count++) {
+        froe_shards_options o = froe_shards_defaults();
+        froe_shards *shards;
+        o.shards = count;
+        assert_int_equal(build_folder("rounded.froes", 2, list, 4, &o, NULL, NULL), FROE_OK);
+        assert_int_equal(froe_shards_open("rounded.froes", NULL, &shards, NULL), FROE_OK);
+        for (size_t k = 1; k <= 5; k++) { /* 5: all that a ray meets */
+            froe_finds found;
+            const size_t most = k < 4 ? k : 4;
+            const froe_status status = k < 5 ? froe_shards_near(shards, from, 1, k, INFINITY, NULL, &found, NULL)
+                                             : froe_shards_ray_all(shards, from, back, 1, INFINITY, NULL, &found, NULL);
+            assert_int_equal(status, FROE_OK);
+            assert_int_equal(found.starts[1], most);
+            for (size_t i = 0; i < most; i++) assert_int_equal(found.items[i].tag, tags[i]);
+            froe_finds_free(&found);
+        }
+        froe_shards_close(shards);
+    }
+}
+
+int main(int argc, char **argv) {
+    thorough = argc > 1;
+    if (thorough) object_count = (size_t)strtoull(argv[1], NULL, 10);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(of_objects_in_the_plane),
+        cmocka_unit_test(of_objects_in_space),
+        cmocka_unit_test(of_objects_above_space),
+        cmocka_unit_test(values_that_round_to_one_double),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,199 @@
+/* Pictures of moving triangles: what the file shows at any time is held against rays, and the instants at which faces
+ * come into sight are where they should be. */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "vector/film.h"
+#include "vector/playing.h"
+
+enum { TRIANGLES = 24 };
+
+/* Triangles, each a group: every third turns, one in six lives for a while only. */
+static froe_motion *make_motion(uint64_t seed) {
+    froe_motion *motion = NULL;
+    froe_motion_options w = froe_motion_defaults();
+    playing_dice = seed * 7919 + 5;
+    w.dim = 3, w.begin = 0, w.end = 4;
+    assert_int_equal(froe_motion_new(&w, NULL, &motion, NULL), FROE_OK);
+    for (unsigned i = 0; i < TRIANGLES; i++) {
+        static const size_t pairs[] = {0, 2, 4, 6}, singles[] = {0, 1, 2, 3};
+        const double both[] = {0, 4, 0, 4, 0, 4}, none[] = {0, 0, 0};
+        double at[18], centre[6], turns[8] = {0, 0, 0, 1};
+        uint32_t bodies[3], group;
+        char name[16];
+        snprintf(name, sizeof name, "t%u", i);
+        assert_int_equal(froe_motion_add_group(motion, &(froe_group){.name = name}, &group), FROE_OK);
+        for (int k = 0; k < 6; k++) centre[k] = 6 * playing_chance() - 3;
+        for (int k = 0; k < 18; k++) at[k] = centre[k / 3 % 2 * 3 + k % 3] + 3 * playing_chance() - 1.5;
+        froe_moving m = froe_moving_defaults();
+        m.vertex_count = 3, m.count = 1, m.group = group;
+        m.starts = pairs, m.times = both, m.coords = at;
+        if (i % 3 == 0) {
+            double square = 0;
+            for (int k = 0; k < 4; k++) turns[4 + k] = playing_chance(), square += turns[4 + k] * turns[4 + k];
+            for (int k = 0; k < 4; k++) turns[4 + k] /= sqrt(square);
+            froe_body body = froe_body_defaults();
+            body.count = 2, body.times = both, body.coords = centre, body.turns = turns;
+            assert_int_equal(froe_motion_add_body(motion, &body, bodies, NULL), FROE_OK);
+            bodies[1] = bodies[2] = bodies[0];
+            for (int k = 0; k < 9; k++) at[k] -= centre[k % 3];
+            m.starts = singles, m.times = none, m.bodies = bodies;
+        }
+        const double birth = 1 + playing_chance(), death = 2 + playing_chance();
+        if (i % 6 == 1) m.births = &birth, m.deaths = &death;
+        assert_int_equal(froe_motion_add(motion, &m, NULL), FROE_OK);
+    }
+    return motion;
+}
+
+static void every_frame_is_what_rays_meet(void **state) {
+    (void)state;
+    playing_counts c = {0, 0, 0};
+    for (unsigned seed = 0; seed < 5; seed++) {
+        froe_motion *motion = make_motion(seed);
+        froe_render_options o = froe_render_defaults();
+        froe_film_options film = froe_film_defaults();
+        froe_film_report report;
+        froe_diagnostic diag = {.message = ""};
+        o.camera.width = 600, o.camera.height = 500, o.camera.parallel = seed % 2;
+        o.camera.eye[0] = 3 - (double)seed, o.camera.eye[2] = (double)seed - 1;
+        o.shading = seed == 2 ? FROE_SHADE_WHITE : FROE_SHADE_FLAT;
+        film.frames = 24, film.turn = seed == 3;
+        if (froe_film(motion, "film.svg", &o, &film, &report, &diag)) fail_msg("%s", diag.message);
+        assert_true(report.shown >= 24 && report.changes > 0 && report.pictures >= report.shown);
+        playing_read("film.svg");
+        playing_compare(motion, &o, film.turn, film.frames, &c);
+        froe_motion_free(motion);
+    }
+    assert_true(c.hits > 4000 && c.empty > 2000 && c.unclear < c.hits / 4);
+}
+
+/* A leaf slides out from behind a wall, and is seen from where its corner passes the edge; a third is born then. */
+static void faces_come_into_sight_at_their_instant(void **state) {
+    (void)state;
+    froe_motion *motion = NULL;
+    froe_motion_options w = froe_motion_defaults();
+    w.dim = 3, w.begin = 0, w.end = 4;
+    assert_int_equal(froe_motion_new(&w, NULL, &motion, NULL), FROE_OK);
+    const size_t starts[] = {0, 1, 2, 3, 5, 7, 9, 10, 11, 12};
+    const double times[] = {0, 0, 0, 0, 4, 0, 4, 0, 4, 0, 0, 0};
+    const double at[] = {-9, 0, -9, 0,  0, -9, 0,  0, 30, /* the wall: x <= 0 */
+                         -3, 1, 0,  5,  1, 0,  -4, 1, 0,
+                         4,  1, 0,  -4, 1, 1,  4,  1, 1, /* its first corner is at 0 at 1.5 */
+                         6,  1, 0,  7,  1, 0,  6,  1, 1};
+    const double births[] = {0, 0, 2.7182818};
+    froe_moving m = froe_moving_defaults();
+    m.vertex_count = 9, m.count = 3, m.starts = starts, m.times = times, m.coords = at, m.births = births;
+    const uint32_t groups[] = {0, 1, 2};
+    for (int i = 0; i < 3; i++) {
+        uint32_t id;
+        const char *const names[] = {"t0", "t1", "t2"};
+        assert_int_equal(froe_motion_add_group(motion, &(froe_group){.name = names[i]}, &id), FROE_OK);
+    }
+    m.groups = groups;
+    assert_int_equal(froe_motion_add(motion, &m, NULL), FROE_OK);
+    froe_render_options o = froe_render_defaults();
+    froe_film_options film = froe_film_defaults();
+    froe_film_report report;
+    froe_diagnostic diag = {.message = ""};
+    o.camera.parallel = true, o.camera.eye[0] = o.camera.eye[2] = 0, o.camera.eye[1] = -1;
+    film.frames = 7, film.halvings = 10;
+    if (froe_film(motion, "slide.svg", &o, &film, &report, &diag)) fail_msg("%s", diag.message);
+    playing_read("slide.svg");
+    double first[3] = {1, 1, 1};
+    for (size_t i = 0; i < playing_file.path_count; i++)
+        first[playing_file.paths[i].group[1] - '0'] =
+            fmin(first[playing_file.paths[i].group[1] - '0'], playing_file.paths[i].from);
+    assert_true(first[0] == 0 && report.changes >= 2);
+    assert_true(report.late == 4.0 / 7 / 1024);
+    assert_true(4 * first[1] > 1.5 && 4 * first[1] <= 1.5 + report.late + 1e-6);
+    assert_true(fabs(4 * first[2] - births[2]) < 1e-6);
+    froe_motion_free(motion);
+}
+
+/* Whatever comes and goes and changes places: what is shown stands in the list in the order of the picture. */
+static void a_list_shows_each_picture_in_its_order(void **state) {
+    (void)state;
+    enum { PICTURES = 60, LONGEST = 40 };
+    const froe_allocator alloc = support_allocator(NULL);
+    film_list list = {.bytes = {0}};
+    size_t kept = 0, made = 0;
+    playing_dice = 11;
+    for (int i = 0; i < PICTURES; i++) {
+        film_picture p = {.time = i};
+        for (int kind = 0; kind < 2; kind++) {
+            const int count = (int)(playing_chance() * LONGEST), letters = i % 3 ? 40 : 6;
+            for (int k = 0; k < count; k++) {
+                const char letter = (char)('0' + (int)(playing_chance() * letters)); /* some of them twice */
+                const film_path path = {p.bytes.count, 1, (uint64_t)letter / 2}; /* and hashes that say too little */
+                assert_true(array_push(&alloc, &p.bytes, letter) && array_push(&alloc, &p.paths[kind], path));
+            }
+        }
+        const size_t before = list.items.count;
+        assert_true(vector_film_show(&list, &p, (double)i / PICTURES, &alloc));
+        made += p.paths[0].count + p.paths[1].count, kept += p.paths[0].count + p.paths[1].count;
+        kept -= list.items.count - (before > 2 ? before : 2);
+        for (uint32_t kind = 0; kind < 2; kind++) {
+            size_t k = 0;
+            for (uint32_t at = list.items.data[kind].next; at != UINT32_MAX; at = list.items.data[at].next) {
+                const film_item *item = list.items.data + at;
+                if (item->to < 1) continue;
+                assert_true(k < p.paths[kind].count);
+                assert_int_equal(list.bytes.data[item->path.at], p.bytes.data[p.paths[kind].data[k++].at]);
+            }
+            assert_int_equal(k, p.paths[kind].count);
+        }
+        array_free(&alloc, &p.bytes), array_free(&alloc, &p.paths[0]), array_free(&alloc, &p.paths[1]);
+    }
+    assert_true(kept > made / 10);
+    vector_film_free(&list, &alloc);
+}
+
+static froe_status film_once(void *user, const froe_allocator *alloc) {
+    froe_render_options o = froe_render_defaults();
+    froe_film_options film = froe_film_defaults();
+    o.alloc = alloc, film.frames = 2, film.halvings = 1;
+    return froe_film(user, "memory.svg", &o, &film, NULL, NULL);
+}
+
+static void allocations_may_fail(void **state) {
+    (void)state;
+    froe_motion *motion = NULL;
+    assert_int_equal(froe_generate_motion("moving-boxes", 2, 1, NULL, &motion, NULL), FROE_OK);
+    assert_true(test_memory_each(film_once, motion) > 100);
+    froe_motion_free(motion);
+}
+
+static void what_no_film_can_be_is_refused(void **state) {
+    (void)state;
+    froe_motion *motion = make_motion(1), *plane = NULL;
+    froe_render_options o = froe_render_defaults();
+    froe_film_options film = froe_film_defaults();
+    froe_diagnostic diag;
+    assert_int_equal(froe_generate_motion("moving", 3, 1, NULL, &plane, NULL), FROE_OK);
+    assert_int_equal(froe_film(plane, "no.svg", NULL, NULL, NULL, &diag), FROE_E_UNSUPPORTED);
+    assert_int_equal(froe_film(motion, "no.pdf", NULL, NULL, NULL, &diag), FROE_E_OPTIONS);
+    o.layers = FROE_LAYERS_KIND;
+    assert_int_equal(froe_film(motion, "no.svg", &o, NULL, NULL, &diag), FROE_E_OPTIONS);
+    assert_string_equal(diag.message,
+                        "A film has no layers, no interleaved lines and no fills that are painted twice.");
+    film.frames = 0;
+    assert_int_equal(froe_film(motion, "no.svg", NULL, &film, NULL, &diag), FROE_E_OPTIONS);
+    assert_null(fopen("no.svg", "r"));
+    froe_motion_free(motion), froe_motion_free(plane);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_frame_is_what_rays_meet),
+        cmocka_unit_test(faces_come_into_sight_at_their_instant),
+        cmocka_unit_test(a_list_shows_each_picture_in_its_order),
+        cmocka_unit_test(allocations_may_fail),
+        cmocka_unit_test(what_no_film_can_be_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
