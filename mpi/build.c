@@ -171,17 +171,6 @@ static froe_status build_all(froe_mpi_builder *b) {
     return mpi_agree(&b->ranks, status, &b->diag);
 }
 
-static froe_shards_report report_of(const froe_mpi_builder *b, uint64_t objects) {
-    froe_shards_report r = {.shards = froe_shard_plan_count(b->plan), .objects = objects};
-    for (uint32_t i = 0; i < r.shards; i++) {
-        const froe_shard_entry *e = &b->entries[i];
-        r.copies += e->objects;
-        r.bytes += e->bytes;
-        r.most = e->objects > r.most ? e->objects : r.most;
-    }
-    return r;
-}
-
 froe_status froe_mpi_finish(froe_mpi_builder *b, froe_shards_report *out, froe_mpi_costs *costs,
                             froe_diagnostic *diag) {
     const mpi_ranks ranks = b->ranks;
@@ -196,7 +185,7 @@ froe_status froe_mpi_finish(froe_mpi_builder *b, froe_shards_report *out, froe_m
     then = mpi_now();
     if (!status) status = build_all(b);
     spent.build = mpi_since(then);
-    if (!status) report = report_of(b, objects);
+    if (!status) report = froe_shard_report(b->plan, b->entries);
     status = end_builder(b, status, diag);
     if (status) return status;
     spent.read = mpi_slowest(&ranks, spent.read), spent.exchange = mpi_slowest(&ranks, spent.exchange);

@@ -263,24 +263,13 @@ static froe_status build_all(froe_shards_builder *b, froe_diagnostic *diag) {
     return status;
 }
 
-static froe_shards_report report_of(const froe_shards_builder *b) {
-    froe_shards_report r = {.shards = b->plan->count, .objects = b->objects};
-    for (uint32_t i = 0; i < r.shards; i++) {
-        const froe_shard_entry *e = &b->entries[i];
-        r.copies += e->objects;
-        r.bytes += e->bytes;
-        r.most = e->objects > r.most ? e->objects : r.most;
-    }
-    return r;
-}
-
 froe_status froe_shards_finish(froe_shards_builder *b, froe_shards_report *out, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
     if (!b) return support_fail_null(diag, __func__);
     froe_shards_report report = {0};
     froe_status status = make_buckets(b, diag);
     if (!status) status = build_all(b, diag);
-    if (!status) report = report_of(b);
+    if (!status) report = froe_shard_report(b->plan, b->entries);
     status = end_builder(b, status, diag);
     if (!status && out) *out = report;
     return status;

@@ -99,17 +99,18 @@ froe_shards_info froe_shards_about(const froe_shards *s) {
     SUPPORT_FLOATS_OWN;
     froe_shards_info info = {0};
     if (!s) return info;
+    const froe_shards_report all = froe_shard_report(s->manifest.plan, s->manifest.entries.data);
     info.dim = s->dim;
-    info.shards = s->count;
-    for (uint32_t i = 0; i < s->count; i++) {
+    info.shards = all.shards;
+    info.objects = all.objects;
+    info.copies = all.copies;
+    info.bytes = all.bytes;
+    for (uint32_t i = s->first; i < s->count; i++) {
         const froe_shard_entry *e = shards_entry(s, i);
         for (int a = 0; a < s->dim && e->objects; a++) {
-            info.lo[a] = !info.copies || e->lo[a] < info.lo[a] ? e->lo[a] : info.lo[a];
-            info.hi[a] = !info.copies || e->hi[a] > info.hi[a] ? e->hi[a] : info.hi[a];
+            info.lo[a] = i == s->first || e->lo[a] < info.lo[a] ? e->lo[a] : info.lo[a];
+            info.hi[a] = i == s->first || e->hi[a] > info.hi[a] ? e->hi[a] : info.hi[a];
         }
-        info.objects += e->own;
-        info.copies += e->objects;
-        info.bytes += e->bytes;
     }
     return info;
 }

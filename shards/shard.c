@@ -244,6 +244,20 @@ static void describe_shard(const froe_shard_records *records, const froe_shard_p
     }
 }
 
+froe_shards_report froe_shard_report(const froe_shard_plan *plan, const froe_shard_entry *entries) {
+    froe_shards_report r = {0};
+    if (!plan || !entries) return r;
+    r.shards = plan->count;
+    for (uint32_t i = 0; i < plan->count; i++) {
+        const froe_shard_entry *e = &entries[i];
+        r.objects += e->own;
+        r.copies += e->objects;
+        r.bytes += e->bytes;
+        r.most = e->objects > r.most ? e->objects : r.most;
+    }
+    return r;
+}
+
 froe_status shards_check_options(const froe_shards_options *options, froe_diagnostic *diag) {
     return options->size == sizeof *options ? FROE_OK : support_fail_defaults(diag, "froe_shards_defaults");
 }

@@ -10,6 +10,7 @@
  *     froe_shard_plan_cells()       each, of its records to which shards an object goes: whose cells its box meets
  *     froe_shard_buckets_add()      the owner of a shard what has arrived, in any order
  *     froe_shard_build()            the owner of a shard its file and its entry
+ *     froe_shard_report()           who has all entries  counts of the whole folder
  *     froe_shard_manifest_write()   one process          the text that names all shards
  *     froe_shard_draft_end()        the same             the new folder takes the place of the old one
  *
@@ -117,6 +118,8 @@ typedef struct froe_shard_entry {
 FROE_API froe_status froe_shard_build(froe_shard_records *records, const froe_shard_plan *plan, uint32_t cell,
                                       const froe_scene *scene, const froe_shards_options *options, const char *folder,
                                       froe_shard_entry *out, froe_diagnostic *diag);
+/** What a folder of these shards is; entries: as many as there are cells. O(cells). */
+FROE_API froe_shards_report froe_shard_report(const froe_shard_plan *plan, const froe_shard_entry *entries);
 /** Writes FOLDER/froe.shards; entries: as many as there are cells. FROE_E_IO, FROE_E_MEMORY. */
 FROE_API froe_status froe_shard_manifest_write(const froe_shard_plan *plan, const froe_shard_entry *entries,
                                                const char *folder, const froe_allocator *alloc, froe_diagnostic *diag);

@@ -126,7 +126,8 @@ static void exchange_records(test_rank *ranks, int count) {
         }
 }
 
-static void build_by_ranks(const char *path, int dim, const one_object *list, int count, uint32_t shards) {
+static froe_shards_report build_by_ranks(const char *path, int dim, const one_object *list, int count,
+                                         uint32_t shards) {
     test_rank ranks[4] = {0};
     froe_shard_draft *draft;
     froe_shard_entry entries[64];
@@ -155,6 +156,7 @@ static void build_by_ranks(const char *path, int dim, const one_object *list, in
     }
     assert_int_equal(froe_shard_manifest_write(ranks[0].plan, entries, froe_shard_draft_folder(draft), NULL, NULL),
                      FROE_OK);
+    const froe_shards_report report = froe_shard_report(ranks[0].plan, entries);
     assert_int_equal(froe_shard_draft_end(draft, FROE_OK, NULL), FROE_OK);
     for (int r = 0; r < count; r++) {
         froe_shard_records_free(&ranks[r].records);
@@ -162,6 +164,7 @@ static void build_by_ranks(const char *path, int dim, const one_object *list, in
         froe_shard_plan_free(ranks[r].plan);
         froe_shard_buckets_free(ranks[r].buckets);
     }
+    return report;
 }
 
 static void processes_build_the_same_folder_together(void **state) {
@@ -169,9 +172,17 @@ static void processes_build_the_same_folder_together(void **state) {
     one_object *list = lattice_objects(3, FROE_KIND_COUNT, COUNT, MOST, 99);
     froe_shards_options o = froe_shards_defaults();
     o.shards = 13;
-    assert_int_equal(build_folder("alone.froes", 3, list, COUNT, &o, NULL, NULL), FROE_OK);
+    froe_shards_report alone;
+    assert_int_equal(build_folder("alone.froes", 3, list, COUNT, &o, &alone, NULL), FROE_OK);
+    assert_int_equal(alone.shards, 13);
+    assert_int_equal(alone.objects, COUNT);
     for (int ranks = 1; ranks <= 4; ranks++) {
-        build_by_ranks("together.froes", 3, list, ranks, 13);
+        const froe_shards_report together = build_by_ranks("together.froes", 3, list, ranks, 13);
+        assert_int_equal(together.shards, alone.shards);
+        assert_int_equal(together.objects, alone.objects);
+        assert_int_equal(together.copies, alone.copies);
+        assert_int_equal(together.most, alone.most);
+        assert_int_equal(together.bytes, alone.bytes);
         assert_equal_folders("alone.froes", "together.froes", 13);
     }
     free(list);
