@@ -76,12 +76,17 @@ mutate: coverage build ## would the tests notice a wrong operator? A sample of 4
 	@scripts/mutate
 
 # What is found is kept outside the project: scripts/fuzz says where.
-.PHONY: fuzz platforms
+.PHONY: fuzz platforms soak
 HOURS ?= 1
 fuzz: deps-fuzz ## all fuzzers in turn for HOURS=n hours; a table of executions, places and findings
 	@cmake --preset fuzz
 	@cmake --build --preset fuzz --parallel $(JOBS)
 	@scripts/fuzz $(HOURS)
+
+soak: deps-test ## decisions that are checked, for HOURS=n hours of one processor; tests/soak/ledger.tsv goes on
+	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=Release -DFROE_TESTS=ON
+	@cmake --build $(BUILD) --parallel $(JOBS) --target soak
+	@scripts/soak --build $(BUILD) $(HOURS)
 
 platforms: deps-test ## trees, answers and pictures by other compilers, machines and checkers: the same hashes
 	@scripts/platforms --build $(BUILD)

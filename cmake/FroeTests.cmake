@@ -114,6 +114,19 @@ if(TARGET test_cli_plot) # figures are part of the program, which tests run othe
   target_include_directories(test_cli_plot PRIVATE cli)
 endif()
 
+# Decisions that are checked over and over (make soak); of each kind one block is a test.
+if(TARGET froe_io_white)
+  set(soak_kinds whole rational answers pictures contacts plane space)
+  file(GLOB soak_sources CONFIGURE_DEPENDS tests/soak/*.c)
+  add_executable(soak ${soak_sources})
+  set_target_properties(soak PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
+  target_include_directories(soak PRIVATE io)
+  target_link_libraries(soak PRIVATE froe_io_white froe_test_support froe_test_objects)
+  foreach(kind ${soak_kinds})
+    froe_test(soak ${kind} soak ${kind} 1 0)
+  endforeach()
+endif()
+
 target_link_options(test_base_pages PRIVATE -Wl,--wrap=mremap)
 
 # Outputs whose system calls fail: in the writer's own test, and in a program like froe (tests/faults).
@@ -175,6 +188,7 @@ froe_test(project flags ${scripts}/check-flags)
 set_tests_properties(project/flags PROPERTIES ENVIRONMENT CC=${CMAKE_C_COMPILER})
 froe_test(project index ${scripts}/check-index)
 froe_test(project names ${scripts}/check-names)
+froe_test(project soak ${scripts}/soak --check)
 froe_test(project messages ${scripts}/check-messages)
 froe_test(project prose ${scripts}/check-prose)
 froe_test(project root ${scripts}/check-root)

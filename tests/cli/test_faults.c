@@ -4,6 +4,7 @@
 #include "faults/faults.h"
 #include <dirent.h>
 #include <setjmp.h>
+#include <signal.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -164,6 +165,7 @@ static void every_command_that_writes_loses_nothing(void **state) {
 
 int main(int argc, char **argv) {
     all = argc > 1 && !strcmp(argv[1], "all");
+    signal(SIGINT, SIG_DFL); /* shells make what they start in the background ignore it */
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_command_that_writes_loses_nothing),
     };

@@ -18,6 +18,7 @@ typedef struct answers {
     bool huge; /* coordinates so large that ranges made of them overflow */
     int shift; /* that makes the scene whole */
     exact_body *bodies;
+    uint64_t judged; /* objects of a question, by brute force */
     char *why;
     size_t room;
 } answers;
@@ -75,7 +76,7 @@ static inline void answers_range(answers *a, world_dice *d, froe_range_shape sha
     const bool usable = shape == FROE_SHAPE_BOX ? !isnan(q.points[0]) : answers_finite(q.points, MOST_POINTS * 3);
     if (usable && isfinite(q.range.radius) && answers_finite(q.offsets, MOST_POINTS)) {
         bool *expected = calloc(a->w.count + 1, sizeof *expected);
-        for (uint32_t i = 0; a->judge && i < a->w.count; i++) all += expected[i] = meets(&a->w, &q, i);
+        for (uint32_t i = 0; a->judge && i < a->w.count; i++) all += expected[i] = meets(&a->w, &q, i), a->judged++;
         if (answers_came(a, "range", froe_query_range(a->q, &q.range, &got, NULL)))
             answers_judge_list(a, froe_range_shape_name(shape), q.points, &got, expected);
         if (answers_came(a, "count", froe_query_count(a->q, &q.range, &count, NULL)) && count != all)
@@ -125,7 +126,7 @@ static inline void answers_near(answers *a, world_dice *d, const double *x, int 
     froe_neighbours got;
     size_t count = 0;
     const size_t k = 1 + world_below(d, 3);
-    for (uint32_t i = 0; a->judge && i < a->w.count; i++) {
+    for (uint32_t i = 0; a->judge && i < a->w.count; i++, a->judged++) {
         const size_t mark = exact_mark();
         const exact_value distance = exact_distance(x, &a->bodies[i]);
         answers_put(sorted, &count, (answers_item){i, exact_keep(mark, &distance)});
@@ -163,7 +164,7 @@ static inline void answers_ray(answers *a, const double *x, const double *direct
     uint32_t any;
     froe_batch_options o = froe_batch_defaults();
     o.threads = 1;
-    for (uint32_t i = 0; a->judge && i < a->w.count; i++) {
+    for (uint32_t i = 0; a->judge && i < a->w.count; i++, a->judged++) {
         const size_t mark = exact_mark();
         exact_value t;
         if (exact_ray(x, direction, &a->bodies[i], &t))
@@ -189,7 +190,7 @@ static inline void answers_vertical(answers *a, const double *x, int direction) 
     answers_item *sorted = calloc(a->w.count + 1, sizeof *sorted);
     size_t count = 0;
     uint32_t object;
-    for (uint32_t i = 0; a->judge && i < a->w.count; i++) {
+    for (uint32_t i = 0; a->judge && i < a->w.count; i++, a->judged++) {
         const size_t mark = exact_mark();
         exact_value t;
         if (froe_scene_object(a->w.scene, i).kind == FROE_SEGMENT && exact_ray(x, ray, &a->bodies[i], &t))
@@ -380,7 +381,9 @@ static inline void answers_round(answers *a, world_dice *d, int round) {
 
 typedef enum answers_mode { ANSWERS_JUDGE = 1, ANSWERS_EXTREME = 2 } answers_mode;
 
-static inline bool answers_run(froe_query *q, unsigned mode, uint64_t seed, int rounds, char *why, size_t room) {
+/* *judged: grows by how many objects brute force was asked about. */
+static inline bool answers_run(froe_query *q, unsigned mode, uint64_t seed, int rounds, uint64_t *judged, char *why,
+                               size_t room) {
     answers a = {.q = q, .judge = mode & ANSWERS_JUDGE, .why = why, .room = room};
     world_dice d = {seed, 0};
     double lo[FROE_MAX_DIM] = {0}, hi[FROE_MAX_DIM] = {0};
@@ -411,31 +414,41 @@ static inline bool answers_run(froe_query *q, unsigned mode, uint64_t seed, int 
     for (uint32_t i = 0; i < a.w.count && a.w.dim <= 3; i++) oracle_set_free(&a.w.objects[i]);
     free(a.bodies);
     free(a.w.objects);
+    *judged += a.judged;
     return !a.wrong;
 }
 
-static inline bool answers_ask_tree(const froe_tree *tree, unsigned mode, uint64_t seed, int rounds, char *why,
-                                    size_t room) {
+static inline bool answers_ask_tree(const froe_tree *tree, unsigned mode, uint64_t seed, int rounds, uint64_t *judged,
+                                    char *why, size_t room) {
     froe_query *q;
     if (froe_query_new(tree, &q, NULL)) return snprintf(why, room, "no context"), false;
-    const bool right = answers_run(q, mode, seed, rounds, why, room);
+    const bool right = answers_run(q, mode, seed, rounds, judged, why, room);
     froe_query_free(q);
     return right;
 }
 
 /** Are the answers to `rounds` of questions of every kind right? If not, `why` says which is the first wrong one. */
 static inline bool answers_right(const froe_tree *tree, uint64_t seed, int rounds, char *why, size_t room) {
-    return answers_ask_tree(tree, ANSWERS_JUDGE, seed, rounds, why, room);
+    uint64_t judged = 0;
+    return answers_ask_tree(tree, ANSWERS_JUDGE, seed, rounds, &judged, why, room);
+}
+
+/** The same, with places and lengths of every scale if the scene is such; counts what brute force decided. */
+static inline bool answers_judge(const froe_tree *tree, bool extreme, uint64_t seed, int rounds, uint64_t *judged,
+                                 char *why, size_t room) {
+    return answers_ask_tree(tree, ANSWERS_JUDGE | (extreme ? ANSWERS_EXTREME : 0), seed, rounds, judged, why, room);
 }
 
 /** The same by a context, with places and lengths of every scale; without pairs, which take long there. */
 static inline bool answers_right_at_every_scale(froe_query *q, uint64_t seed, int rounds, char *why, size_t room) {
-    return answers_run(q, ANSWERS_JUDGE | ANSWERS_EXTREME, seed, rounds, why, room);
+    uint64_t judged = 0;
+    return answers_run(q, ANSWERS_JUDGE | ANSWERS_EXTREME, seed, rounds, &judged, why, room);
 }
 
 /** Asks the same questions of a tree that may be wrong. */
 static inline void answers_ask(const froe_tree *tree, uint64_t seed, int rounds) {
     char why[40];
-    (void)answers_ask_tree(tree, 0, seed, rounds, why, sizeof why);
+    uint64_t judged = 0;
+    (void)answers_ask_tree(tree, 0, seed, rounds, &judged, why, sizeof why);
 }
 #endif
