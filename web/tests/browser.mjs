@@ -65,6 +65,16 @@ export async function drawn(page) {
     if (wrong) throw new Error(await wrong.evaluate((status) => status.textContent));
 }
 
+/** What each room shows once it is done: a text that differs from scene to scene, or null. */
+export const SHOWN = {
+    draw: () => (document.querySelector(".sheet.drawn") ? document.querySelector(".drawing").alt : null),
+    partition: () => (document.querySelector(".work[hidden]") && document.querySelector(".pane strong") ? document.querySelector(".pane figcaption").textContent : null),
+    ask: () => (document.querySelector("[data-asked]") ? document.querySelector(".status").textContent : null),
+    move: () => (/ so far/.test(document.querySelector(".status")?.textContent) ? document.querySelector(".status").textContent : null),
+};
+/** Waits until a room is done; what it shows then. */
+export const shown = async (page, room) => (await page.waitForFunction(SHOWN[room])).jsonValue();
+
 /** Waits until nothing is built any more, too: the tree that draws stays. */
 export async function settled(page) {
     await drawn(page);

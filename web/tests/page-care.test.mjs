@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { after, before, test as register } from "node:test";
-import { assertHeld, drawn, dropped, held, launch, modules, open, serve } from "./browser.mjs";
+import { assertHeld, drawn, dropped, held, launch, modules, open, serve, shown } from "./browser.mjs";
 
 const axe = readFileSync(modules.resolve("axe-core/axe.min.js"), "utf8");
 const test = (name, body) => register(name, { timeout: 180000 }, body);
@@ -35,9 +35,7 @@ test("a page that was open needs no network", async () => {
     const visit = async (hash) => {
         await page.goto("about:blank");
         await page.goto(own.url + hash);
-        await page.waitForSelector(".stage");
-        if (hash.startsWith("#draw")) await drawn(page);
-        await page.waitForNetworkIdle({ idleTime: 200 });
+        await shown(page, /\w+/.exec(hash)[0]);
     };
     for (const room of ROOMS) await visit(`#${room}`); // samples are kept when they are first used
     own.stop();

@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { after, before, test as register } from "node:test";
-import { assertHeld, drawn, dropped, held, launch, open, said, serve } from "./browser.mjs";
+import { assertHeld, drawn, dropped, held, launch, open, said, serve, SHOWN, shown } from "./browser.mjs";
 
 const data = (name) => readFileSync(new URL(`../../data/${name}`, import.meta.url));
 const test = (name, body) => register(name, { timeout: 120000 }, body);
@@ -12,14 +12,6 @@ before(async () => { site = await serve(); chromium = await launch(); });
 after(async () => { await chromium?.stop(); site?.stop(); });
 const at = (hash, options) => open(chromium.browser, site.url + hash, options);
 
-/* What each room shows once it is done: a text that differs from scene to scene, or null. */
-const SHOWN = {
-    draw: () => (document.querySelector(".sheet.drawn") ? document.querySelector(".drawing").alt : null),
-    partition: () => (document.querySelector(".work[hidden]") && document.querySelector(".pane strong") ? document.querySelector(".pane figcaption").textContent : null),
-    ask: () => (document.querySelector("[data-asked]") ? document.querySelector(".status").textContent : null),
-    move: () => (/ so far/.test(document.querySelector(".status")?.textContent) ? document.querySelector(".status").textContent : null),
-};
-const shown = async (page, room) => (await page.waitForFunction(SHOWN[room])).jsonValue();
 const click = (page, text) => page.$$eval("button", (all, text) => all.find((it) => it.textContent === text).click(), text);
 
 const NONSENSE = {
