@@ -62,6 +62,12 @@ static inline void places_take(places *p, froe_range_shape shape, froe_walk walk
     }
 }
 
+static inline froe_batch_options on_one_thread(void) {
+    froe_batch_options o = froe_batch_defaults();
+    o.threads = 1;
+    return o;
+}
+
 typedef froe_status question_fn(froe_query *q, places *p, told *t);
 
 static inline froe_status ask_ranges(froe_query *q, places *p, told *t) {
@@ -85,8 +91,7 @@ static inline froe_status ask_ranges_of_batches(froe_query *q, places *p, told *
     froe_answers a;
     uint64_t counts[QUESTIONS_EACH] = {0};
     uint32_t any[QUESTIONS_EACH];
-    froe_batch_options o = froe_batch_defaults();
-    o.threads = 1;
+    const froe_batch_options o = on_one_thread();
     froe_status status = froe_batch_range(q, p->ranges, QUESTIONS_EACH, &o, &a, NULL);
     tell_answers(t, status, &a);
     if (!status) status = froe_batch_count(q, p->ranges, QUESTIONS_EACH, &o, counts, NULL);
@@ -97,41 +102,34 @@ static inline froe_status ask_ranges_of_batches(froe_query *q, places *p, told *
     return status;
 }
 
-static inline froe_status ask_points(froe_query *q, places *p, told *t) {
+/* What answers for one point, and for many. */
+typedef froe_status point_fn(froe_query *q, const double *point, froe_list *out, froe_diagnostic *diag);
+typedef froe_status points_fn(froe_query *q, const double *points, size_t count, const froe_batch_options *options,
+                              froe_answers *out, froe_diagnostic *diag);
+static inline froe_status ask_places(froe_query *q, places *p, told *t, point_fn *one, points_fn *many) {
     froe_list list;
     froe_answers a;
-    froe_batch_options o = froe_batch_defaults();
+    const froe_batch_options o = on_one_thread();
     froe_status status = FROE_OK;
-    o.threads = 1;
     for (size_t i = 0; i < QUESTIONS_EACH && !status; i++) {
-        status = froe_query_locate(q, p->x + i * p->dim, &list, NULL);
+        status = one(q, p->x + i * p->dim, &list, NULL);
         tell_list(t, status, &list);
     }
-    if (!status) status = froe_batch_locate(q, p->x, QUESTIONS_EACH, &o, &a, NULL);
+    if (!status) status = many(q, p->x, QUESTIONS_EACH, &o, &a, NULL);
     tell_answers(t, status, &a);
     return status;
 }
-
+static inline froe_status ask_points(froe_query *q, places *p, told *t) {
+    return ask_places(q, p, t, froe_query_locate, froe_batch_locate);
+}
 static inline froe_status ask_groups(froe_query *q, places *p, told *t) {
-    froe_list list;
-    froe_answers a;
-    froe_batch_options o = froe_batch_defaults();
-    froe_status status = FROE_OK;
-    o.threads = 1;
-    for (size_t i = 0; i < QUESTIONS_EACH && !status; i++) {
-        status = froe_query_groups(q, p->x + i * p->dim, &list, NULL);
-        tell_list(t, status, &list);
-    }
-    if (!status) status = froe_batch_groups(q, p->x, QUESTIONS_EACH, &o, &a, NULL);
-    tell_answers(t, status, &a);
-    return status;
+    return ask_places(q, p, t, froe_query_groups, froe_batch_groups);
 }
 
 static inline froe_status ask_relations(froe_query *q, places *p, told *t) {
     froe_list list;
     froe_answers a;
-    froe_batch_options o = froe_batch_defaults();
-    o.threads = 1;
+    const froe_batch_options o = on_one_thread();
     for (froe_relation r = 0; r < FROE_RELATION_COUNT; r++) {
         froe_status status = FROE_OK;
         for (size_t i = 0; i < QUESTIONS_EACH && !status; i++) {
@@ -149,10 +147,9 @@ static inline froe_status ask_relations(froe_query *q, places *p, told *t) {
 
 static inline froe_status ask_join(froe_query *q, places *p, told *t) {
     froe_answers a;
-    froe_batch_options o = froe_batch_defaults();
+    const froe_batch_options o = on_one_thread();
     froe_status status = FROE_OK;
     (void)p;
-    o.threads = 1;
     for (froe_relation r = 0; r < FROE_RELATION_COUNT && !status; r++) {
         status = froe_batch_groups_join(q, q, r, &o, &a, NULL);
         tell_answers(t, status, &a);
@@ -166,9 +163,8 @@ static inline froe_status ask_rays(froe_query *q, places *p, told *t) {
     froe_answers a;
     uint32_t any;
     froe_hit_place place;
-    froe_batch_options o = froe_batch_defaults();
+    const froe_batch_options o = on_one_thread();
     froe_status status = FROE_OK;
-    o.threads = 1;
     for (size_t i = 0; i < QUESTIONS_EACH && !status; i++) {
         const double *origin = p->x + i * p->dim, *way = p->way + i * p->dim;
         status = froe_query_ray(q, origin, way, INFINITY, &hit, NULL);
@@ -192,9 +188,8 @@ static inline froe_status ask_rays(froe_query *q, places *p, told *t) {
 
 static inline froe_status ask_verticals(froe_query *q, places *p, told *t) {
     uint32_t object, many[QUESTIONS_EACH];
-    froe_batch_options o = froe_batch_defaults();
+    const froe_batch_options o = on_one_thread();
     froe_status status = FROE_OK;
-    o.threads = 1;
     for (size_t i = 0; i < 2 * QUESTIONS_EACH && !status; i++) {
         status = froe_query_vertical(q, p->x + i / 2 * p->dim, i % 2 ? 1 : -1, &object, NULL);
         if (!status) tell(t, &object, sizeof object);
@@ -208,9 +203,8 @@ static inline froe_status ask_neighbours(froe_query *q, places *p, told *t) {
     froe_neighbours near;
     froe_answers a;
     double point[FROE_MAX_DIM];
-    froe_batch_options o = froe_batch_defaults();
+    const froe_batch_options o = on_one_thread();
     froe_status status = FROE_OK;
-    o.threads = 1;
     for (size_t i = 0; i < 2 * QUESTIONS_EACH && !status; i++) {
         const double *x = p->x + i / 2 * p->dim;
         status = froe_query_near(q, x, i % 2 ? 1 : 5, i % 3 ? INFINITY : 0.3, &near, NULL);
@@ -233,10 +227,9 @@ static inline bool tell_pair(void *user, const froe_pair *pair) {
 }
 static inline froe_status ask_pairs(froe_query *q, places *p, told *t) {
     froe_pairs pairs;
-    froe_batch_options o = froe_batch_defaults();
+    const froe_batch_options o = on_one_thread();
     told single = 0, batch = 0;
     (void)p;
-    o.threads = 1;
     froe_status status = froe_query_pairs(q, true, tell_pair, &single, NULL);
     if (!status) status = froe_batch_pairs(q, true, &o, tell_pair, &batch, NULL);
     tell(t, &batch, sizeof batch);
