@@ -16,10 +16,18 @@
 
 enum { QUERIES_PER_CHUNK = 256 };
 enum { EXPECT_FROM = 7, EXPECT_MOST = 1 << 24 }; /* queries; ids for which room is made beforehand */
+enum { ID_ROOM = 1, VALUE_ROOM, ROOMS = 2 };     /* behind the starts of answers: how many ids and values have room */
+
+/* What one thread finds. */
+typedef struct batch_found {
+    query_ids ids;
+    ARRAY(double) values;
+    size_t queries; /* answered */
+} batch_found;
 
 typedef struct batch_chunk {
-    const query_batch_found *found; /* of the thread that answered it, */
-    size_t first;                   /* from here on */
+    const batch_found *found; /* of the thread that answered it, */
+    size_t first;             /* from here on */
     froe_diagnostic diag;
 } batch_chunk;
 
@@ -53,17 +61,17 @@ struct batch {
     value_fn *value;   /* NULL: answers are ids alone */
     size_t count, chunk_count;
     batch_chunk *chunks;
-    query_batch_found *found; /* [thread] */
-    query_batch_found all;    /* gathered */
-    size_t *starts;           /* of answers; from 1 on how many each query has, until they are summed up. NULL: none */
+    batch_found *found; /* [thread] */
+    batch_found all;    /* gathered */
+    size_t *starts;     /* of answers; from 1 on how many each query has, until they are summed up. NULL: none */
 };
 
 void froe_answers_free(froe_answers *answers) {
     if (!answers || !answers->starts) return;
-    const size_t ids = answers->starts[answers->queries];
-    support_free(&answers->alloc, answers->ids, (ids ? ids : 1) * sizeof *answers->ids);
-    support_free(&answers->alloc, answers->values, (ids ? ids : 1) * sizeof *answers->values);
-    support_free(&answers->alloc, answers->starts, (answers->queries + 1) * sizeof *answers->starts);
+    const size_t *end = answers->starts + answers->queries;
+    support_free(&answers->alloc, answers->ids, end[ID_ROOM] * sizeof *answers->ids);
+    support_free(&answers->alloc, answers->values, end[VALUE_ROOM] * sizeof *answers->values);
+    support_free(&answers->alloc, answers->starts, (answers->queries + 1 + ROOMS) * sizeof *answers->starts);
     *answers = (froe_answers){0};
 }
 
@@ -200,7 +208,7 @@ static froe_status check_all(const batch *b, froe_query *q, size_t first, size_t
 
 /* Makes room for what the thread will find, if its further queries find as much as those before. An array that grows
  * bit by bit is copied again and again, all of its room each time. Few queries say little of many. */
-static void expect_as_much(const batch *b, const froe_query *q, query_batch_found *found) {
+static void expect_as_much(const batch *b, const froe_query *q, batch_found *found) {
     const size_t share = b->count / b->workers.count, left = share > found->queries ? share - found->queries : 0;
     const double ids = (double)found->ids.count, queries = (double)found->queries;
     if (!found->queries || !b->starts || (found->queries < EXPECT_FROM && left > 2 * EXPECT_FROM)) return;
@@ -230,7 +238,7 @@ static bool is_plain(const double *box) {
 
 /* What the context finds goes to the thread's answers. */
 static froe_status answer_windows(const batch *b, froe_query *q, size_t first, size_t end, const double *const *windows,
-                                  query_batch_found *found, froe_diagnostic *diag) {
+                                  batch_found *found, froe_diagnostic *diag) {
     froe_status status = FROE_OK;
     for (size_t i = first; i < end && !status; i++) {
         if (b->boxes && is_plain(windows[i - first])) continue;
@@ -254,7 +262,7 @@ static froe_status answer_windows(const batch *b, froe_query *q, size_t first, s
 }
 
 /* What is nearest to the points, which have been checked, by blocks. */
-static froe_status answer_near(const batch *b, froe_query *q, size_t first, size_t end, query_batch_found *found,
+static froe_status answer_near(const batch *b, froe_query *q, size_t first, size_t end, batch_found *found,
                                froe_diagnostic *diag) {
     expect_as_much(b, q, found);
     for (size_t at = first, count; at < end; at += count) {
@@ -275,7 +283,7 @@ static froe_status answer_near(const batch *b, froe_query *q, size_t first, size
     return FROE_OK;
 }
 
-static froe_status answer_one_by_one(const batch *b, froe_query *q, size_t first, size_t end, query_batch_found *found,
+static froe_status answer_one_by_one(const batch *b, froe_query *q, size_t first, size_t end, batch_found *found,
                                      froe_diagnostic *diag) {
     query_leaf leaves[QUERIES_PER_CHUNK];
     /* The leaves of all points are found together, so that their cache misses overlap. */
@@ -305,7 +313,7 @@ static froe_status answer_chunk(void *user, unsigned worker, size_t job) {
     const batch *b = user;
     froe_query *q = b->workers.queries[worker];
     batch_chunk *c = b->chunks + job;
-    query_batch_found *found = b->found + worker;
+    batch_found *found = b->found + worker;
     const size_t first = job * QUERIES_PER_CHUNK, left = b->count - first;
     const size_t end = first + (left < QUERIES_PER_CHUNK ? left : QUERIES_PER_CHUNK);
     const double *points = b->points ? point_of(b, b->points, first) : NULL, *windows[QUERIES_PER_CHUNK];
@@ -331,13 +339,15 @@ static froe_status answer_chunk(void *user, unsigned worker, size_t job) {
 
 /* --------------------------------------------------------------- gathering -- */
 
-/* Room for exactly `count` items, or one: froe_answers_free() gives back no more. */
-static bool fit(const froe_allocator *alloc, void **data, size_t *capacity, size_t count, size_t size) {
-    const size_t room = count ? count : 1;
-    void *fitted = *capacity == room ? *data : support_realloc(alloc, *data, *capacity * size, room * size);
-    if (!fitted) return false;
-    *data = fitted;
-    *capacity = room;
+/* Room for all answers, and for one where there are none. Where a quarter or more is not used, that is given back. Less
+ * stays: malloc() hands out the pages of an array again, once they are free, for the next one that is no larger. */
+static bool settle_room(const batch *b, batch_found *all, size_t total) {
+    const froe_allocator *alloc = &b->query->alloc;
+    const size_t room = total ? total : 1;
+    if (!all->ids.capacity && !array_reserve(alloc, &all->ids, room)) return false;
+    if (b->value && !all->values.capacity && !array_reserve(alloc, &all->values, room)) return false;
+    if (all->ids.capacity - total >= all->ids.capacity / 4) array_shrink(alloc, &all->ids);
+    if (all->values.capacity - total >= all->values.capacity / 4) array_shrink(alloc, &all->values);
     return true;
 }
 
@@ -353,47 +363,31 @@ static froe_status gather_chunk(void *user, unsigned worker, size_t job) {
     return FROE_OK;
 }
 
-/* A context lends its arrays to a batch: fresh pages cost as much as the answers of windows of 1,000. Larger ones are
- * mappings of their own (support/pages.c), and not kept. */
-enum { MOST_KEPT = 4 << 20 };
-
-static void take_arrays(froe_query *q, query_batch_found *found) {
-    *found = q->batch;
-    q->batch = (query_batch_found){0};
-    found->ids.count = found->values.count = found->queries = 0;
-}
-
-static void give_arrays(froe_query *q, query_batch_found *found) {
-    const size_t values = found->values.capacity * sizeof *found->values.data;
-    if (found->ids.capacity * sizeof *found->ids.data >= MOST_KEPT || values >= MOST_KEPT)
-        query_batch_free(found, &q->alloc);
-    query_batch_free(&q->batch, &q->alloc);
-    q->batch = *found;
+static void free_found(batch_found *found, const froe_allocator *alloc) {
+    array_free(alloc, &found->ids);
+    array_free(alloc, &found->values);
 }
 
 /* The thread that found all, or NULL. */
-static query_batch_found *only_finder(const batch *b, size_t total) {
+static batch_found *only_finder(const batch *b, size_t total) {
     for (unsigned i = 0; i < b->workers.count; i++)
         if (b->found[i].ids.count == total) return b->found + i;
     return NULL;
 }
 
-/* Answers of one thread that are large are handed over with their pages; others are copied to an array of their size,
- * so that the thread's stays with its context. */
+/* Answers of one thread are handed over with the array that they were found in: a copy would be a tenth of the time of
+ * large ones. */
 static froe_status gather_answers(batch *b, froe_answers *out) {
-    const froe_allocator *alloc = &b->query->alloc;
     for (size_t i = 0; i < b->count; i++) b->starts[i + 1] += b->starts[i];
     const size_t total = b->starts[b->count];
-    query_batch_found *one = only_finder(b, total);
-    const bool over = one && total * sizeof(uint32_t) >= MOST_KEPT;
-    query_batch_found *all = over ? one : &b->all;
-    if (!fit(alloc, (void **)&all->ids.data, &all->ids.capacity, total, sizeof(uint32_t)) ||
-        (b->value && !fit(alloc, (void **)&all->values.data, &all->values.capacity, total, sizeof(double))))
-        return FROE_E_MEMORY;
-    const froe_status status = over ? FROE_OK : base_run(&b->workers.task, 0, b->chunk_count, gather_chunk, b);
+    batch_found *one = only_finder(b, total), *all = one ? one : &b->all;
+    if (!settle_room(b, all, total)) return FROE_E_MEMORY;
+    const froe_status status = one ? FROE_OK : base_run(&b->workers.task, 0, b->chunk_count, gather_chunk, b);
     if (status) return status;
-    *out = (froe_answers){b->starts, all->ids.data, all->values.data, b->count, *alloc};
-    *all = (query_batch_found){0};
+    b->starts[b->count + ID_ROOM] = all->ids.capacity;
+    b->starts[b->count + VALUE_ROOM] = all->values.capacity;
+    *out = (froe_answers){b->starts, all->ids.data, all->values.data, b->count, b->query->alloc};
+    *all = (batch_found){0};
     b->starts = NULL;
     return FROE_OK;
 }
@@ -416,9 +410,8 @@ static froe_status ask_all(batch *b, const froe_batch_options *options, froe_ans
     if (status) return status;
     b->found = support_calloc(alloc, b->workers.count, sizeof *b->found);
     b->chunks = support_calloc(alloc, b->chunk_count, sizeof *b->chunks);
-    if (out) b->starts = support_calloc(alloc, b->count + 1, sizeof *b->starts);
+    if (out) b->starts = support_calloc(alloc, b->count + 1 + ROOMS, sizeof *b->starts);
     if (!b->found || !b->chunks || (out && !b->starts)) return support_fail_memory(diag);
-    for (unsigned i = 0; i < b->workers.count; i++) take_arrays(b->workers.queries[i], b->found + i);
     status = base_run(&b->workers.task, 1, b->chunk_count, answer_chunk, b);
     if (!status && out) status = gather_answers(b, out);
     if (status) explain_failure(b, status, diag);
@@ -431,11 +424,11 @@ static froe_status run_batch(batch *b, const froe_batch_options *options, froe_a
     if (b->count > UINT32_MAX - 1) return support_fail(diag, FROE_E_LIMIT, "A batch has at most 2^32 - 2 queries.");
     b->chunk_count = (b->count + QUERIES_PER_CHUNK - 1) / QUERIES_PER_CHUNK;
     const froe_status status = ask_all(b, options, out, diag);
-    for (unsigned i = 0; b->found && i < b->workers.count; i++) give_arrays(b->workers.queries[i], b->found + i);
-    query_batch_free(&b->all, alloc);
+    for (unsigned i = 0; b->found && i < b->workers.count; i++) free_found(b->found + i, alloc);
+    free_found(&b->all, alloc);
     support_free(alloc, b->found, b->workers.count * sizeof *b->found);
     support_free(alloc, b->chunks, b->chunk_count * sizeof *b->chunks);
-    support_free(alloc, b->starts, (b->count + 1) * sizeof *b->starts);
+    support_free(alloc, b->starts, (b->count + 1 + ROOMS) * sizeof *b->starts);
     for (unsigned i = 0; b->asking && i < b->workers.count; i++) {
         query_groups_work *work = &b->workers.queries[i]->work;
         froe_query_free(work->questions);

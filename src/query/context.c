@@ -81,7 +81,6 @@ void froe_query_free(froe_query *query) {
     query_groups_work_free(&query->work, &alloc);
     space_work_free(query->space, &alloc);
     array_free(&alloc, &query->found);
-    query_batch_free(&query->batch, &alloc);
     support_free(&alloc, query, sizeof *query);
 }
 

@@ -46,17 +46,6 @@ typedef struct query_shared {
 
 typedef ARRAY(uint32_t) query_ids;
 
-/** What one context finds of a batch. */
-typedef struct query_batch_found {
-    query_ids ids;
-    ARRAY(double) values;
-    size_t queries; /**< answered */
-} query_batch_found;
-static inline void query_batch_free(query_batch_found *found, const froe_allocator *alloc) {
-    array_free(alloc, &found->ids);
-    array_free(alloc, &found->values);
-}
-
 struct froe_query {
     const froe_tree *tree;
     froe_allocator alloc;
@@ -76,11 +65,10 @@ struct froe_query {
     struct space_work *space;   /**< packed trees of space only (query/packed/space.h) */
     struct {
         query_members inside, touched;
-        const double *from;  /**< the reference whose way to the point was followed; NULL: none was needed */
-    } groups;                /**< of a point, while it is looked for (query/point/areas.h) */
-    query_groups_work work;  /**< of relations (query/groups/region.h) */
-    query_ids found;         /**< objects reported by the query in progress, or by the last one */
-    query_batch_found batch; /**< arrays of the last batch, for the next one */
+        const double *from; /**< the reference whose way to the point was followed; NULL: none was needed */
+    } groups;               /**< of a point, while it is looked for (query/point/areas.h) */
+    query_groups_work work; /**< of relations (query/groups/region.h) */
+    query_ids found;        /**< objects reported by the query in progress, or by the last one */
 };
 
 /** Makes one; *out has what was taken also on failure, for query_part's free (which must bear that). */
