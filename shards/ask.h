@@ -49,6 +49,7 @@ struct shards_question {
     int way;                           /**< up or down */
     bool groups;                       /**< answers are groups */
     froe_relation relation;
+    const froe_query *asking; /**< whose groups are the questions */
     froe_allocator alloc;
 };
 

@@ -91,6 +91,13 @@ static froe_status ask_related(const shards_question *q, froe_query *query, cons
     return status;
 }
 
+/* A shard that is asked one group of a tree is asked all of them: they have the same box. */
+static froe_status ask_join(const shards_question *q, froe_query *query, const size_t *which, size_t count,
+                            const froe_batch_options *o, froe_answers *out, froe_diagnostic *diag) {
+    (void)which, (void)count;
+    return froe_batch_groups_join(query, q->asking, q->relation, o, out, diag);
+}
+
 static froe_status ask_near(const shards_question *q, froe_query *query, const size_t *which, size_t count,
                             const froe_batch_options *o, froe_answers *out, froe_diagnostic *diag) {
     double *rows = gather_rows(q, q->points, (size_t)q->dim, which, count);
@@ -167,6 +174,12 @@ static void box_of_box(const shards_question *q, size_t i, double *lo, double *h
     const size_t dim = (size_t)q->dim;
     memcpy(lo, q->points + 2 * i * dim, dim * sizeof *lo);
     memcpy(hi, q->points + (2 * i + 1) * dim, dim * sizeof *hi);
+}
+
+/* The same for all questions. */
+static void box_of_all(const shards_question *q, size_t i, double *lo, double *hi) {
+    (void)i;
+    box_of_box(q, 0, lo, hi);
 }
 
 static void box_of_point(const shards_question *q, size_t i, double *lo, double *hi) {
@@ -379,6 +392,28 @@ froe_status froe_shards_groups_range(froe_shards *s, const froe_range *ranges, s
     q.ranges = ranges;
     q.relation = relation;
     return find_groups(s, &q, options, out, diag);
+}
+
+froe_status froe_shards_groups_join(froe_shards *s, const froe_tree *questions, froe_relation relation,
+                                    const froe_batch_options *options, froe_finds *out, froe_diagnostic *diag) {
+    SUPPORT_FLOATS_OWN;
+    if (refuse_null(s, questions, 1, out, __func__, diag)) return FROE_E_ARG;
+    const froe_scene *scene = froe_tree_scene(questions);
+    double bounds[2 * FROE_MAX_DIM] = {0};
+    froe_query *asking;
+    if (froe_scene_dim(scene) != 2)
+        return support_fail(diag, FROE_E_UNSUPPORTED, "Groups are areas in the plane only.");
+    (void)froe_scene_bounds(scene, bounds, bounds + 2); /* of no objects: any place does */
+    froe_status status = froe_query_new(questions, &asking, diag);
+    if (status) return status;
+    shards_question q = question_of(s, froe_scene_group_count(scene), ask_join);
+    q.box = box_of_all;
+    q.points = bounds;
+    q.asking = asking;
+    q.relation = relation;
+    status = find_groups(s, &q, options, out, diag);
+    froe_query_free(asking);
+    return status;
 }
 
 froe_status froe_shards_vertical(froe_shards *s, const double *points, size_t count, int direction,

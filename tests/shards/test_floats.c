@@ -110,6 +110,7 @@ static void areas(floats_run *r, void *user) {
     froe_shards *shards;
     froe_finds finds;
     froe_query *query;
+    const froe_tree *tree;
     uint32_t id;
     (void)user;
     batch.kind = FROE_SEGMENT, batch.count = 7, batch.coords = edges, batch.groups = groups, batch.faces = faces;
@@ -129,6 +130,9 @@ static void areas(floats_run *r, void *user) {
     assert_int_equal(finds.starts[2], 3);
     note_finds(r, &finds);
     MUST(r, froe_shards_groups_range(shards, &range, 1, FROE_MEETS, NULL, &finds, NULL));
+    note_finds(r, &finds);
+    MUST(r, froe_shards_tree(shards, 0, &tree, NULL));
+    MUST(r, froe_shards_groups_join(shards, tree, FROE_MEETS, NULL, &finds, NULL));
     note_finds(r, &finds);
     froe_shards_close(shards);
     froe_scene_free(scene);

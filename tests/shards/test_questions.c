@@ -1,29 +1,67 @@
 /* test_questions.c: folders of 1, 2, 7 and 64 shards answer every question as a single tree does, also where cuts go
- * through corners of objects and of questions. With a number as argument: so many objects of every kind, in all of
- * these folders. */
+ * through corners of objects and of questions. With a number as argument: so many objects of every kind, as dense, in
+ * all of these folders, more questions, and a row of Markdown for each folder that says what was compared. A kind of
+ * test as a second argument: no other ("*space"). */
 #include "shards/folders.h"
 #include "shards/plan.h"
 #include <froe/shard_parts.h>
 #include <math.h>
 
-enum { MOST = 24, QUESTIONS = 200 };
-static size_t object_count = 400;
+enum { USUAL = 400, QUESTIONS = 200, EDGES = 6, CLOSE = 10000 };
+static size_t object_count = USUAL;
 static bool thorough;
 
 /* ------------------------------------------------------------------- worlds -- */
 
 /* The same objects as a single tree, in the order of their tags, and as a folder. */
 typedef struct world {
-    int dim;
+    int dim, most; /* coordinates are 0 to `most`, about */
+    bool areas;    /* every EDGES segments are two triangles of a group */
     froe_scene *scene;
     froe_tree *tree;
     froe_query *query;
     froe_shards *shards;
-    uint64_t state; /* of random numbers */
+    uint64_t state;                     /* of random numbers */
+    uint64_t questions, answers, pairs; /* compared so far */
 } world;
 
+/* 24 for 400 objects; as dense with more of them. */
+static int lattice_of(int dim) {
+    return (int)(24 * pow((double)object_count / USUAL, 1.0 / dim));
+}
+
+/* Groups of two triangles, which lie beside each other, one in the other, or cross. Tags ascend. */
+static one_object *lattice_areas(int most, uint64_t seed) {
+    one_object *list = calloc(object_count, sizeof *list);
+    assert_non_null(list);
+    uint64_t state = seed;
+    for (size_t i = 0; i < object_count; i += EDGES) {
+        double from[2], corner[3][2];
+        for (int a = 0; a < 2; a++) from[a] = on_lattice(&state, most);
+        for (size_t e = 0; e < EDGES; e++) {
+            for (int a = 0; a < 2 && e % 3 == 0; a++) {
+                corner[0][a] = from[a] + on_lattice(&state, 3);
+                corner[1][a] = corner[0][a] + on_lattice(&state, 4) + !a;
+                corner[2][a] = corner[0][a] + on_lattice(&state, 4) + a;
+            }
+            list[i + e] = (one_object){.kind = FROE_SEGMENT, .corners = 2, .tag = 3 * (i + e) + 5};
+            memcpy(list[i + e].at, corner[e % 3], sizeof *corner);
+            memcpy(list[i + e].at + 2, corner[(e + 1) % 3], sizeof *corner);
+        }
+    }
+    return list;
+}
+
+/* Object i as a batch. */
+static froe_objects batch_in(bool areas, const one_object *list, size_t i, size_t starts[2], uint32_t *face) {
+    froe_objects batch = batch_of(list + i, starts);
+    *face = (uint32_t)(i / 3 * 3);
+    if (areas) batch.group = (uint32_t)(i / EDGES), batch.faces = face;
+    return batch;
+}
+
 /* Cuts at whole numbers, where corners of lattice objects lie: axis after axis, each cell halved. */
-static froe_shard_plan *plan_on_lattice(int dim, uint32_t shards) {
+static froe_shard_plan *plan_on_lattice(int dim, int most, uint32_t shards) {
     const froe_allocator alloc = support_allocator(NULL);
     froe_shard_plan *plan = shards_plan_make(dim, &alloc);
     struct part {
@@ -32,7 +70,7 @@ static froe_shard_plan *plan_on_lattice(int dim, uint32_t shards) {
         double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
     } stack[64], part = {.shards = shards};
     int depth = 0;
-    for (int a = 0; a < dim; a++) part.hi[a] = MOST;
+    for (int a = 0; a < dim; a++) part.hi[a] = most;
     stack[depth++] = part;
     while (depth) {
         part = stack[--depth];
@@ -56,12 +94,30 @@ static froe_status gather(void *user, const void *records, size_t count) {
     return froe_shard_records_append(user, records, count, NULL);
 }
 
-/* Builds a folder with a plan of the test's own. */
-static void build_by_plan(const char *path, froe_shard_plan *plan, const one_object *list) {
+/* The box of an object, or of its group. */
+static void box_of_all(const one_object *list, bool areas, size_t i, double *lo, double *hi, int dim) {
+    for (size_t j = areas ? i / EDGES * EDGES : i, end = areas ? j + EDGES : i + 1, first = j; j < end; j++) {
+        froe_shard_records one = {0};
+        size_t starts[2];
+        double a[FROE_MAX_DIM], b[FROE_MAX_DIM];
+        const froe_objects batch = batch_of(list + j, starts);
+        assert_int_equal(froe_shard_records_add(&one, dim, &batch, 0, NULL), FROE_OK);
+        froe_shard_record_box(one.bytes, a, b);
+        for (int k = 0; k < dim; k++) {
+            lo[k] = j == first || a[k] < lo[k] ? a[k] : lo[k];
+            hi[k] = j == first || b[k] > hi[k] ? b[k] : hi[k];
+        }
+        froe_shard_records_free(&one);
+    }
+}
+
+/* Builds a folder with a plan of the test's own; `areas`: the scene whose groups the objects have, or NULL. */
+static void build_by_plan(const char *path, froe_shard_plan *plan, const one_object *list, const froe_scene *areas) {
     froe_shard_draft *draft;
     froe_shard_buckets *buckets;
     froe_shard_entry entries[64];
     const froe_shards_options o = froe_shards_defaults();
+    plan->areas = areas != NULL;
     assert_int_equal(froe_shard_draft_begin(path, NULL, &draft, NULL), FROE_OK);
     assert_int_equal(froe_shard_buckets_new(froe_shard_draft_folder(draft), plan->count, NULL, &buckets, NULL),
                      FROE_OK);
@@ -69,10 +125,10 @@ static void build_by_plan(const char *path, froe_shard_plan *plan, const one_obj
         froe_shard_records one = {0};
         size_t starts[2];
         double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
-        uint32_t cells[64];
-        const froe_objects batch = batch_of(list + i, starts);
+        uint32_t cells[64], face;
+        const froe_objects batch = batch_in(areas, list, i, starts, &face);
         assert_int_equal(froe_shard_records_add(&one, plan->dim, &batch, 0, NULL), FROE_OK);
-        froe_shard_record_box(one.bytes, lo, hi);
+        box_of_all(list, areas, i, lo, hi, plan->dim);
         const uint32_t count = froe_shard_plan_cells(plan, lo, hi, cells);
         for (uint32_t c = 0; c < count; c++)
             assert_int_equal(froe_shard_buckets_add(buckets, cells[c], one.bytes, one.count, NULL), FROE_OK);
@@ -82,7 +138,7 @@ static void build_by_plan(const char *path, froe_shard_plan *plan, const one_obj
         froe_shard_records records = {0};
         assert_int_equal(froe_shard_buckets_take(buckets, s, gather, &records, NULL), FROE_OK);
         assert_int_equal(
-            froe_shard_build(&records, plan, s, NULL, &o, froe_shard_draft_folder(draft), &entries[s], NULL), FROE_OK);
+            froe_shard_build(&records, plan, s, areas, &o, froe_shard_draft_folder(draft), &entries[s], NULL), FROE_OK);
         froe_shard_records_free(&records);
     }
     assert_int_equal(froe_shard_manifest_write(plan, entries, froe_shard_draft_folder(draft), NULL, NULL), FROE_OK);
@@ -91,27 +147,54 @@ static void build_by_plan(const char *path, froe_shard_plan *plan, const one_obj
     froe_shard_plan_free(plan);
 }
 
+static void build_from_scene(const char *path, const froe_scene *scene, const froe_shards_options *o) {
+    froe_shards_builder *builder;
+    assert_int_equal(froe_shards_begin(path, froe_scene_dim(scene), o, &builder, NULL), FROE_OK);
+    assert_int_equal(froe_shards_add_scene(builder, scene, NULL), FROE_OK);
+    assert_int_equal(froe_shards_finish(builder, NULL, NULL), FROE_OK);
+}
+
+/* The objects in the order of their tags. */
+static froe_scene *scene_of(int dim, bool areas, one_object *list) {
+    froe_scene *scene;
+    uint32_t id;
+    qsort(list, object_count, sizeof *list, by_tag_of_object);
+    assert_int_equal(froe_scene_new(dim, NULL, &scene), FROE_OK);
+    for (size_t i = 0; i < object_count && areas; i += EDGES)
+        assert_int_equal(froe_scene_add_group(scene, &(froe_group){.name = "area"}, &id), FROE_OK);
+    for (size_t i = 0; i < object_count; i++) {
+        size_t starts[2];
+        uint32_t face;
+        const froe_objects batch = batch_in(areas, list, i, starts, &face);
+        assert_int_equal(froe_scene_add(scene, &batch, NULL), FROE_OK);
+    }
+    return scene;
+}
+
+static froe_tree *tree_of(froe_scene *scene) {
+    froe_tree *tree;
+    froe_build_options b = froe_build_defaults();
+    b.purpose = "query";
+    assert_int_equal(froe_build(scene, &b, &tree, NULL), FROE_OK);
+    return tree;
+}
+
 /* shards > 0: cut at medians; < 0: so many, cut at whole numbers. */
-static world make_world(int dim, froe_kind kind, int shards, uint64_t seed) {
-    world w = {.dim = dim, .state = seed};
-    one_object *list = lattice_objects(dim, kind, object_count, MOST, seed);
+static world make_world(int dim, froe_kind kind, bool areas, int shards, uint64_t seed) {
+    world w = {.dim = dim, .most = lattice_of(dim), .areas = areas, .state = seed};
+    one_object *list = areas ? lattice_areas(w.most, seed) : lattice_objects(dim, kind, object_count, w.most, seed);
     froe_shards_options o = froe_shards_defaults();
     o.shards = (uint32_t)abs(shards);
+    if (areas) w.scene = scene_of(dim, areas, list);
     if (shards < 0)
-        build_by_plan("asked.froes", plan_on_lattice(dim, o.shards), list);
+        build_by_plan("asked.froes", plan_on_lattice(dim, w.most, o.shards), list, w.scene);
+    else if (areas)
+        build_from_scene("asked.froes", w.scene, &o);
     else
         assert_int_equal(build_folder("asked.froes", dim, list, object_count, &o, NULL, NULL), FROE_OK);
     assert_int_equal(froe_shards_open("asked.froes", NULL, &w.shards, NULL), FROE_OK);
-    qsort(list, object_count, sizeof *list, by_tag_of_object);
-    assert_int_equal(froe_scene_new(dim, NULL, &w.scene), FROE_OK);
-    for (size_t i = 0; i < object_count; i++) {
-        size_t starts[2];
-        const froe_objects batch = batch_of(list + i, starts);
-        assert_int_equal(froe_scene_add(w.scene, &batch, NULL), FROE_OK);
-    }
-    froe_build_options b = froe_build_defaults();
-    b.purpose = "query";
-    assert_int_equal(froe_build(w.scene, &b, &w.tree, NULL), FROE_OK);
+    if (!areas) w.scene = scene_of(dim, areas, list);
+    w.tree = tree_of(w.scene);
     assert_int_equal(froe_query_new(w.tree, &w.query, NULL), FROE_OK);
     free(list);
     return w;
@@ -136,8 +219,10 @@ static int by_id(const void *a, const void *b) {
 }
 
 /* Ids ascend with tags. */
-static void compare_finds(const world *w, froe_answers *tree, froe_finds *folder, bool ordered) {
+static void compare_finds(world *w, froe_answers *tree, froe_finds *folder, bool ordered) {
     assert_int_equal(tree->queries, folder->questions);
+    w->questions += tree->queries;
+    w->answers += tree->starts[tree->queries];
     for (size_t i = 0; i < tree->queries; i++) {
         const size_t first = tree->starts[i], count = tree->starts[i + 1] - first;
         assert_int_equal(folder->starts[i + 1] - folder->starts[i], count);
@@ -156,7 +241,7 @@ static void compare_finds(const world *w, froe_answers *tree, froe_finds *folder
 }
 
 static double halves(world *w) {
-    return on_lattice(&w->state, 2 * MOST) / 2;
+    return on_lattice(&w->state, 2 * w->most) / 2;
 }
 
 static double *random_points(world *w, size_t count) {
@@ -168,26 +253,24 @@ static double *random_points(world *w, size_t count) {
 
 /* ---------------------------------------------------------------- questions -- */
 
-static void compare_ranges(world *w) {
-    enum { POINTS = FROE_MAX_DIM + 1 };
+enum { CORNERS = FROE_MAX_DIM + 1 }; /* of a range, at most */
+
+/* Ranges of the shapes of a set, most of them small: halfspaces always have many answers, so that there are few. */
+static void random_ranges(world *w, unsigned shapes, froe_range *ranges, double *points, double *offsets) {
     const size_t dim = (size_t)w->dim;
-    froe_range *ranges = calloc(QUESTIONS, sizeof *ranges);
-    double *points = random_points(w, QUESTIONS * POINTS), *offsets = random_points(w, QUESTIONS);
-    uint64_t expected[QUESTIONS], counts[QUESTIONS];
-    froe_find any[QUESTIONS];
-    froe_answers answers;
-    froe_finds finds;
     for (size_t i = 0; i < QUESTIONS; i++) {
         froe_range *r = ranges + i;
-        double *p = points + i * POINTS * dim;
+        double *p = points + i * CORNERS * dim;
         *r = froe_range_defaults();
         do r->shape = (froe_range_shape)(next_random(&w->state) % FROE_SHAPE_COUNT);
-        while (dim > 3 && r->shape == FROE_SHAPE_RAY);
+        while (!(shapes >> r->shape & 1) || (object_count > CLOSE && i % 25 && r->shape == FROE_SHAPE_HALFSPACES));
         r->points = p;
         r->count = r->shape == FROE_SHAPE_HULL || r->shape == FROE_SHAPE_HALFSPACES ? 3 : 0;
         r->radius = on_lattice(&w->state, 8) / 2;
         r->offsets = offsets + i;
-        for (size_t a = 0; a < dim; a++) { /* small, but for some */
+        for (size_t c = 1; c < CORNERS && i % 9; c++)
+            for (size_t a = 0; a < dim; a++) p[c * dim + a] = p[a] + on_lattice(&w->state, 16) / 2 - 4;
+        for (size_t a = 0; a < dim; a++) {
             const double wide = i % 9 ? on_lattice(&w->state, 6) / 2 : on_lattice(&w->state, 30);
             if (r->shape == FROE_SHAPE_BOX || r->shape == FROE_SHAPE_SEGMENT) p[dim + a] = p[a] + wide;
             if (r->shape == FROE_SHAPE_RAY || r->shape == FROE_SHAPE_HALFSPACES) p[dim + a] = wide - 2;
@@ -195,6 +278,17 @@ static void compare_ranges(world *w) {
         if (r->shape == FROE_SHAPE_RAY) p[dim] += p[dim] == 0;
         if (r->shape == FROE_SHAPE_BOX && i % 7 == 0) p[dim] = INFINITY;
     }
+}
+
+static void compare_ranges(world *w) {
+    const unsigned all = (1U << FROE_SHAPE_COUNT) - 1, shapes = w->dim > 3 ? all & ~(1U << FROE_SHAPE_RAY) : all;
+    froe_range *ranges = calloc(QUESTIONS, sizeof *ranges);
+    double *points = random_points(w, QUESTIONS * CORNERS), *offsets = random_points(w, QUESTIONS);
+    uint64_t expected[QUESTIONS], counts[QUESTIONS];
+    froe_find any[QUESTIONS];
+    froe_answers answers;
+    froe_finds finds;
+    random_ranges(w, shapes, ranges, points, offsets);
     assert_int_equal(froe_batch_range(w->query, ranges, QUESTIONS, NULL, &answers, NULL), FROE_OK);
     assert_int_equal(froe_shards_range(w->shards, ranges, QUESTIONS, NULL, &finds, NULL), FROE_OK);
     compare_finds(w, &answers, &finds, false);
@@ -309,6 +403,7 @@ static void compare_pairs(world *w) {
         assert_non_null(found.pairs);
         assert_int_equal(froe_shards_pairs(w->shards, shared, NULL, keep_pair, &found, NULL), FROE_OK);
         assert_int_equal(found.count, pairs.count);
+        w->pairs += pairs.count;
         qsort(found.pairs, found.count, sizeof *found.pairs, by_pair);
         for (size_t i = 0; i < pairs.count; i++) {
             assert_int_equal(found.pairs[i][0], tag_of(w, pairs.pairs[i].a));
@@ -320,37 +415,125 @@ static void compare_pairs(world *w) {
     }
 }
 
-static void compare_everything(int dim, froe_kind kind) {
-    static const int shards[] = {7, -7, -2, 64, -64, 1, 2};
-    const size_t folders = thorough ? 7 : kind == FROE_KIND_COUNT ? 5 : 2;
-    for (size_t i = 0; i < folders; i++) {
-        world w = make_world(dim, kind, shards[i], 1 + i + 10 * (uint64_t)kind);
-        const froe_shards_info info = froe_shards_about(w.shards);
-        assert_int_equal(info.objects, object_count);
-        assert_int_equal(froe_shards_check(w.shards, NULL, NULL), FROE_OK);
+/* --------------------------------------------------------------------- areas -- */
+
+/* Numbers of groups. */
+static void compare_groups(world *w, froe_answers *tree, froe_finds *folder) {
+    assert_int_equal(tree->queries, folder->questions);
+    w->questions += tree->queries;
+    w->answers += tree->starts[tree->queries];
+    for (size_t i = 0; i <= tree->queries; i++) assert_int_equal(tree->starts[i], folder->starts[i]);
+    for (size_t i = 0; i < tree->starts[tree->queries]; i++) {
+        assert_int_equal(folder->items[i].tag, tree->ids[i]);
+        assert_int_equal(folder->items[i].object, FROE_NONE);
+    }
+    froe_answers_free(tree);
+    froe_finds_free(folder);
+}
+
+/* Which shapes a relation can be asked of. */
+static const unsigned related[] = {[FROE_MEETS] = ~(1U << FROE_SHAPE_HALFSPACES),
+                                   [FROE_WITHIN] = ~(1U << FROE_SHAPE_HALFSPACES | 1U << FROE_SHAPE_RAY),
+                                   [FROE_COVERS] = 1U << FROE_SHAPE_BOX | 1U << FROE_SHAPE_SIMPLEX |
+                                                   1U << FROE_SHAPE_HULL | 1U << FROE_SHAPE_SEGMENT};
+
+static void compare_areas(world *w) {
+    double *points = random_points(w, QUESTIONS);
+    froe_answers answers;
+    froe_finds finds;
+    assert_int_equal(froe_batch_groups(w->query, points, QUESTIONS, NULL, &answers, NULL), FROE_OK);
+    assert_int_equal(froe_shards_groups(w->shards, points, QUESTIONS, NULL, &finds, NULL), FROE_OK);
+    compare_groups(w, &answers, &finds);
+    for (froe_relation r = FROE_MEETS; r < FROE_RELATION_COUNT; r++) {
+        double *corners = random_points(w, QUESTIONS * CORNERS);
+        froe_range ranges[QUESTIONS];
+        random_ranges(w, related[r], ranges, corners, corners);
+        assert_int_equal(froe_batch_groups_range(w->query, ranges, QUESTIONS, r, NULL, &answers, NULL), FROE_OK);
+        assert_int_equal(froe_shards_groups_range(w->shards, ranges, QUESTIONS, r, NULL, &finds, NULL), FROE_OK);
+        compare_groups(w, &answers, &finds);
+        free(corners);
+    }
+    free(points);
+}
+
+/* Groups as questions: of the tree itself, and of each shard, which has some of them, all whole. */
+static void compare_joins(world *w) {
+    for (froe_relation r = FROE_MEETS; r < FROE_RELATION_COUNT; r++) {
+        froe_answers answers;
+        froe_finds finds;
+        assert_int_equal(froe_batch_groups_join(w->query, w->query, r, NULL, &answers, NULL), FROE_OK);
+        assert_int_equal(froe_shards_groups_join(w->shards, w->tree, r, NULL, &finds, NULL), FROE_OK);
+        compare_groups(w, &answers, &finds);
+        for (uint32_t s = 0; s < froe_shards_about(w->shards).shards && r == FROE_MEETS; s += 3) {
+            const froe_tree *questions;
+            froe_query *asking;
+            assert_int_equal(froe_shards_tree(w->shards, s, &questions, NULL), FROE_OK);
+            if (!questions) continue;
+            assert_int_equal(froe_query_new(questions, &asking, NULL), FROE_OK);
+            assert_int_equal(froe_batch_groups_join(w->query, asking, r, NULL, &answers, NULL), FROE_OK);
+            assert_int_equal(froe_shards_groups_join(w->shards, questions, r, NULL, &finds, NULL), FROE_OK);
+            compare_groups(w, &answers, &finds);
+            froe_query_free(asking);
+        }
+    }
+}
+
+/* ----------------------------------------------------------------- everything -- */
+
+static void compare_in_folder(int dim, froe_kind kind, bool areas, int shards, uint64_t seed) {
+    world w = make_world(dim, kind, areas, shards, seed);
+    const froe_shards_info info = froe_shards_about(w.shards);
+    assert_int_equal(info.objects, object_count);
+    assert_int_equal(froe_shards_check(w.shards, NULL, NULL), FROE_OK);
+    for (int round = 0; round < (thorough ? 5 : 1); round++) {
         compare_ranges(&w);
         compare_points(&w);
         if (dim <= 3 || kind != FROE_POLYGON) compare_rays(&w);
-        compare_pairs(&w);
-        free_world(&w);
+        if (areas) compare_areas(&w);
     }
+    compare_pairs(&w);
+    if (areas) compare_joins(&w);
+    if (thorough) {
+        printf("| %d | %s | %u, %s | %.4f | %llu | %llu | %llu |\n", dim,
+               areas                     ? "areas"
+               : kind == FROE_KIND_COUNT ? "all kinds"
+                                         : froe_kind_name(kind),
+               info.shards, shards < 0 ? "on the lattice" : "by medians", (double)info.copies / (double)info.objects,
+               (unsigned long long)w.questions, (unsigned long long)w.answers, (unsigned long long)w.pairs);
+        fflush(stdout);
+    }
+    free_world(&w);
+}
+
+static void compare_everything(int dim, froe_kind kind, bool areas) {
+    static const int shards[] = {7, -7, -2, 64, -64, 1, 2};
+    const size_t folders = thorough ? 7 : areas || kind == FROE_KIND_COUNT ? 5 : 2;
+    const size_t count = object_count;
+    if (areas) object_count -= object_count % EDGES;
+    for (size_t i = 0; i < folders; i++) compare_in_folder(dim, kind, areas, shards[i], 1 + i + 10 * (uint64_t)kind);
+    object_count = count;
 }
 
 static void of_objects_in_the_plane(void **state) {
     (void)state;
     for (int kind = 0; kind <= FROE_KIND_COUNT; kind++)
-        if (kind != FROE_POLYGON) compare_everything(2, (froe_kind)kind);
+        if (kind != FROE_POLYGON) compare_everything(2, (froe_kind)kind, false);
+}
+
+static void of_areas(void **state) {
+    (void)state;
+    compare_everything(2, FROE_SEGMENT, true);
 }
 
 static void of_objects_in_space(void **state) {
     (void)state;
-    for (int kind = 0; kind <= FROE_KIND_COUNT; kind++) compare_everything(3, (froe_kind)kind);
+    for (int kind = 0; kind <= FROE_KIND_COUNT; kind++) compare_everything(3, (froe_kind)kind, false);
 }
 
 static void of_objects_above_space(void **state) {
     (void)state;
-    compare_everything(4, FROE_BOX);
-    compare_everything(5, FROE_POINT);
+    compare_everything(4, FROE_BOX, false);
+    compare_everything(5, FROE_POINT, false);
 }
 
 /* Distances and parameters of different exact values that round to one double: their exact order is the order, and it
@@ -386,8 +569,10 @@ static void values_that_round_to_one_double(void **state) {
 int main(int argc, char **argv) {
     thorough = argc > 1;
     if (thorough) object_count = (size_t)strtoull(argv[1], NULL, 10);
+    if (argc > 2) cmocka_set_test_filter(argv[2]);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(of_objects_in_the_plane),
+        cmocka_unit_test(of_areas),
         cmocka_unit_test(of_objects_in_space),
         cmocka_unit_test(of_objects_above_space),
         cmocka_unit_test(values_that_round_to_one_double),
