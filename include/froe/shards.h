@@ -109,8 +109,9 @@ FROE_API froe_status froe_shards_tree(froe_shards *shards, uint32_t shard, const
 /** A context of the tree of a shard with objects, which belongs to the folder. FROE_E_ARG: there is no such shard, or
  * it is empty. FROE_E_IO, FROE_E_FORMAT, FROE_E_MEMORY. */
 FROE_API froe_status froe_shards_query(froe_shards *shards, uint32_t shard, froe_query **out, froe_diagnostic *diag);
-/** Checks all shards as froe_tree_check() does, one after the other, and their places in their cells: FROE_E_FORMAT
- * names the first that is not what the manifest says, or not what it says itself. O(size of all files). */
+/** Checks all shards as froe_tree_check() does, one after the other, and that every object is in all the cells that its
+ * box meets: FROE_E_FORMAT names the first shard that is not what the manifest says, or not what it says itself, or lacks
+ * objects. FROE_E_MEMORY. O(size of all files). */
 FROE_API froe_status froe_shards_check(froe_shards *shards, const froe_batch_options *options, froe_diagnostic *diag);
 
 /* --------------------------------------------------------------------- ask -- */

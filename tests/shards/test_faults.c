@@ -1,8 +1,8 @@
 /* test_faults.c: a folder is whole whatever happens while another takes its place: kill -9, a full disk; and no change
  * of its manifest goes unnoticed. */
 #define _DEFAULT_SOURCE 1 /* usleep */
+#include "shards/folder.h"
 #include "shards/folders.h"
-#include "shards/manifest.h"
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -112,11 +112,40 @@ static void every_changed_byte_of_a_manifest_is_noticed(void **state) {
     free(text);
 }
 
+/* The manifest of the folder calls a shard empty, with a right checksum; `gone`: its file is not there, either. */
+static froe_status check_with_empty(uint32_t shard, bool gone) {
+    char path[64];
+    froe_shards *shards;
+    assert_int_equal(build("forged.froes", OLD_OBJECTS), FROE_OK);
+    assert_int_equal(froe_shards_open("forged.froes", NULL, &shards, NULL), FROE_OK);
+    shards->manifest.entries.data[shard] = (froe_shard_entry){0};
+    assert_int_equal(
+        froe_shard_manifest_write(shards->manifest.plan, shards->manifest.entries.data, "forged.froes", NULL, NULL),
+        FROE_OK);
+    froe_shards_close(shards);
+    snprintf(path, sizeof path, "forged.froes/shard-%04u.froe", shard);
+    if (gone) assert_int_equal(unlink(path), 0);
+    froe_diagnostic diag = {0};
+    assert_int_equal(froe_shards_open("forged.froes", NULL, &shards, NULL), FROE_OK);
+    const froe_status status = froe_shards_check(shards, NULL, &diag);
+    assert_non_null(strstr(diag.message, path));
+    froe_shards_close(shards);
+    return status;
+}
+
+static void a_shard_that_the_manifest_calls_empty_is_found(void **state) {
+    (void)state;
+    for (uint32_t shard = 0; shard < SHARDS; shard++) assert_int_equal(check_with_empty(shard, false), FROE_E_FORMAT);
+    for (uint32_t shard = 1; shard < SHARDS; shard++) /* others have objects of theirs in its cell */
+        assert_int_equal(check_with_empty(shard, true), FROE_E_FORMAT);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_killed_program_leaves_the_old_folder_or_the_new_one),
         cmocka_unit_test(a_full_disk_leaves_the_old_folder_and_nothing_beside_it),
         cmocka_unit_test(every_changed_byte_of_a_manifest_is_noticed),
+        cmocka_unit_test(a_shard_that_the_manifest_calls_empty_is_found),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
