@@ -1,7 +1,7 @@
 /* check.c: does a folder hold what its manifest says, and each shard all objects of its cell?
  *
- * Every object is counted twice: in each shard that has it, and by the first of them for each cell that it has to be in.
- * Both counts of a shard are equal, or an object is missing or in a wrong place. Only a shard whose objects meet no
+ * Every object is counted twice: in each shard that has it, and by the first of them for each cell that it has to be
+ * in. Both counts of a shard are equal, or an object is missing or in a wrong place. Only a shard whose objects meet no
  * other cell can be taken away with its file and its line, because what is left is a folder of fewer objects. */
 #include "folder.h"
 #include "record.h"
@@ -65,8 +65,8 @@ static froe_status check_shard(froe_shards *s, uint32_t shard, const counts *c, 
     return status ? status : check_entry(s, shard, c, diag);
 }
 
-static froe_status check_all(froe_shards *s, const counts *c, const froe_batch_options *options,
-                             froe_diagnostic *diag) {
+static froe_status check_shards(froe_shards *s, const counts *c, const froe_batch_options *options,
+                                froe_diagnostic *diag) {
     for (uint32_t i = 0; i < s->count; i++) {
         froe_diagnostic why;
         const froe_status status = check_shard(s, i, c, &why);
@@ -87,7 +87,7 @@ froe_status froe_shards_check(froe_shards *s, const froe_batch_options *options,
     if (options && options->size != sizeof *options) return support_fail_defaults(diag, "froe_batch_defaults");
     const counts c = {support_calloc(&s->alloc, s->count, sizeof *c.wanted),
                       support_calloc(&s->alloc, s->count, sizeof *c.cells)};
-    const froe_status status = c.wanted && c.cells ? check_all(s, &c, options, diag) : support_fail_memory(diag);
+    const froe_status status = c.wanted && c.cells ? check_shards(s, &c, options, diag) : support_fail_memory(diag);
     if (c.wanted) support_free(&s->alloc, c.wanted, s->count * sizeof *c.wanted);
     if (c.cells) support_free(&s->alloc, c.cells, s->count * sizeof *c.cells);
     return status;

@@ -110,8 +110,8 @@ FROE_API froe_status froe_shards_tree(froe_shards *shards, uint32_t shard, const
  * it is empty. FROE_E_IO, FROE_E_FORMAT, FROE_E_MEMORY. */
 FROE_API froe_status froe_shards_query(froe_shards *shards, uint32_t shard, froe_query **out, froe_diagnostic *diag);
 /** Checks all shards as froe_tree_check() does, one after the other, and that every object is in all the cells that its
- * box meets: FROE_E_FORMAT names the first shard that is not what the manifest says, or not what it says itself, or lacks
- * objects. FROE_E_MEMORY. O(size of all files). */
+ * box meets: FROE_E_FORMAT names the first shard that is not what the manifest says, or not what it says itself, or
+ * lacks objects. FROE_E_MEMORY. O(size of all files). */
 FROE_API froe_status froe_shards_check(froe_shards *shards, const froe_batch_options *options, froe_diagnostic *diag);
 
 /* --------------------------------------------------------------------- ask -- */
@@ -159,9 +159,9 @@ FROE_API froe_status froe_shards_groups(froe_shards *shards, const double *point
 FROE_API froe_status froe_shards_groups_range(froe_shards *shards, const froe_range *ranges, size_t count,
                                               froe_relation relation, const froe_batch_options *options,
                                               froe_finds *out, froe_diagnostic *diag);
-/** The groups that meet the groups of a tree of the plane, lie within them, or cover them, as of froe_batch_groups_join():
- * question i is group i of that tree, and answers are told as by froe_shards_groups(). Only shards within the bounds of
- * the tree are opened. A folder takes the place of the tree by a call for each of its shards: froe_shards_tree() has
+/** The groups that meet the groups of a tree of the plane, lie within them, or cover them, as
+ * froe_batch_groups_join() has them: question i is group i of that tree, and answers are told as by
+ * froe_shards_groups(). Only shards within the bounds of the tree are opened. A folder takes the place of the tree by a call for each of its shards: froe_shards_tree() has
  * every group of which it has a part as a whole. FROE_E_UNSUPPORTED as froe_batch_groups_join(). */
 FROE_API froe_status froe_shards_groups_join(froe_shards *shards, const froe_tree *questions, froe_relation relation,
                                              const froe_batch_options *options, froe_finds *out,

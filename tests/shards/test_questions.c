@@ -485,7 +485,7 @@ static void compare_in_folder(int dim, froe_kind kind, bool areas, int shards, u
     const froe_shards_info info = froe_shards_about(w.shards);
     assert_int_equal(info.objects, object_count);
     assert_int_equal(froe_shards_check(w.shards, NULL, NULL), FROE_OK);
-    for (int round = 0; round < (thorough ? 5 : 1); round++) {
+    for (int round = 0; round < (thorough ? 2 : 1); round++) {
         compare_ranges(&w);
         compare_points(&w);
         if (dim <= 3 || kind != FROE_POLYGON) compare_rays(&w);
