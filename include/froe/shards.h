@@ -161,11 +161,11 @@ FROE_API froe_status froe_shards_groups_range(froe_shards *shards, const froe_ra
                                               froe_finds *out, froe_diagnostic *diag);
 /** The groups that meet the groups of a tree of the plane, lie within them, or cover them, as
  * froe_batch_groups_join() has them: question i is group i of that tree, and answers are told as by
- * froe_shards_groups(). Only shards within the bounds of the tree are opened. A folder takes the place of the tree by a call for each of its shards: froe_shards_tree() has
- * every group of which it has a part as a whole. FROE_E_UNSUPPORTED as froe_batch_groups_join(). */
+ * froe_shards_groups(). Only shards within the bounds of the tree are opened. A folder takes the place of the tree by a
+ * call for each of its shards: froe_shards_tree() has every group of which it has a part as a whole. FROE_E_UNSUPPORTED
+ * as froe_batch_groups_join(). */
 FROE_API froe_status froe_shards_groups_join(froe_shards *shards, const froe_tree *questions, froe_relation relation,
-                                             const froe_batch_options *options, froe_finds *out,
-                                             froe_diagnostic *diag);
+                                             const froe_batch_options *options, froe_finds *out, froe_diagnostic *diag);
 /** The first segment above (direction 1) or below (-1) each point of the plane; of several met at the same point, that
  * with the lowest tag. */
 FROE_API froe_status froe_shards_vertical(froe_shards *shards, const double *points, size_t count, int direction,
