@@ -3,7 +3,9 @@
  *     fill PARENT/.NAME.building  ->  exchange it with PARENT/NAME, in one step  ->  remove the old one
  *
  * The draft is locked as long as its program lives. One without a lock was left by a program that was killed, and is
- * emptied and used again. Where the system cannot exchange two folders, the old one is moved aside before the new one
+ * emptied and used again. The old folder is locked before it gets the name of the draft, so that nobody takes it for one
+ * while it is removed. A lock is of a folder and not of its name: who has got one looks whether the name still means
+ * that folder. Where the system cannot exchange two folders, the old one is moved aside before the new one
  * takes its place; a kill between these two steps leaves the old one as .NAME.building. */
 #define _GNU_SOURCE 1 /* renameat2, realpath */
 #include "manifest.h"
@@ -25,7 +27,6 @@ struct froe_shard_draft {
     char target[PATH_MAX];             /* where the new folder is to be, behind all links */
     char folder[PATH_MAX + MORE_NAME]; /* the draft */
     int lock;                          /* a descriptor of it */
-    bool replaces;
     froe_allocator alloc;
 };
 
@@ -49,8 +50,9 @@ static bool is_own_folder(const char *path, char other[NAME_MAX + 1]) {
     for (struct dirent *entry; own && (entry = readdir(folder));) {
         if (!strcmp(entry->d_name, ".") || !strcmp(entry->d_name, "..")) continue;
         struct stat info;
-        own = (is_own_name(entry->d_name) || !strncmp(entry->d_name, ".froe-", 6)) &&
-              !fstatat(dirfd(folder), entry->d_name, &info, AT_SYMLINK_NOFOLLOW) && !S_ISDIR(info.st_mode);
+        own = is_own_name(entry->d_name) || !strncmp(entry->d_name, ".froe-", 6);
+        if (own && !fstatat(dirfd(folder), entry->d_name, &info, AT_SYMLINK_NOFOLLOW)) /* or it went away meanwhile */
+            own = !S_ISDIR(info.st_mode);
         if (!own) snprintf(other, NAME_MAX + 1, "%s", entry->d_name);
     }
     if (folder) closedir(folder);
@@ -75,17 +77,15 @@ static void sync_folder(const char *path) {
 
 /* -------------------------------------------------------------------- begin -- */
 
-/* Splits the path of the new folder into the folder it is in and its name, behind all links. Returns an errno. */
+/* Finds where the new folder is to be, behind all links. Returns an errno. */
 static int find_target(froe_shard_draft *d, const char *path) {
-    char given[PATH_MAX], *real;
+    char given[PATH_MAX];
     size_t length = strlen(path);
     while (length > 1 && path[length - 1] == '/') length--;
     if (!length || length >= sizeof given) return length ? ENAMETOOLONG : ENOENT;
     memcpy(given, path, length);
     given[length] = '\0';
-    real = realpath(given, d->target);
-    d->replaces = real != NULL;
-    if (real) return 0;
+    if (realpath(given, d->target)) return 0;
     if (errno != ENOENT) return errno;
     char *slash = strrchr(given, '/');
     const char *name = slash ? slash + 1 : given, *parent = !slash ? "." : slash == given ? "/" : given;
@@ -96,19 +96,47 @@ static int find_target(froe_shard_draft *d, const char *path) {
     if (strlen(name) > NAME_MAX || length + strlen(name) + 2 > sizeof d->target) return ENAMETOOLONG;
     if (length > 1) d->target[length++] = '/';
     memcpy(d->target + length, name, strlen(name) + 1);
-    struct stat info;
-    d->replaces = !lstat(d->target, &info); /* a link to nothing, which is in the way */
     return 0;
+}
+
+/* Is something at the place of the new folder? It may be a link to nothing. */
+static bool is_taken(const froe_shard_draft *d) {
+    struct stat info;
+    return !lstat(d->target, &info);
+}
+
+/* May what is at the place of the new folder, if there is something, be replaced? `path` is for messages. */
+static froe_status check_target(const froe_shard_draft *d, const char *path, froe_diagnostic *diag) {
+    char other[NAME_MAX + 1] = "";
+    if (!is_taken(d)) return FROE_OK;
+    if (access(d->target, R_OK) && errno == EACCES) return support_fail_file(diag, "written", path, EACCES);
+    if (is_own_folder(d->target, other)) return FROE_OK;
+    return *other ? support_fail(diag, FROE_E_IO, "%s: The folder is not replaced, because it holds '%.60s'.",
+                                 support_short(path), other)
+                  : support_fail(diag, FROE_E_IO, "%s: What is there is no folder, and is not replaced.",
+                                 support_short(path));
+}
+
+/* Is this folder still the one of that name? */
+static bool is_at(int folder, const char *path) {
+    struct stat one, other;
+    return !fstat(folder, &one) && !lstat(path, &other) && one.st_dev == other.st_dev && one.st_ino == other.st_ino;
 }
 
 /* Makes the draft, or takes over one that a killed program left. Returns an errno; EWOULDBLOCK: it is in use. */
 static int make_draft(froe_shard_draft *d) {
     const char *slash = strrchr(d->target, '/');
     snprintf(d->folder, sizeof d->folder, "%.*s.%s.building", (int)(slash + 1 - d->target), d->target, slash + 1);
-    if (mkdir(d->folder, 0777) && errno != EEXIST) return errno;
-    d->lock = open(d->folder, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-    if (d->lock < 0) return errno;
-    if (flock(d->lock, LOCK_EX | LOCK_NB)) return errno;
+    while (true) {
+        if (mkdir(d->folder, 0777) && errno != EEXIST) return errno;
+        d->lock = open(d->folder, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+        if (d->lock < 0 && errno != ENOENT) return errno;
+        if (d->lock < 0) continue; /* another program has just ended */
+        if (flock(d->lock, LOCK_EX | LOCK_NB)) return errno;
+        if (is_at(d->lock, d->folder)) break;
+        close(d->lock); /* it was brought to its place, or removed */
+        d->lock = -1;
+    }
     empty_folder(d->folder);
     return 0;
 }
@@ -122,19 +150,9 @@ froe_status froe_shard_draft_begin(const char *path, const froe_allocator *alloc
     if (!d) return support_fail_memory(diag);
     d->alloc = own;
     d->lock = -1;
-    char other[NAME_MAX + 1] = "";
-    froe_status status = FROE_OK;
     int error = find_target(d, path);
-    if (!error && d->replaces && access(d->target, R_OK) && errno == EACCES) {
-        error = EACCES;
-    } else if (!error && d->replaces && !is_own_folder(d->target, other)) {
-        status = *other ? support_fail(diag, FROE_E_IO, "%s: The folder is not replaced, because it holds '%.60s'.",
-                                       support_short(path), other)
-                        : support_fail(diag, FROE_E_IO, "%s: What is there is no folder, and is not replaced.",
-                                       support_short(path));
-    } else if (!error) {
-        error = make_draft(d);
-    }
+    froe_status status = error ? FROE_OK : check_target(d, path, diag);
+    if (!error && !status) error = make_draft(d);
     if (error == EWOULDBLOCK)
         status = support_fail(diag, FROE_E_IO, "%s: Another program is building this folder.", support_short(path));
     else if (error)
@@ -154,9 +172,9 @@ const char *froe_shard_draft_folder(const froe_shard_draft *d) {
 
 /* ---------------------------------------------------------------------- end -- */
 
-/* The draft is at the place of the target, and what was there at its own. Returns an errno. */
+/* The draft is at the place of the target, and what was there, if anything, at its own. Returns an errno. */
 static int exchange(const froe_shard_draft *d) {
-    if (!d->replaces) return rename(d->folder, d->target) ? errno : 0;
+    if (!is_taken(d)) return rename(d->folder, d->target) ? errno : 0;
 #ifdef RENAME_EXCHANGE
     if (!renameat2(AT_FDCWD, d->folder, AT_FDCWD, d->target, RENAME_EXCHANGE)) return 0;
     if (errno != ENOSYS && errno != EINVAL) return errno;
@@ -170,16 +188,29 @@ static int exchange(const froe_shard_draft *d) {
     return error;
 }
 
+/* Brings the draft to its place. What was there is removed under a lock of its own. */
+static froe_status replace(const froe_shard_draft *d, froe_diagnostic *diag) {
+    froe_status status = check_target(d, d->target, diag); /* another program may have built or put something there */
+    if (status) return status;
+    sync_folder(d->folder);
+    const int old = open(d->target, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (old >= 0) (void)flock(old, LOCK_EX); /* it can be had: its builder is about to end */
+    const int error = exchange(d);
+    if (error) status = support_fail_file(diag, "written", d->target, error);
+    if (!error && old >= 0) {
+        empty_folder(d->folder);
+        rmdir(d->folder);
+    }
+    if (old >= 0) close(old);
+    return status;
+}
+
 froe_status froe_shard_draft_end(froe_shard_draft *d, froe_status status, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
     if (!d) return status;
     const froe_allocator alloc = d->alloc;
-    if (!status) {
-        sync_folder(d->folder);
-        const int error = exchange(d);
-        if (error) status = support_fail_file(diag, "written", d->target, error);
-    }
-    if (status || d->replaces) {
+    if (!status) status = replace(d, diag);
+    if (status) {
         empty_folder(d->folder);
         rmdir(d->folder);
     }

@@ -1,0 +1,111 @@
+/* test_drafts.c: several programs build the same folder. Each gets its own draft or is refused, no file of a draft goes
+ * away before its end, and what comes to the place of the folder meanwhile is replaced only if it is a folder of shards. */
+#include "shards/folders.h"
+#include <froe/shard_parts.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+enum { PROGRAMS = 4, DRAFTS = 25, FILES = 20 };
+
+static bool put_file(const char *folder, int number) {
+    char path[4096 + 64];
+    snprintf(path, sizeof path, "%s/shard-%04d.froe", folder, number);
+    FILE *file = fopen(path, "wx");
+    return file && fprintf(file, "%d", (int)getpid()) > 0 && !fclose(file);
+}
+
+static void a_folder_that_another_program_built_meanwhile_is_replaced(void **state) {
+    (void)state;
+    froe_shard_draft *draft;
+    assert_int_equal(froe_shard_draft_begin("later.froes", NULL, &draft, NULL), FROE_OK);
+    assert_true(put_file(froe_shard_draft_folder(draft), 1));
+    assert_int_equal(mkdir("later.froes", 0777), 0);
+    assert_true(put_file("later.froes", 0));
+    assert_int_equal(froe_shard_draft_end(draft, FROE_OK, NULL), FROE_OK);
+    assert_int_equal(access("later.froes/shard-0000.froe", F_OK), -1);
+    assert_int_equal(access("later.froes/shard-0001.froe", F_OK), 0);
+    assert_int_equal(access(".later.froes.building", F_OK), -1);
+}
+
+static void a_stranger_that_came_meanwhile_stays(void **state) {
+    (void)state;
+    froe_shard_draft *draft;
+    froe_diagnostic diag;
+    assert_int_equal(froe_shard_draft_begin("strange.froes", NULL, &draft, NULL), FROE_OK);
+    assert_true(put_file(froe_shard_draft_folder(draft), 1));
+    assert_int_equal(mkdir("strange.froes", 0777), 0);
+    assert_int_equal(system("echo notes > strange.froes/notes.txt"), 0);
+    assert_int_equal(froe_shard_draft_end(draft, FROE_OK, &diag), FROE_E_IO);
+    assert_non_null(strstr(diag.message, "The folder is not replaced, because it holds 'notes.txt'."));
+    assert_int_equal(access("strange.froes/notes.txt", F_OK), 0);
+    assert_int_equal(access(".strange.froes.building", F_OK), -1);
+}
+
+/* Files of a draft, which are there as long as it is. */
+static bool fill(const char *folder) {
+    bool whole = true;
+    for (int i = 0; i < FILES && whole; i++) whole = put_file(folder, i);
+    for (int i = 0; i < FILES && whole; i++) {
+        char path[4096 + 64];
+        snprintf(path, sizeof path, "%s/shard-%04d.froe", folder, i);
+        whole = !access(path, F_OK);
+    }
+    return whole;
+}
+
+/* What a program of several does; it asserts nothing, because it is not the one that runs the tests. */
+static bool build_often(void) {
+    for (int built = 0; built < DRAFTS;) {
+        const froe_status wanted = built % 8 == 5 ? FROE_E_CANCELLED : FROE_OK;
+        froe_shard_draft *draft;
+        froe_diagnostic diag;
+        if (froe_shard_draft_begin("contested.froes", NULL, &draft, &diag)) {
+            if (!strstr(diag.message, "Another program is building this folder.")) return false;
+            continue;
+        }
+        if (!fill(froe_shard_draft_folder(draft))) return false;
+        if (froe_shard_draft_end(draft, wanted, &diag) != wanted) return false;
+        built++;
+    }
+    return true;
+}
+
+static void programs_at_the_same_time_do_not_touch_drafts_of_each_other(void **state) {
+    (void)state;
+    pid_t programs[PROGRAMS];
+    for (int p = 0; p < PROGRAMS; p++) {
+        programs[p] = fork();
+        assert_true(programs[p] >= 0);
+        if (!programs[p]) _exit(!build_often());
+    }
+    int failed = 0;
+    for (int p = 0; p < PROGRAMS; p++) {
+        int result;
+        assert_int_equal(waitpid(programs[p], &result, 0), programs[p]);
+        failed += !WIFEXITED(result) || WEXITSTATUS(result);
+    }
+    assert_int_equal(failed, 0);
+    assert_int_equal(access(".contested.froes.building", F_OK), -1);
+    char *owner = NULL;
+    for (int i = 0; i < FILES; i++) { /* of the same program */
+        char path[64];
+        size_t count;
+        snprintf(path, sizeof path, "contested.froes/shard-%04d.froe", i);
+        char *text = read_whole(path, &count);
+        assert_non_null(text);
+        if (owner) assert_string_equal(text, owner);
+        free(owner);
+        owner = text;
+    }
+    free(owner);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_folder_that_another_program_built_meanwhile_is_replaced),
+        cmocka_unit_test(a_stranger_that_came_meanwhile_stays),
+        cmocka_unit_test(programs_at_the_same_time_do_not_touch_drafts_of_each_other),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
