@@ -1,5 +1,5 @@
 /* test_drafts.c: several programs build the same folder. Each gets its own draft or is refused, no file of a draft goes
- * away before its end, and what comes to the place of the folder meanwhile is replaced only if it is a folder of shards. */
+ * away before its end, and what comes to the place of the folder meanwhile is replaced only if it is one of shards. */
 #include "shards/folders.h"
 #include <froe/shard_parts.h>
 #include <sys/stat.h>
