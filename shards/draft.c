@@ -4,9 +4,9 @@
  *
  * The draft is locked as long as its program lives. One without a lock was left by a program that was killed, and is
  * emptied and used again. The old folder is locked before it gets the name of the draft, so that nobody takes it for
- * one while it is removed. A lock is of a folder and not of its name: who has got one looks whether the name still means
- * that folder. Where the system cannot exchange two folders, the old one is moved aside before the new one
- * takes its place; a kill between these two steps leaves the old one as .NAME.building. */
+ * one while it is removed. A lock is of a folder and not of its name: who has got one looks whether the name still
+ * means that folder. Where the system cannot exchange two folders, the old one is moved aside before the new one takes
+ * its place; a kill between these two steps leaves the old one as .NAME.building. */
 #define _GNU_SOURCE 1 /* renameat2, realpath */
 #include "manifest.h"
 #include "support/fail.h"
