@@ -48,6 +48,8 @@ export async function launch() {
 export async function open(browser, url, { width = 1280, height = 800, dark = false, still = false } = {}) {
     const page = await browser.newPage();
     page.setDefaultTimeout(120000); // other tests run meanwhile, and browsers that draw without a graphics card
+    const wait = page.waitForFunction.bind(page); // by the clock: without a graphics card frames may be far apart
+    page.waitForFunction = (what, options, ...given) => wait(what, { polling: 50, ...options }, ...given);
     page.wrong = [];
     page.on("console", (message) => { if (message.type() === "error") page.wrong.push(`${message.text()} ${message.location().url ?? ""}`); });
     page.on("pageerror", (error) => page.wrong.push(error.message));
@@ -118,6 +120,27 @@ export async function dropped(page, files) {
 /** The sentence that says what is wrong. */
 export async function said(page) {
     await page.waitForFunction(() => document.querySelector(".status.wrong"));
+    return page.$eval(".status", (status) => status.textContent);
+}
+
+/** The page presses Cancel, once what is being done has a word in its name: by itself, since it may be done before a
+ * test has looked. */
+export async function cancelNext(page, word = "") {
+    const watch = (word) => {
+        const seen = new MutationObserver(() => {
+            const work = document.querySelector(".work:not([hidden])");
+            if (!work?.textContent.includes(word)) return;
+            seen.disconnect();
+            work.querySelector("button").click();
+        });
+        seen.observe(document, { subtree: true, childList: true, attributes: true, characterData: true });
+    };
+    await page.evaluate(watch, word);
+    await page.evaluateOnNewDocument(watch, word);
+}
+/** The sentence that says what was cancelled. */
+export async function cancelled(page) {
+    await page.waitForFunction(() => /^Cancelled/.test(document.querySelector(".status")?.textContent));
     return page.$eval(".status", (status) => status.textContent);
 }
 

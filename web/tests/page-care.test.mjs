@@ -2,7 +2,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { after, before, test as register } from "node:test";
-import { assertHeld, drawn, dropped, held, launch, modules, open, serve, shown } from "./browser.mjs";
+import { assertHeld, cancelled, cancelNext, drawn, dropped, held, launch, modules, open, serve, shown } from "./browser.mjs";
 
 const axe = readFileSync(modules.resolve("axe-core/axe.min.js"), "utf8");
 const test = (name, body) => register(name, { timeout: 180000 }, body);
@@ -91,10 +91,11 @@ test("Cancel ends what is built, at once, and the drawing stays", async () => {
 });
 
 test("Cancel before there is a drawing leaves a way to go on", async () => {
-    const page = await at("#draw?scene=house");
-    await page.waitForFunction(() => /tree/.test(document.querySelector(".work:not([hidden])")?.textContent ?? ""));
-    await page.evaluate(() => document.querySelector(".work button").click());
-    assert.match(await page.$eval(".status", (status) => status.textContent), /^Cancelled\./);
+    const page = await at("");
+    await cancelNext(page, "tree");
+    await page.goto("about:blank");
+    await page.goto(`${site.url}#draw?scene=house`);
+    assert.match(await cancelled(page), /^Cancelled\./);
     await page.evaluate(() => document.querySelector(".status button").click());
     await drawn(page);
     await page.close();

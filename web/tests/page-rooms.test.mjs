@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { after, before, test as register } from "node:test";
-import { assertHeld, drawn, dropped, held, launch, open, said, serve, SHOWN, shown } from "./browser.mjs";
+import { assertHeld, cancelled, cancelNext, drawn, dropped, held, launch, open, said, serve, SHOWN, shown } from "./browser.mjs";
 
 const data = (name) => readFileSync(new URL(`../../data/${name}`, import.meta.url));
 const test = (name, body) => register(name, { timeout: 120000 }, body);
@@ -12,7 +12,6 @@ before(async () => { site = await serve(); chromium = await launch(); });
 after(async () => { await chromium?.stop(); site?.stop(); });
 const at = (hash, options) => open(chromium.browser, site.url + hash, options);
 
-const click = (page, text) => page.$$eval("button", (all, text) => all.find((it) => it.textContent === text).click(), text);
 
 const NONSENSE = {
     draw: ["scene=none&turn=NaN&tilt=1e9&zoom=-3", "scene=bracket&fov=0&paper=none&shading=none2&lines=none2&scale=none&unit=0", "scene=bracket&parallel=yes&paper=a4&unit=-1&scale=-5",
@@ -65,11 +64,10 @@ test("an own file can be chosen in the list only if there is one, and Cancel lea
         const first = await page.$eval("select", (it) => it.value);
         await page.select("select", "file");
         assert.equal(await page.$eval("select", (it) => it.value), first);
+        await cancelNext(page);
         await dropped(page, { [name]: data(room === "move" ? "cars-bologna.mfjson" : name) });
-        await page.waitForFunction(() => !document.querySelector(".work").hidden);
-        await click(page, "Cancel");
+        await cancelled(page);
         assert.ok(await page.$eval(".work", (it) => it.hidden));
-        await page.waitForFunction(() => /^Cancelled/.test(document.querySelector(".status").textContent));
         await page.$eval(".status button", (it) => it.click());
         assert.match(await shown(page, room), room === "move" ? /^Time/ : /1,040/);
         assert.equal(await page.$eval("select", (it) => it.value), "file");
