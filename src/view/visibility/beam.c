@@ -21,22 +21,55 @@ static uint32_t edge_of(const view_sightlines *s, uint32_t object, uint32_t side
     return s->surface->edge_of[scene_start(s->tree->scene, object) + side];
 }
 
-/* The way along an entry, the piece on its positive side; `facing` is the side of the eye. For an own edge the ring
- * turns left as the eye sees it when the eye is in front. On the support s of a patch the covector of a cut line is
+/* The way along a side of a polygon, the polygon on its positive side; `facing` is the side of the eye. The ring turns
+ * left as the eye sees it when the eye is in front. */
+static view_way own_way(view_sightlines *s, uint32_t object, uint32_t side, int facing) {
+    const froe_scene *scene = s->tree->scene;
+    const uint32_t n = scene_corners(scene, object), line = view_line_of_edge(s, edge_of(s, object, side));
+    const bool ascends = scene_corner(scene, object, side) < scene_corner(scene, object, side + 1 < n ? side + 1 : 0);
+    return line == FROE_NONE ? FROE_NONE : 2 * line + (ascends != (facing > 0));
+}
+
+static int side_of_vertex(view_sightlines *s, uint32_t line, uint32_t vertex) {
+    return view_side(s, line, &s->rays[vertex], vertex, 0, 0);
+}
+
+/* Is the cut of a node a wall of the method `cylindrical`, which leans by an infinitely small eps? */
+static bool leans(const view_sightlines *s, uint32_t node) {
+    const geom_plane plane = tree_plane_at(s->tree, node);
+    return geom_is_sheared(&plane);
+}
+
+/* A wall that leans may cut off a piece without width along an edge, and pass along that edge as the eye sees it. Then
+ * the way along the edge, in the direction of the wall; else the way as it is. */
+static view_way snap_to_edge(view_sightlines *s, uint32_t object, view_way way, int facing) {
+    const froe_scene *scene = s->tree->scene;
+    const uint32_t n = scene_corners(scene, object);
+    for (uint32_t i = 0; i < n; i++) {
+        const uint32_t next = i + 1 < n ? i + 1 : 0;
+        if (side_of_vertex(s, way >> 1, scene_corner(scene, object, i)) ||
+            side_of_vertex(s, way >> 1, scene_corner(scene, object, next)))
+            continue;
+        int inside = 0; /* on which side of the wall is the polygon? */
+        for (uint32_t k = 0; k < n && !inside; k++)
+            inside = side_of_vertex(s, way >> 1, scene_corner(scene, object, k));
+        const view_way own = own_way(s, object, i, facing);
+        return own == FROE_NONE ? own : own ^ ((inside < 0) != (way & 1));
+    }
+    return way;
+}
+
+/* The way along an entry, the piece on its positive side. On the support s of a patch the covector of a cut line is
  * -s(E) a(x). */
 static view_way way_of(view_sightlines *s, uint32_t piece, uint32_t object, uint32_t side, int facing) {
-    const froe_scene *scene = s->tree->scene;
-    if (!(side & TREE_EDGE_CUT)) {
-        const uint32_t n = scene_corners(scene, object), line = view_line_of_edge(s, edge_of(s, object, side));
-        const bool ascends =
-            scene_corner(scene, object, side) < scene_corner(scene, object, side + 1 < n ? side + 1 : 0);
-        return line == FROE_NONE ? FROE_NONE : 2 * line + (ascends != (facing > 0));
-    }
+    if (!(side & TREE_EDGE_CUT)) return own_way(s, object, side, facing);
     const uint32_t node = side & ~TREE_EDGE_CUT, patch = s->surface->patch_of[object];
     const uint32_t line = view_line_of_cut(s, patch, node);
     const bool positive = piece >= tree_first_piece(s->tree, s->tree->nodes[node].child + 1);
     const bool in_front = view_facing(s, surface_first(s->surface, patch)) > 0;
-    return line == FROE_NONE ? FROE_NONE : 2 * line + (positive == in_front);
+    if (line == FROE_NONE) return FROE_NONE;
+    const view_way way = 2 * line + (positive == in_front);
+    return leans(s, node) ? snap_to_edge(s, object, way, facing) : way;
 }
 
 /* The vertex at corner i of a ring: between two edges of the polygon, or at the end of one where a cut goes through it.
@@ -52,37 +85,73 @@ static uint32_t vertex_at(const view_sightlines *s, const piece_ring *o, uint32_
     return view_cut_has(s, (cut_before ? before : after) & ~TREE_EDGE_CUT, vertex) ? vertex : FROE_NONE;
 }
 
-/* Drops sides along the line of the side before, which have no length as the eye sees them. A wall of the method
- * `cylindrical` is sheared by an infinitely small eps, and a piece may lie between it and the upright face that it
- * touches: where the two lines have opposite directions nothing of the piece is seen, and the ring becomes empty. */
-static void drop_flat(const view_sightlines *s, view_ring *ring) {
-    size_t kept = 0;
-    for (size_t i = 0; i < ring->count; i++) {
-        const view_corner *k = ring->data + i;
-        if (k->ray.x[0] != 0 || k->ray.x[1] != 0 || k->ray.x[2] != 0) { /* the lines meet at a point */
-            ring->data[kept++] = *k;
-            continue;
-        }
-        const view_way before = ring->data[i ? i - 1 : ring->count - 1].way;
-        const double *a = s->lines.data[before >> 1].image.x, *b = s->lines.data[k->way >> 1].image.x;
-        const bool along = (a[0] * b[0] + a[1] * b[1] + a[2] * b[2] > 0) != ((before ^ k->way) & 1);
-        if (!along) {
-            ring->count = 0;
-            return;
+/* Does the line of a way go on along that of another? */
+static bool is_along(view_sightlines *s, view_way a, view_way b) {
+    if (a >> 1 == b >> 1) return true;
+    const filter_vector ray = view_meeting(s, a, b);
+    return ray.x[0] == 0 && ray.x[1] == 0 && ray.x[2] == 0;
+}
+
+static bool is_opposite(const view_sightlines *s, view_way a, view_way b) {
+    const double *x = s->lines.data[a >> 1].image.x, *y = s->lines.data[b >> 1].image.x;
+    return (x[0] * y[0] + x[1] * y[1] + x[2] * y[2] > 0) != !((a ^ b) & 1);
+}
+
+static void remove_side(view_ring *ring, size_t i) {
+    for (size_t j = i + 1; j < ring->count; j++) ring->data[j - 1] = ring->data[j];
+    ring->count--;
+}
+
+/* A vertex at which two edges end; FROE_NONE: the ways are no such edges. */
+static uint32_t shared_vertex(const view_sightlines *s, view_way a, view_way b) {
+    const view_line *p = s->lines.data + (a >> 1), *q = s->lines.data + (b >> 1);
+    if (p->kind != VIEW_EDGE || q->kind != VIEW_EDGE) return FROE_NONE;
+    return p->a == q->a || p->a == q->b ? p->a : p->b == q->a || p->b == q->b ? p->b : FROE_NONE;
+}
+
+/* Walls that lean leave pieces, and sides of pieces, which have no width as the eye sees them. Drops sides that go on
+ * along the side before, and sides both of whose ends are one point. What is left of a piece without width has fewer
+ * than three sides, or two along one line in opposite directions: then the ring becomes empty. */
+static void drop_flat(view_sightlines *s, view_ring *ring) {
+    size_t fine = 0, i = 0; /* so many sides before i are neither */
+    while (fine < ring->count && ring->count > 2) {
+        i %= ring->count;
+        const size_t last = i ? i - 1 : ring->count - 1, next = i + 1 < ring->count ? i + 1 : 0;
+        const view_corner *before = ring->data + last, *here = ring->data + i;
+        view_corner *after = ring->data + next;
+        if (is_along(s, before->way, here->way)) {
+            if (is_opposite(s, before->way, here->way)) break;
+            remove_side(ring, i);
+            fine = 0;
+        } else if (!is_along(s, here->way, after->way) &&
+                   !view_side(s, before->way >> 1, &after->ray, after->vertex, here->way, after->way)) {
+            if (after->vertex == FROE_NONE) after->vertex = here->vertex, after->ray = here->ray;
+            remove_side(ring, i);
+            fine = 0;
+        } else {
+            fine++, i++;
         }
     }
-    ring->count = kept < 3 ? 0 : kept;
+    if (ring->count < 3 || fine < ring->count) ring->count = 0;
+    for (i = 0; i < ring->count; i++) {
+        view_corner *k = ring->data + i;
+        const view_way before = ring->data[i ? i - 1 : ring->count - 1].way;
+        if (k->vertex == FROE_NONE) k->vertex = shared_vertex(s, before, k->way);
+        k->ray = k->vertex != FROE_NONE ? s->rays[k->vertex] : view_meeting(s, before, k->way);
+    }
 }
 
 /* Corners in the order of turning left; a corner lies between entries i - 1 and i of the ring. */
 static bool make_ring(view_sightlines *s, uint32_t piece, const piece_ring *o, view_ring *ring) {
     const int facing = view_facing(s, o->object);
+    bool leaning = false;
     ring->count = 0;
     if (!array_reserve(&s->alloc, ring, o->count)) return false;
     for (uint32_t j = 0; j < o->count; j++) {
         const uint32_t i = facing > 0 ? j : o->count - 1 - j, i_before = i ? i - 1 : o->count - 1;
         const uint32_t before = entry(o, i_before), after = entry(o, i);
         const bool own = !((before | after) & TREE_EDGE_CUT);
+        leaning = leaning || (after & TREE_EDGE_CUT && leans(s, after & ~TREE_EDGE_CUT));
         if (own && s->surface->straight[scene_start(s->tree->scene, o->object) + after]) continue;
         view_corner k = {.vertex = vertex_at(s, o, i)};
         k.way = way_of(s, piece, o->object, facing > 0 ? after : before, facing);
@@ -94,7 +163,7 @@ static bool make_ring(view_sightlines *s, uint32_t piece, const piece_ring *o, v
         const view_way before = ring->data[i ? i - 1 : ring->count - 1].way;
         k->ray = k->vertex != FROE_NONE ? s->rays[k->vertex] : view_meeting(s, before, k->way);
     }
-    drop_flat(s, ring);
+    if (leaning) drop_flat(s, ring);
     return true;
 }
 
@@ -110,38 +179,27 @@ bool view_beam_of_object(view_sightlines *s, uint32_t object, view_ring *ring) {
 
 /* ------------------------------------------------------------------ stretches -- */
 
-uint32_t view_side_count(const view_sightlines *s, uint32_t piece) {
-    return ring_of_piece(s->tree, piece).count;
+bool view_goes_straight(const view_sightlines *s, uint32_t object) {
+    const uint32_t n = scene_corners(s->tree->scene, object), first = scene_start(s->tree->scene, object);
+    uint32_t i = 0;
+    while (n > 3 && i < n && !s->surface->straight[first + i]) i++;
+    return n > 3 && i < n;
 }
 
-/* The end of a stretch of an edge: a vertex, or where the cut of a node ends it. The cut's way then has the edge's
- * lower vertex on its positive side. */
-static bool set_end(view_sightlines *s, uint32_t object, uint32_t edge, uint32_t neighbour, uint32_t vertex,
-                    view_end *out) {
-    const uint32_t *v = s->surface->vertices + 2 * (size_t)edge;
-    *out = (view_end){.ray = s->rays[vertex], .vertex = vertex};
-    if (!(neighbour & TREE_EDGE_CUT)) return true;
+bool view_stretch_of(view_sightlines *s, uint32_t object, uint32_t side, const view_ring *ring, view_stretch *out,
+                     froe_status *status) {
+    const uint32_t edge = edge_of(s, object, side), *v = s->surface->vertices + 2 * (size_t)edge;
     const uint32_t own = view_line_of_edge(s, edge);
-    const uint32_t line = view_line_of_cut(s, s->surface->patch_of[object], neighbour & ~TREE_EDGE_CUT);
-    if (own == FROE_NONE || line == FROE_NONE) return false;
-    int side = view_side(s, line, &s->rays[v[0]], v[0], 0, 0);
-    if (!side) side = -view_side(s, line, &s->rays[v[1]], v[1], 0, 0);
-    out->vertex = FROE_NONE;
-    out->way = 2 * line + (side < 0);
-    out->ray = view_meeting(s, 2 * own, out->way);
-    return true;
-}
-
-bool view_stretch_of(view_sightlines *s, uint32_t piece, uint32_t i, view_stretch *out, froe_status *status) {
-    const piece_ring o = ring_of_piece(s->tree, piece);
-    const uint32_t side = entry(&o, i);
-    if (side & TREE_EDGE_CUT) return false;
-    const uint32_t n = scene_corners(s->tree->scene, o.object), edge = edge_of(s, o.object, side);
-    const uint32_t from = scene_corner(s->tree->scene, o.object, side),
-                   to = scene_corner(s->tree->scene, o.object, side + 1 < n ? side + 1 : 0);
-    out->edge = edge;
-    if (!set_end(s, o.object, edge, entry(&o, i ? i - 1 : o.count - 1), from, &out->end[from > to]) ||
-        !set_end(s, o.object, edge, entry(&o, i + 1 < o.count ? i + 1 : 0), to, &out->end[from < to]))
-        *status = FROE_E_MEMORY;
-    return *status == FROE_OK;
+    if (own == FROE_NONE) *status = FROE_E_MEMORY;
+    if (own == FROE_NONE) return false;
+    size_t along = 0;
+    while (along < ring->count &&
+           (side_of_vertex(s, ring->data[along].way >> 1, v[0]) || side_of_vertex(s, ring->data[along].way >> 1, v[1])))
+        along++;
+    bool left = along < ring->count;
+    *out = (view_stretch){.edge = edge};
+    for (int k = 0; k < 2; k++) out->end[k] = (view_end){.ray = s->rays[v[k]], .vertex = v[k]};
+    for (size_t i = 0; i < ring->count && left; i++)
+        left = i == along || view_cut_stretch(s, own, ring->data[i].way, out);
+    return left;
 }

@@ -9,8 +9,10 @@ typedef ARRAY(view_corner) view_ring;
 bool view_beam_of(view_sightlines *sights, uint32_t piece, view_ring *ring);
 /** The beam of a whole polygon. */
 bool view_beam_of_object(view_sightlines *sights, uint32_t object, view_ring *ring);
-/** How many sides the ring of such a piece has, and the stretch of the i-th: false when that is no part of an edge of
- * the polygon. *status: FROE_E_MEMORY. */
-uint32_t view_side_count(const view_sightlines *sights, uint32_t piece);
-bool view_stretch_of(view_sightlines *sights, uint32_t piece, uint32_t i, view_stretch *out, froe_status *status);
+/** Does the border of a polygon go straight on at some corner? */
+bool view_goes_straight(const view_sightlines *sights, uint32_t object);
+/** The stretch of an edge of a polygon along the beam of one of its pieces; false: there is none. *status:
+ * FROE_E_MEMORY. */
+bool view_stretch_of(view_sightlines *sights, uint32_t object, uint32_t side, const view_ring *ring, view_stretch *out,
+                     froe_status *status);
 #endif

@@ -95,6 +95,17 @@ geom_plane view_plane_at(const view_sightlines *s, uint32_t object) {
     return plane;
 }
 
+/* The plane that divides a face where a cut does. A wall of the method `cylindrical` leans by an infinitely small eps
+ * from x + eps y; where it stands in the plane of an upright face, it divides that face at its y. */
+static geom_plane dividing(const geom_plane *face, const geom_plane *cut) {
+    const double x = face->p[0][0];
+    if (!geom_is_sheared(cut) || face->p[1][0] != x || face->p[2][0] != x) return *cut;
+    if (cut->form == GEOM_AT_VERTEX) return geom_plane_axis(3, 1, cut->p[0][1]);
+    const int line = cut->p[0][0] == cut->p[1][0] ? 2 : 0; /* of those that cross there, one that crosses the face */
+    const double *p = cut->p[line], *q = cut->p[line + 1];
+    return p[0] < q[0] ? geom_plane_vertical(p, q) : geom_plane_vertical(q, p);
+}
+
 /* The line as a geom_line; `planes` receives the planes that it refers to. */
 static geom_line resolve(view_sightlines *s, uint32_t line, geom_plane planes[2]) {
     const view_line *l = s->lines.data + line;
@@ -110,7 +121,8 @@ static geom_line resolve(view_sightlines *s, uint32_t line, geom_plane planes[2]
                            .axis = (int)l->b};
     }
     scene_support(s->tree->scene, surface_first(s->surface, l->a), &planes[0]);
-    planes[1] = tree_plane_at(s->tree, l->b);
+    const geom_plane cut = tree_plane_at(s->tree, l->b);
+    planes[1] = dividing(&planes[0], &cut);
     return (geom_line){.kind = GEOM_SIGHT_CUT, .s = &planes[0], .a = &planes[1]};
 }
 

@@ -79,13 +79,13 @@ static bool is_wanted(const visibility_search *k, uint32_t edge) {
 }
 
 /* Stretches of edges where the border of a polygon goes straight on at some corners, which its beam leaves out. */
-static froe_status look_along_sides(visibility_search *k, uint32_t piece) {
+static froe_status look_along_sides(visibility_search *k, uint32_t object) {
     view_sightlines *s = &k->v->sights;
     froe_status status = FROE_OK;
     view_stretch stretch;
-    for (uint32_t i = 0, n = view_side_count(s, piece); i < n && !status; i++) {
-        const bool part = view_stretch_of(s, piece, i, &stretch, &status);
-        if (!part || !is_wanted(k, stretch.edge)) continue;
+    for (uint32_t i = 0, n = scene_corners(s->tree->scene, object); i < n && !status; i++) {
+        if (!is_wanted(k, s->surface->edge_of[scene_start(s->tree->scene, object) + i])) continue;
+        if (!view_stretch_of(s, object, i, &k->ring, &stretch, &status)) continue;
         const uint32_t line = view_line_of_edge(s, stretch.edge);
         status =
             view_screen_classify(&k->screen, &stretch, line, k->ring.data, (uint32_t)k->ring.count, keep_stretch, k);
@@ -96,7 +96,8 @@ static froe_status look_along_sides(visibility_search *k, uint32_t piece) {
 /* Edges are seen where the piece is seen beside them. */
 static froe_status look_at_edges(visibility_search *k, uint32_t piece) {
     view_sightlines *s = &k->v->sights;
-    if (view_side_count(s, piece) != k->ring.count) return look_along_sides(k, piece);
+    const uint32_t object = s->tree->pieces[piece].object;
+    if (view_goes_straight(s, object)) return look_along_sides(k, object);
     for (size_t i = 0; i < k->ring.count; i++) {
         const view_way way = k->ring.data[i].way;
         const view_line *line = s->lines.data + (way >> 1);
