@@ -30,7 +30,7 @@ static view_way own_way(view_sightlines *s, uint32_t object, uint32_t side, int 
     return line == FROE_NONE ? FROE_NONE : 2 * line + (ascends != (facing > 0));
 }
 
-static int side_of_vertex(view_sightlines *s, uint32_t line, uint32_t vertex) {
+static int side_on_line(view_sightlines *s, uint32_t line, uint32_t vertex) {
     return view_side(s, line, &s->rays[vertex], vertex, 0, 0);
 }
 
@@ -47,12 +47,12 @@ static view_way snap_to_edge(view_sightlines *s, uint32_t object, view_way way, 
     const uint32_t n = scene_corners(scene, object);
     for (uint32_t i = 0; i < n; i++) {
         const uint32_t next = i + 1 < n ? i + 1 : 0;
-        if (side_of_vertex(s, way >> 1, scene_corner(scene, object, i)) ||
-            side_of_vertex(s, way >> 1, scene_corner(scene, object, next)))
+        if (side_on_line(s, way >> 1, scene_corner(scene, object, i)) ||
+            side_on_line(s, way >> 1, scene_corner(scene, object, next)))
             continue;
         int inside = 0; /* on which side of the wall is the polygon? */
         for (uint32_t k = 0; k < n && !inside; k++)
-            inside = side_of_vertex(s, way >> 1, scene_corner(scene, object, k));
+            inside = side_on_line(s, way >> 1, scene_corner(scene, object, k));
         const view_way own = own_way(s, object, i, facing);
         return own == FROE_NONE ? own : own ^ ((inside < 0) != (way & 1));
     }
@@ -194,7 +194,7 @@ bool view_stretch_of(view_sightlines *s, uint32_t object, uint32_t side, const v
     if (own == FROE_NONE) return false;
     size_t along = 0;
     while (along < ring->count &&
-           (side_of_vertex(s, ring->data[along].way >> 1, v[0]) || side_of_vertex(s, ring->data[along].way >> 1, v[1])))
+           (side_on_line(s, ring->data[along].way >> 1, v[0]) || side_on_line(s, ring->data[along].way >> 1, v[1])))
         along++;
     bool left = along < ring->count;
     *out = (view_stretch){.edge = edge};
