@@ -157,26 +157,28 @@ static size_t launch_climbs(froe_query *q, const double *points, size_t count, s
     return next;
 }
 
-froe_status packed_vertical(froe_query *q, const double *points, size_t count, int direction, uint32_t *objects) {
+/* The answer of one ray. Where it waits for memory, it prefetches the block after next meanwhile. */
+static uint32_t climb_alone(froe_query *q, climb *c, int direction, bool waits) {
+    uint32_t object = FROE_NONE;
+    for (bool more = true; more && object == FROE_NONE;) {
+        const uint32_t block = c->block, in_block = c->count;
+        if (waits) more = go_on_climbing(q->tree, c, direction);
+        object = test(q, block, in_block, c->point, direction);
+        if (!waits && object == FROE_NONE) more = go_on_climbing(q->tree, c, direction);
+    }
+    q->stats.nodes += c->nodes;
+    return object;
+}
+
+/* The next ray takes the place of one that is answered; where none is left, the last one does. */
+static void climb_together(froe_query *q, const double *points, size_t count, int direction, uint32_t *objects) {
     packed_work *work = q->packed;
     climb batch[PACKED_FLIGHT];
     size_t next = 0, flying = 0;
-    q->stats.queries += count;
-    work->candidates.count = 0;
-    if (!array_reserve(&q->alloc, &work->candidates, q->tree->report.max_leaf + PACKED_LANES)) return FROE_E_MEMORY;
     for (bool flies = true; flying < PACKED_FLIGHT && flies; flying += flies) {
         batch[flying].stack = work->climbs + flying * work->climb_size;
         next = launch_climbs(q, points, count, next, direction, objects, batch + flying, &flies);
     }
-    for (bool more = true; count == 1 && flying && more && *objects == FROE_NONE;) {
-        /* One ray alone prefetches the block after next while it waits for the next. */
-        const uint32_t block = batch->block, in_block = batch->count;
-        more = go_on_climbing(q->tree, batch, direction);
-        *objects = test(q, block, in_block, batch->point, direction);
-        if (*objects != FROE_NONE || !more) q->stats.nodes += batch->nodes;
-    }
-    if (count == 1) return q->bad.found ? FROE_E_MEMORY : FROE_OK;
-    /* The next ray takes the place of one that is answered; where none is left, the last one does. */
     for (size_t i = 0; flying; i = i + 1 < flying ? i + 1 : 0) {
         climb *c = batch + i;
         uint32_t object = test(q, c->block, c->count, c->point, direction), *stack = c->stack;
@@ -189,6 +191,21 @@ froe_status packed_vertical(froe_query *q, const double *points, size_t count, i
         *c = batch[--flying];
         batch[flying].stack = stack;
         if (i == flying) i = 0;
+    }
+}
+
+froe_status packed_vertical(froe_query *q, const double *points, size_t count, int direction, uint32_t *objects) {
+    packed_work *work = q->packed;
+    const bool waits = q->tree->packed.block_count >= work->flock_from;
+    climb alone = {.stack = work->climbs};
+    q->stats.queries += count;
+    work->candidates.count = 0;
+    if (!array_reserve(&q->alloc, &work->candidates, q->tree->report.max_leaf + PACKED_LANES)) return FROE_E_MEMORY;
+    if (waits && count > 1) climb_together(q, points, count, direction, objects);
+    for (size_t i = 0; i < count && (!waits || count == 1); i++) {
+        bool flies;
+        launch_climbs(q, points + 2 * i, 1, 0, direction, objects + i, &alone, &flies);
+        if (flies) objects[i] = climb_alone(q, &alone, direction, waits);
     }
     return q->bad.found ? FROE_E_MEMORY : FROE_OK;
 }
