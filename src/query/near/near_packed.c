@@ -29,7 +29,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { LEAST_FEW = 16 };
+enum { RANKED = 64 }; /* squares that are put in order at once */
 
 static double square_of_gap(const double gap[2]) {
     return gap[0] * gap[0] + gap[1] * gap[1];
@@ -96,23 +96,34 @@ static double squares_within(const query_near *n, const leaf_view *v) {
     return within * within * (1 + 0x1p-40);
 }
 
+/* The k least of few squares come to the front, by how many are below each: that has no branch to be guessed. How many
+ * they are, with equal ones. */
+static size_t pick_least(float squares[RANKED], size_t count, size_t k) {
+    float all[RANKED];
+    const size_t room = (count + 7) / 8 * 8;
+    size_t kept = 0;
+    for (size_t i = 0; i < room; i++) all[i] = i < count ? squares[i] : (float)INFINITY;
+    for (size_t i = 0; i < count; i++) {
+        uint32_t below = 0;
+        for (size_t j = 0; j < room; j++) below += all[j] < all[i];
+        squares[kept] = all[i];
+        kept += below < k;
+    }
+    return kept;
+}
+
 /* Lowers the limit by fragments where objects begin. Of a leaf only the k least matter. */
 static void lower_limit(query_near *n, const leaf_view *v, const uint32_t *ids, const packed_near *near, size_t k) {
-    float least[LEAST_FEW];
-    size_t count = 0;
-    for (uint32_t i = 0; i < near->count; i++) {
-        const float square = near->squares[near->places[i]];
-        if (!(ids[near->places[i]] & PACKED_START)) continue;
-        if (k > LEAST_FEW) {
-            query_near_keep(n, square_above(v, sqrt((double)square) + v->slack), k);
-            continue;
+    float squares[RANKED];
+    for (uint32_t i = 0; i < near->count;) {
+        size_t count = 0;
+        for (; i < near->count && count < RANKED; i++) {
+            squares[count] = near->squares[near->places[i]];
+            count += (ids[near->places[i]] & PACKED_START) != 0;
         }
-        if (count == k && square >= least[k - 1]) continue;
-        size_t at = count < k ? count++ : k - 1;
-        for (; at && least[at - 1] > square; at--) least[at] = least[at - 1];
-        least[at] = square;
+        if (count > k) count = pick_least(squares, count, k);
+        for (size_t j = 0; j < count; j++) query_near_keep(n, square_above(v, sqrt((double)squares[j]) + v->slack), k);
     }
-    for (size_t i = 0; i < count; i++) query_near_keep(n, square_above(v, sqrt((double)least[i]) + v->slack), k);
 }
 
 static bool scan_leaf(froe_query *q, const packed_header *block, uint32_t count, size_t k) {
@@ -143,10 +154,13 @@ static bool scan_leaf(froe_query *q, const packed_header *block, uint32_t count,
     else
         lower_limit(n, &v, ids, &near, k);
     within = squares_within(n, &v);
-    for (uint32_t i = 0; i < near.count; i++) {
-        const double square = (double)near.squares[near.places[i]];
-        if (!(square <= within)) continue;
-        const double below = square_below(&v, sqrt(square) - v.slack);
+    uint32_t kept = 0;
+    for (uint32_t i = 0; i < near.count; i++) { /* without a branch to be guessed */
+        near.places[kept] = near.places[i];
+        kept += (double)near.squares[near.places[i]] <= within;
+    }
+    for (uint32_t i = 0; i < kept; i++) {
+        const double below = square_below(&v, sqrt((double)near.squares[near.places[i]]) - v.slack);
         n->candidates.data[n->candidates.count++] = (query_candidate){below, NULL, ids[near.places[i]] & PACKED_OBJECT};
     }
     return true;
