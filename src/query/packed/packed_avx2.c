@@ -10,6 +10,7 @@
 #define LANES __attribute__((target(LANES_TARGET), always_inline)) static inline
 #define LANES_KERNEL __attribute__((target(LANES_TARGET))) static
 #define KERNELS packed_kernels_avx2
+#define LANES_WHOLE 0
 #define KERNELS_NAME "avx2"
 #define SPACE_KERNELS space_kernels_avx2
 

@@ -10,6 +10,7 @@
 #define LANES __attribute__((target(LANES_TARGET), always_inline)) static inline
 #define LANES_KERNEL __attribute__((target(LANES_TARGET))) static
 #define KERNELS packed_kernels_avx512
+#define LANES_WHOLE 1
 #define KERNELS_NAME "avx512"
 #define SPACE_KERNELS space_kernels_avx512
 

@@ -7,6 +7,7 @@
 #define LANES __attribute__((always_inline)) static inline
 #define LANES_KERNEL static
 #define KERNELS packed_kernels_plain
+#define LANES_WHOLE 0
 #define KERNELS_NAME "plain"
 #define SPACE_KERNELS space_kernels_plain
 #define EACH_QUARTER for (int i = 0; i < 4; i++)
