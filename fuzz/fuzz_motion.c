@@ -1,5 +1,5 @@
 /* fuzz_motion.c: any text as moving features (MF-JSON). What can be read has contacts that are told in order and lie in
- * the window, or too close to one another to be told apart. */
+ * the window, or too close to one another to be told apart. Without bodies it has as many objects. */
 #include "support.h"
 #include <froe/formats.h>
 #include <math.h>
@@ -23,6 +23,20 @@ static bool check(void *user, const froe_contact *c) {
     return true;
 }
 
+static void check_without_bodies(const froe_motion *motion) {
+    froe_motion *out;
+    froe_diagnostic why;
+    double reached, deviation = 0.1;
+    const froe_status status = froe_motion_without_bodies(motion, deviation, NULL, &out, &reached, &why);
+    const bool plane = froe_motion_window(motion).dim == 2;
+    if (status ? status != (plane ? FROE_E_UNSUPPORTED : FROE_E_LIMIT) : plane) abort();
+    if (status) return;
+    if (!(reached <= deviation) || froe_motion_body_count(out) ||
+        froe_motion_object_count(out) != froe_motion_object_count(motion))
+        abort();
+    froe_motion_free(out);
+}
+
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     char path[256];
     fuzz_file("", ".mfjson", data, size, path, sizeof path);
@@ -35,6 +49,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
         const bool small = froe_motion_object_count(motion) <= MOST_OBJECTS;
         const froe_status status = small ? froe_motion_contacts(motion, &o, check, &t, &why) : FROE_OK;
         if (status != FROE_OK && status != FROE_E_LIMIT) abort();
+        check_without_bodies(motion);
         froe_motion_free(motion);
     }
     remove(path);

@@ -45,6 +45,9 @@ static const cli_option options[] = {
      .help = "with --output: fail if a coordinate is no double and would have to be rounded"},
     {"augmented", 0, CLI_FLAG, offsetof(simulate_args, follow.augmented),
      .help = "with --events: segments that turn upright cost nothing, however many they cross"},
+    {"ghosts", 0, CLI_FLAG, offsetof(simulate_args, follow.ghosts),
+     .help = "with --events or --at, in space: of two triangles that meet, the later one of the file is left out "
+             "meanwhile; without it, events end there"},
     {"animate", 0, CLI_TEXT, offsetof(simulate_args, animate), "FILE", .file = CLI_WRITTEN,
      .help = "write an animated picture, .svg"},
     {"player", 0, CLI_TEXT, offsetof(simulate_args, player), "FILE", .file = CLI_WRITTEN,
@@ -164,7 +167,9 @@ static int run_simulate(const void *given) {
     }
     if (!code) code = animate(&s, args->animate);
     if (!code) code = animate(&s, args->player);
-    if (!code) code = cli_follow_motion(&args->common, &args->follow, args->moving.path, s.motion, &s.events);
+    cli_follow follow = args->follow;
+    follow.deviation = args->moving.deviation;
+    if (!code) code = cli_follow_motion(&args->common, &follow, args->moving.path, s.motion, &s.events);
     if (!code) code = report(&s);
     json_decref(s.events);
     froe_motion_free(s.motion);
@@ -184,8 +189,10 @@ const cli_command cli_command_simulate = {
         "fly and turn, and contacts are those of their triangles; pictures of them are those of froe render.\n\n"
         "With --events or --at, a partition (that of the method cylindrical) is kept right while they move: "
         "vertices and crossings that pass over one another, contacts, turns, pieces of flight plans and the like are "
-        "its events. In space these are events of the triangles as seen along z; triangles must move corner by corner, "
-        "and must not cross. A tree is taken at the next odd tick; its coordinates are doubles, and --json tells how "
+        "its events. In space these are events of the triangles as seen along z; triangles "
+        "must not cross, or --ghosts leaves them out meanwhile. Corners of bodies fly along parabolas there, at most "
+        "--deviation from where the bodies have them; --json tells how far. A tree is taken at the next odd tick; its "
+        "coordinates are doubles, and --json tells how "
         "many "
         "vertices had to be rounded, and whether the cuts are those of the exact places all the same. --places writes "
         "these.\n\n"

@@ -19,7 +19,7 @@ static bool write_event(void *user, const froe_event *happened) {
     double at[2];
     froe_event event = *happened;
     if (froe_kinetic_instant(w->kinetic, at, NULL) == FROE_OK) event.early = at[0], event.late = at[1];
-    w->stopped |= event.kind == FROE_EVENT_TOUCH;
+    w->stopped |= event.kind == FROE_EVENT_TOUCH && !w->asked->ghosts;
     w->stuck = !froe_event_writer_put(w->writer, &event);
     return !w->stuck;
 }
@@ -71,6 +71,53 @@ static void count_events(const walk *w, json_t *report) {
     json_object_set_new(report, "height", json_integer((json_int_t)s.height));
 }
 
+static int follow(walk *w, const cli_common *common, froe_motion *motion, json_t *report) {
+    froe_diagnostic diag;
+    froe_kinetic_options o = froe_kinetic_defaults();
+    o.seed = common->seed;
+    o.augmented = w->asked->augmented;
+    o.ghosts = w->asked->ghosts;
+    o.threads = (unsigned)common->threads;
+    o.progress = cli_progress_step;
+    o.user = &w->bar;
+    w->bar.what = "building";
+    int code = finish_following(w, froe_kinetic_new(motion, &o, NULL, &w->kinetic, &diag), &diag);
+    if (!code && w->asked->tree.name) code = advance(w, w->asked->at);
+    if (!code && w->asked->tree.name && !w->stuck) code = snapshot(w, report);
+    if (!code && w->writer && !w->stuck) code = advance(w, froe_motion_window(motion).end);
+    if (!code) count_events(w, report);
+    return code;
+}
+
+/* The diagonal of the box around all vertices when the window begins. */
+static double size_of(const froe_motion *motion) {
+    double lo[3] = {0}, hi[3] = {0}, at[3], square = 0;
+    bool any = false;
+    for (uint32_t v = 0; v < froe_motion_vertex_count(motion); v++) {
+        if (!froe_motion_position(motion, v, froe_motion_window(motion).begin, at)) continue;
+        for (int k = 0; k < 3; k++) {
+            lo[k] = any && lo[k] < at[k] ? lo[k] : at[k];
+            hi[k] = any && hi[k] > at[k] ? hi[k] : at[k];
+        }
+        any = true;
+    }
+    for (int k = 0; k < 3; k++) square += (hi[k] - lo[k]) * (hi[k] - lo[k]);
+    return square > 0 ? sqrt(square) : 1;
+}
+
+/* Partitions follow vertices on parabolas. *out: those in place of bodies, to be freed, or NULL where there are none. */
+static int replace_bodies(const cli_follow *asked, const char *file, const froe_motion *motion, froe_motion **out,
+                          json_t *report) {
+    froe_diagnostic diag;
+    double reached;
+    const double share = isnan(asked->deviation) ? froe_motion_read_defaults().deviation : asked->deviation;
+    if (!froe_motion_body_count(motion)) return 0;
+    const froe_status status = froe_motion_without_bodies(motion, share * size_of(motion), NULL, out, &reached, &diag);
+    if (status) return cli_fail_status(CLI_WORKING, file, status, &diag);
+    json_object_set_new(report, "deviation", json_real(reached));
+    return 0;
+}
+
 int cli_follow_motion(const cli_common *common, const cli_follow *asked, const char *file, froe_motion *motion,
                       json_t **report) {
     froe_diagnostic diag;
@@ -83,20 +130,12 @@ int cli_follow_motion(const cli_common *common, const cli_follow *asked, const c
     froe_status status = asked->events ? froe_event_writer_new(asked->events, NULL, &w.writer, &diag) : FROE_OK;
     if (status) return cli_fail_status(CLI_WRITING, asked->events, status, &diag);
     *report = json_object();
-    froe_kinetic_options o = froe_kinetic_defaults();
-    o.seed = common->seed;
-    o.augmented = asked->augmented;
-    o.threads = (unsigned)common->threads;
-    o.progress = cli_progress_step;
-    o.user = &w.bar;
-    w.bar.what = "building";
-    int code = finish_following(&w, froe_kinetic_new(motion, &o, NULL, &w.kinetic, &diag), &diag);
-    if (!code && asked->tree.name) code = advance(&w, asked->at);
-    if (!code && asked->tree.name && !w.stuck) code = snapshot(&w, *report);
-    if (!code && w.writer && !w.stuck) code = advance(&w, froe_motion_window(motion).end);
-    if (!code) count_events(&w, *report);
+    froe_motion *replaced = NULL;
+    int code = replace_bodies(asked, file, motion, &replaced, *report);
+    if (!code) code = follow(&w, common, replaced ? replaced : motion, *report);
     status = froe_event_writer_close(w.writer, code && !w.stopped ? FROE_E_CANCELLED : FROE_OK, &diag);
     froe_kinetic_free(w.kinetic);
+    froe_motion_free(replaced);
     const bool unwritten = status && (!code || w.stopped);
     return unwritten ? cli_fail_status(CLI_WRITING, asked->events, status, &diag) : code;
 }

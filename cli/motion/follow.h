@@ -9,9 +9,11 @@
 typedef struct cli_follow {
     const char *events, *places; /**< files to write, or NULL */
     cli_output tree;
-    double at;      /**< when the tree is taken; NaN: never */
-    bool unrounded; /**< rather no tree than one with rounded coordinates */
-    bool augmented; /**< segments turn upright for nothing */
+    double at;        /**< when the tree is taken; NaN: never */
+    bool unrounded;   /**< rather no tree than one with rounded coordinates */
+    bool augmented;   /**< segments turn upright for nothing */
+    bool ghosts;      /**< triangles that meet others are left out meanwhile */
+    double deviation; /**< of what replaces bodies, as a share of the size of what moves; NaN: the usual one */
 } cli_follow;
 
 /** Goes through the window of a motion from a file, if anything is asked for; events are written as they happen.

@@ -17,8 +17,8 @@ const cli_option cli_moving_options[] = {
     {"animation", 0, CLI_TEXT, offsetof(cli_moving_args, animation), "NAME",
      .help = "of a model: the animation of this name, or of this number from 0 (default: the only one)"},
     {"deviation", 0, CLI_REAL, offsetof(cli_moving_args, deviation), "D",
-     .help = "of an animation: how far anything may be from where the file's own interpolation has it, as a share of "
-             "the model's size (default 0.001)"},
+     .help = "of an animation: how far anything may be from where the file's own interpolation has it, and of bodies "
+             "in a partition, as a share of the model's size (default 0.001)"},
     {"from", 0, CLI_REAL, offsetof(cli_moving_args, from), "T",
      .help = "begin here (default: the file's first instant)"},
     {"to", 0, CLI_REAL, offsetof(cli_moving_args, to), "T", .help = "end here (default: the file's last instant)"},

@@ -145,6 +145,21 @@ FROE_API froe_body_knot froe_motion_body_knot(const froe_motion *motion, uint32_
  * greatest coordinate nearby. False (nothing written): its plan does not cover the time. O(log knots). */
 FROE_API bool froe_motion_position(const froe_motion *motion, uint32_t vertex, double time, double *at);
 
+/** A motion in space with the same groups, vertices and objects, by the same numbers, but without bodies. The vertices
+ * of bodies fly along parabolas of their own instead: each is never farther than `deviation` > 0 from where its body
+ * has it, and *reached (may be NULL) is a bound that holds and is hardly ever more than three times the truth. At each
+ * instant a body is as an affine map has it, up to 2^-20 of the deviation: so parts of a body that keep apart go on
+ * doing so. Between two instants of a body there are as many parabolas as that takes: about the cube root of its size
+ * divided by the deviation, within the window. Corners that are in one place of one body become one vertex, the first
+ * of them. What belongs to no body stays exactly as it is. So partitions can follow bodies that turn, which
+ * froe_kinetic_new() refuses.
+ * FROE_E_ARG: the deviation is not a number above 0. FROE_E_UNSUPPORTED: the motion is of the plane. FROE_E_LIMIT:
+ * doubles, or instants, are too far apart for this deviation; the body is named. FROE_E_MEMORY. O(instants of all
+ * vertices of the result). */
+FROE_API froe_status froe_motion_without_bodies(const froe_motion *motion, double deviation,
+                                                const froe_allocator *alloc, froe_motion **out, double *reached,
+                                                froe_diagnostic *diag);
+
 /* ---------------------------------------------------------------- contacts -- */
 
 /** Two objects meet, as closed segments or triangles, from one instant to another: a maximal interval. Its ends are
@@ -231,8 +246,9 @@ FROE_DEFAULTS(froe_kinetic_options, froe_kinetic_defaults);
 /** The partition at the first odd tick of the window; in space of triangles, as seen from above, along z. They must
  * not meet, and those that share vertices must have nothing else in common: froe_kinetic_advance() ends before the
  * first contact (froe_contact_options.neighbours). In space the partition is made anew where the plans of more than one
- * triangle in eight take other pieces at a tick, and bodies are refused with FROE_E_UNSUPPORTED, as are questions but
- * those straight up and down; a snapshot answers the others. The motion must outlive it. Until it is freed, plans are
+ * triangle in eight take other pieces at a tick. Bodies are refused with FROE_E_UNSUPPORTED
+ * (froe_motion_without_bodies() replaces them), as are questions but those straight up and down; a snapshot answers the
+ * others. The motion must outlive it. Until it is freed, plans are
  * changed and objects added by the functions below only. FROE_E_ARG: motion, options or out is NULL. FROE_E_OPTIONS:
  * the order is not one, or the options are not from froe_kinetic_defaults(). FROE_E_INPUT: two triangles meet at the
  * start; both are named.

@@ -158,7 +158,8 @@ static uint32_t object_count(const froe_kinetic *k) {
 
 static froe_status refuse_bodies(froe_diagnostic *diag) {
     return support_fail(diag, FROE_E_UNSUPPORTED,
-                        "The motion has bodies: a partition in space takes triangles whose corners have plans.");
+                        "The motion has bodies: a partition in space takes triangles whose corners have plans, as "
+                        "froe_motion_without_bodies() makes them.");
 }
 
 static froe_status take_order(froe_kinetic *k, froe_diagnostic *diag) {

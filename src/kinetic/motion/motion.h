@@ -10,7 +10,8 @@
  *     X = p0 (t1-t) + p1 (t-t0),   W = t1-t0,
  * a quadratic one Bezier's form with the squares; so knots are met exactly from both sides, and nothing is divided.
  *
- * It speaks for motion.c, motion_add.c (plans enter a motion) and place.c (where a vertex is). */
+ * It speaks for motion.c, motion_add.c (plans enter a motion), place.c (where a vertex is) and parabolas.c (a motion
+ * without bodies). */
 #ifndef FROE_KINETIC_MOTION_H
 #define FROE_KINETIC_MOTION_H
 #include "num/ball.h"
@@ -142,4 +143,13 @@ void motion_span_ball(const froe_motion *m, const motion_piece *piece, double fr
 int motion_turn_dyadic(num_arena *arena, const froe_motion *m, const motion_piece *piece, double from, double to,
                        num_dyadic c[4][2]);
 int motion_turn_ball(const froe_motion *m, const motion_piece *piece, double from, double to, num_ball c[4][2]);
+
+/** A vertex of a body between two times. With u from 0 to 1 in proportion to time it is at
+ *     F(u) + N(u) / W(u),     W = |q|^2,
+ * which are polynomials of degree 2 in Bezier's form: F has the control points flight[0..2], W the coefficients
+ * weight[0..2] > 0, and N the control points weight[i] turned[i]. turned[1] is where the tangents of the arc meet. */
+typedef struct motion_arc {
+    num_ball flight[3][3], turned[3][3], weight[3];
+} motion_arc;
+void motion_arc_of(const froe_motion *m, const motion_piece *piece, double from, double to, motion_arc *out);
 #endif

@@ -242,6 +242,31 @@ void motion_extend(const froe_motion *m, const motion_piece *piece, double from,
     }
 }
 
+static num_ball dot(const num_ball p[4], const num_ball q[4]) {
+    num_ball sum = num_ball_from(0);
+    for (int i = 0; i < 4; i++) sum = num_ball_add(sum, num_ball_mul(p[i], q[i]));
+    return sum;
+}
+
+void motion_arc_of(const froe_motion *m, const motion_piece *piece, double from, double to, motion_arc *out) {
+    const num_ball begin = num_ball_from(m->begin), half = num_ball_from(0.5);
+    const num_ball s = share_of_piece(m, piece, num_ball_sub(num_ball_from(from), begin));
+    const num_ball t = share_of_piece(m, piece, num_ball_sub(num_ball_from(to), begin));
+    num_ball q[2][4];
+    quaternion_at(piece, s, q[0]);
+    quaternion_at(piece, t, q[1]);
+    for (int i = 0; i < 3; i++) {
+        const num_ball *a = q[i / 2], *b = q[(i + 1) / 2];
+        out->weight[i] = dot(a, b);
+        for (int k = 0; k < 3; k++) {
+            out->turned[i][k] = turned(a, b, piece->corner, k);
+            out->flight[i][k] = along(piece, i < 2 ? s : t, i ? t : s, k);
+        }
+    }
+    for (int k = 0; k < 3 && piece->degree < 2; k++)
+        out->flight[1][k] = num_ball_mul(half, num_ball_add(out->flight[0][k], out->flight[2][k]));
+}
+
 /* -------------------------------------------------------------------- pieces -- */
 
 /* The plan that a vertex flies by: its own, or that of its body. */
