@@ -105,7 +105,7 @@ static double size_of(const froe_motion *motion) {
     return square > 0 ? sqrt(square) : 1;
 }
 
-/* Partitions follow vertices on parabolas. *out: those in place of bodies, to be freed, or NULL where there are none. */
+/* Partitions follow vertices on parabolas. *out: those in place of bodies, to be freed, or NULL: there are none. */
 static int replace_bodies(const cli_follow *asked, const char *file, const froe_motion *motion, froe_motion **out,
                           json_t *report) {
     froe_diagnostic diag;

@@ -581,8 +581,8 @@ static void move_bodies(floats_run *r) {
     froe_motion_options window = froe_motion_defaults();
     froe_moving b = froe_moving_defaults();
     froe_body body = froe_body_defaults();
-    froe_motion *motion;
-    double at[3] = {0, 0, 0};
+    froe_motion *motion, *replaced;
+    double at[7] = {0};
     window.dim = 3, window.begin = 0, window.end = 8;
     body.count = 2, body.times = times, body.coords = centres, body.controls = controls, body.turns = turns;
     b.vertex_count = 6, b.count = 2, b.starts = starts, b.times = times + 2, b.coords = corners, b.bodies = bodies;
@@ -590,8 +590,11 @@ static void move_bodies(floats_run *r) {
     MUST(r, froe_motion_add_body(motion, &body, NULL, NULL));
     MUST(r, froe_motion_add(motion, &b, NULL));
     TELL(r, froe_motion_position(motion, 0, 3.7, at));
-    floats_note(r, at, sizeof at);
     MUST(r, froe_motion_contacts(motion, NULL, note_contact, r, NULL));
+    MUST(r, froe_motion_without_bodies(motion, 1e-3, &memory, &replaced, at + 6, NULL));
+    TELL(r, froe_motion_position(replaced, 0, 3.7, at + 3));
+    floats_note(r, at, sizeof at);
+    froe_motion_free(replaced);
     froe_motion_free(motion);
 }
 

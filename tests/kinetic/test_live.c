@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-#include "kinetic/following.h"
+#include "kinetic/patterns.h"
 #include "support/memory.h"
 
 static bool augmented; /* all tests run in both variants */

@@ -1,7 +1,7 @@
 /* parabolas.c: a motion without bodies: their vertices fly along parabolas of their own.
  *
- *          c          Between two cuts of a piece a vertex of a body is at  F(u) + N(u) / W(u)  (motion.h). The parabola
- *        .   .        that replaces it is where the vertex is at both cuts and halfway. With  D = parabola - F  it is off by
+ *          c          Between two cuts of a piece a vertex of a body is at  F(u) + N(u) / W(u)  (motion.h). The
+ *        .   .        parabola that replaces it meets it at both cuts and halfway. With  D = parabola - F  it is off by
  *      .-"""-.             (N - W D) / W,
  *     a       b       whose numerator has degree 4 and vanishes at 0, 1/2 and 1: the error falls with the third power
  *                     of the length. No more than its greatest coefficient in Bernstein's form, by the least of W.
@@ -67,7 +67,7 @@ static num_ball times_of(double a, num_ball b) {
 }
 
 /* Where the arc begins (end 0) or ends (2). */
-static void place_of(const replacement *r, const motion_arc *arc, int end, double out[3]) {
+static void arc_end(const replacement *r, const motion_arc *arc, int end, double out[3]) {
     for (int k = 0; k < 3; k++) out[k] = on_grid(r, arc->flight[end][k].x + arc->turned[end][k].x);
 }
 
@@ -130,7 +130,7 @@ static double bend(const replacement *r, const motion_piece *piece, const motion
 /* ------------------------------------------------------------------------ cuts -- */
 
 /* The time from which part i of n lasts, an even tick where there is one. */
-static double part_of(const froe_motion *m, double from, double to, uint32_t i, uint32_t n) {
+static double cut_time(const froe_motion *m, double from, double to, uint32_t i, uint32_t n) {
     if (!i || i == n) return i ? to : from;
     const double time = from + (to - from) * ((double)i / n);
     const int64_t tick = motion_tick_before(m, time) & ~(int64_t)1;
@@ -144,13 +144,13 @@ static double worst_of(const replacement *r, const body_cuts *b, motion_piece pi
     double worst = 0, p[3][3], corner[3];
     motion_arc arc;
     for (uint32_t i = 0; i < n && worst <= r->deviation; i++) {
-        const double begin = part_of(r->from, from, to, i, n), end = part_of(r->from, from, to, i + 1, n);
+        const double begin = cut_time(r->from, from, to, i, n), end = cut_time(r->from, from, to, i + 1, n);
         if (!(begin < end)) return (double)INFINITY;
         for (int c = 0; c < 8; c++) {
             for (int k = 0; k < 3; k++) corner[k] = c >> k & 1 ? b->hi[k] : b->lo[k];
             piece.corner = corner;
             motion_arc_of(r->from, &piece, begin, end, &arc);
-            place_of(r, &arc, 0, p[0]), place_of(r, &arc, 2, p[2]);
+            arc_end(r, &arc, 0, p[0]), arc_end(r, &arc, 2, p[2]);
             worst = fmax(worst, bend(r, &piece, &arc, p));
         }
     }
@@ -172,7 +172,7 @@ static froe_status cut_piece(replacement *r, size_t body, uint32_t knot) {
         n = is_straight(&piece) ? MOST_PARTS + 1 : n + n / 2 + 1;
     if (n > MOST_PARTS) return fail_limit(r, body);
     if (!array_reserve(r->alloc, &r->cuts, n)) return support_fail_memory(r->diag);
-    for (uint32_t i = 0; i < n; i++) r->cuts.data[r->cuts.count++] = (cut){part_of(r->from, from, to, i, n), knot};
+    for (uint32_t i = 0; i < n; i++) r->cuts.data[r->cuts.count++] = (cut){cut_time(r->from, from, to, i, n), knot};
     return FROE_OK;
 }
 
@@ -222,7 +222,7 @@ static froe_status cut_bodies(replacement *r) {
 
 /* ------------------------------------------------------------------------ plans -- */
 
-static void put(replacement *r, double time, const double at[3], const double control[3]) {
+static void put_knot(replacement *r, double time, const double at[3], const double control[3]) {
     const size_t n = r->times.count++;
     r->times.data[n] = time;
     for (size_t k = 0; k < 3; k++) r->coords.data[3 * n + k] = at[k], r->controls.data[3 * n + k] = control[k];
@@ -233,7 +233,7 @@ static const double straight[3] = {(double)NAN, (double)NAN, (double)NAN};
 static void put_own(replacement *r, const motion_plan *plan) {
     for (size_t i = 0; i < plan->count; i++) {
         const motion_knot *knot = r->from->knots.data + plan->first + i;
-        put(r, knot->time, knot->at, knot->control);
+        put_knot(r, knot->time, knot->at, knot->control);
     }
 }
 
@@ -253,17 +253,17 @@ static double put_carried(replacement *r, uint32_t v, const body_cuts *b) {
     double p[3][3], worst = 0;
     motion_arc arc, next;
     motion_piece piece = part_arc(r, v, b, 0, &arc), after = piece;
-    place_of(r, &arc, 0, p[0]);
+    arc_end(r, &arc, 0, p[0]);
     for (size_t i = 0; i < parts; i++, piece = after, arc = next) {
         const bool last = i + 1 == parts;
         next = arc;
         if (!last) after = part_arc(r, v, b, i + 1, &next);
-        place_of(r, &next, last ? 2 : 0, p[2]);
+        arc_end(r, &next, last ? 2 : 0, p[2]);
         worst = fmax(worst, bend(r, &piece, &arc, p));
-        put(r, cuts[i].time, p[0], is_straight(&piece) ? straight : p[1]);
+        put_knot(r, cuts[i].time, p[0], is_straight(&piece) ? straight : p[1]);
         memcpy(p[0], p[2], sizeof p[0]);
     }
-    if (b->count > 1) put(r, cuts[parts].time, p[0], straight);
+    if (b->count > 1) put_knot(r, cuts[parts].time, p[0], straight);
     return worst;
 }
 
@@ -303,7 +303,7 @@ static froe_status reserve_plans(replacement *r) {
 
 /* ------------------------------------------------------------------------ motion -- */
 
-static int by_place(void *user, uint32_t a, uint32_t b) {
+static int by_corner(void *user, uint32_t a, uint32_t b) {
     const froe_motion *m = user;
     const motion_plan *p = m->plans.data + a, *q = m->plans.data + b;
     if (p->body != q->body) return p->body < q->body ? -1 : 1;
@@ -319,10 +319,10 @@ static void weld(replacement *r) {
     const size_t n = m->plans.count;
     uint32_t *sorted = r->sorted.data, *first = r->first.data;
     for (uint32_t v = 0; v < n; v++) sorted[v] = v;
-    base_merge_sort(sorted, sorted + n, n, by_place, m);
+    base_merge_sort(sorted, sorted + n, n, by_corner, m);
     for (size_t i = 0; i < n; i++) {
         const uint32_t v = sorted[i];
-        const bool same = i && m->plans.data[v].body != FROE_NONE && by_place(m, sorted[i - 1], v) == 0;
+        const bool same = i && m->plans.data[v].body != FROE_NONE && by_corner(m, sorted[i - 1], v) == 0;
         first[v] = same ? first[sorted[i - 1]] : v;
     }
 }
@@ -346,7 +346,7 @@ static void put_objects(replacement *r) {
     }
 }
 
-static froe_status fill(replacement *r, froe_motion *out) {
+static froe_status fill_motion(replacement *r, froe_motion *out) {
     const froe_motion *m = r->from;
     froe_moving batch = froe_moving_defaults();
     batch.vertex_count = m->plans.count, batch.count = m->objects.count;
@@ -371,7 +371,7 @@ static froe_status make(replacement *r, froe_motion **out) {
     put_objects(r);
     froe_motion *made = NULL;
     status = froe_motion_new(&window, r->alloc, &made, r->diag);
-    if (!status) status = fill(r, made);
+    if (!status) status = fill_motion(r, made);
     if (!status)
         *out = made;
     else

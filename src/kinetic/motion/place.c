@@ -242,7 +242,7 @@ void motion_extend(const froe_motion *m, const motion_piece *piece, double from,
     }
 }
 
-static num_ball dot(const num_ball p[4], const num_ball q[4]) {
+static num_ball product_of(const num_ball p[4], const num_ball q[4]) {
     num_ball sum = num_ball_from(0);
     for (int i = 0; i < 4; i++) sum = num_ball_add(sum, num_ball_mul(p[i], q[i]));
     return sum;
@@ -257,7 +257,7 @@ void motion_arc_of(const froe_motion *m, const motion_piece *piece, double from,
     quaternion_at(piece, t, q[1]);
     for (int i = 0; i < 3; i++) {
         const num_ball *a = q[i / 2], *b = q[(i + 1) / 2];
-        out->weight[i] = dot(a, b);
+        out->weight[i] = product_of(a, b);
         for (int k = 0; k < 3; k++) {
             out->turned[i][k] = turned(a, b, piece->corner, k);
             out->flight[i][k] = along(piece, i < 2 ? s : t, i ? t : s, k);
