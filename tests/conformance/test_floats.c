@@ -594,8 +594,7 @@ static void move_bodies(floats_run *r) {
     MUST(r, froe_motion_without_bodies(motion, 1e-3, &memory, &replaced, at + 6, NULL));
     TELL(r, froe_motion_position(replaced, 0, 3.7, at + 3));
     floats_note(r, at, sizeof at);
-    froe_motion_free(replaced);
-    froe_motion_free(motion);
+    froe_motion_free(replaced), froe_motion_free(motion);
 }
 
 static void motions(floats_run *r, void *user) {
