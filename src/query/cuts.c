@@ -27,9 +27,10 @@ static query_plane plane_of_cut(const froe_tree *t, uint32_t node) {
     const geom_plane plane = tree_plane_at(t, node);
     query_plane h = {.c = plane.c, .n_err = plane.n_err};
     if (plane.form == GEOM_AT_CROSSING) {
-        /* x[0] = c, where c is known up to c_err only: as (x - (c - k)) - k with a k so large that what is charged
-         * for its rounding covers the error. */
-        const double k = plane.c_err / (4 * FILTER_U) + fabs(plane.c) / 2;
+        /* x[0] = c, where c is known up to c_err only: as (x - (c - k)) - k, for which 8 u k is charged. That covers
+         * c_err, and the roundings of c - k, at most u (|c| + k), and of the last difference, at most u k beyond the
+         * 8 u |x - (c - k)| that are charged, too. */
+        const double k = (plane.c_err / FILTER_U + fabs(plane.c)) / 6;
         return (query_plane){.n = {1}, .o = {plane.c - k}, .c = k, .n_err = k < 0x1p1000 ? 0 : INFINITY};
     }
     /* rounding is charged for with 2 u |c| to spare, as FINE cuts need it that are in lowest terms */
