@@ -93,8 +93,9 @@ static int top_of(num_dyadic a) {
     return a.exponent + (int)a.count;
 }
 
+/* Below its top. */
 static uint64_t limb_at(num_dyadic a, int place) {
-    return place >= a.exponent && place < top_of(a) ? a.limbs[place - a.exponent] : 0;
+    return place >= a.exponent ? a.limbs[place - a.exponent] : 0;
 }
 
 static int compare_magnitudes(num_dyadic a, num_dyadic b) {

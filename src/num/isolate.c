@@ -95,12 +95,12 @@ static double rough_root(const num_ball_poly *p, double low, double high, double
 static bool jump(num_arena *arena, num_isolated *root, int depth) {
     const num_ball around = num_isolated_ball(root);
     const double unit = ldexp(1, -depth), half = ldexp(0.5, -root->depth);
+    /* the ends of the interval are exact, as it has less than 46 bits, and the guess is between them */
     const double at = floor(rough_root(&root->of->near, around.x - half, around.x + half, unit) / unit);
-    const double first = floor((around.x - half) / unit), last = first + ldexp(1, depth - root->depth) - 1;
+    const double last = (around.x + half) / unit - 1;
     num_isolated low = {.of = root->of, .depth = depth, .low_sign = root->low_sign}, high = low;
-    if (!(at >= first && at <= last && at + 1 < ldexp(1, depth))) return false;
     low.lo[NUM_FRACTION_LIMBS - 1] = (uint64_t)at << (64 - depth);
-    high.lo[NUM_FRACTION_LIMBS - 1] = (uint64_t)(at + 1) << (64 - depth);
+    high.lo[NUM_FRACTION_LIMBS - 1] = (uint64_t)(at + 1) << (64 - depth); /* 0 where it is 1, the end */
     if (sign_at_low(arena, &low) != root->low_sign || (at < last && sign_at_low(arena, &high) != -root->low_sign))
         return false;
     *root = low;

@@ -10,7 +10,7 @@ void num_poly_trim(num_poly *f, int most) {
 static num_ball ball_of(num_arena *arena, num_dyadic a) {
     double x = num_dyadic_quotient(arena, a, num_dyadic_scaled(arena, 1, 1, 0));
     bool exact = a.count <= 1 && fabs(x) < 0x1p53 && a.exponent == 0;
-    return (num_ball){x, exact || !a.sign ? 0 : fabs(x) * 0x1p-53 + 0x1p-1074};
+    return (num_ball){x, exact ? 0 : fabs(x) * 0x1p-53 + 0x1p-1074};
 }
 
 num_ball_poly num_poly_balls(num_arena *arena, const num_poly *f) {

@@ -95,6 +95,24 @@ static void boxes_lie_beside_vertical_planes(void **state) {
     assert_true(side == 1 || side == -1);
 }
 
+/* Where segments of the plane cross lines given by vectors, beside walls through points: left or right, then below or
+ * above, whatever the line is given by. */
+static void crossings_of_vectors_lie_beside_sheared_walls(void **state) {
+    static const double ways[][2] = {{1, 0}, {0, 1}, {1, 2}, {-3, 1}};
+    (void)state;
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++)
+            for (int x = 1; x < 4 && i != j; x++)
+                for (int y = 1; y < 4; y++) {
+                    const double u[2] = {2 - ways[i][0], 2 - ways[i][1]}, v[2] = {2 + ways[i][0], 2 + ways[i][1]};
+                    const double n[2] = {-ways[j][1], ways[j][0]};
+                    const geom_plane line = geom_plane_vector(2, n, 2 * n[0] + 2 * n[1]); /* both cross at 2, 2 */
+                    const geom_plane wall = geom_plane_at_vertex(2, (const double[]){x, y});
+                    const int side = x != 2 ? (x < 2) - (x > 2) : (y < 2) - (y > 2);
+                    assert_int_equal(geom_side_crossing(&context, &wall, u, v, &line), side);
+                }
+}
+
 /* ------------------------------------------------------------------------ sets -- */
 
 static void ranks_of_bodies(void **state) {
@@ -220,6 +238,7 @@ int main(void) {
         cmocka_unit_test(planes_trust_no_other_rounding),
         cmocka_unit_test(fine_planes_are_told_apart),
         cmocka_unit_test(boxes_lie_beside_vertical_planes),
+        cmocka_unit_test(crossings_of_vectors_lie_beside_sheared_walls),
         cmocka_unit_test(ranks_of_bodies),
         cmocka_unit_test(round_boxes_meet_across_gaps),
         cmocka_unit_test(sets_meet_surely_only_by_error_bounds),
