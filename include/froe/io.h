@@ -64,8 +64,8 @@ FROE_API froe_status froe_read(const char *path, const froe_read_options *option
  * 1, within 1/122; a node that does not exist. FROE_E_OPTIONS: no animation of that name, or several and no name.
  * FROE_E_UNSUPPORTED: skinned meshes, morph targets that move, scales that change (by more than 2^-10 of them), nodes
  * that turn below one that is scaled by different factors, keys that are compressed, no polygons. A scale that does not
- * change, mirrored ones too, is allowed otherwise. FROE_E_LIMIT: the deviation cannot be kept. Otherwise as froe_read()
- * for models. options, report and diag may be NULL. */
+ * change, mirrored ones too, is allowed otherwise. FROE_E_LIMIT: the deviation cannot be kept, or not by
+ * 65,536 halvings in all. Otherwise as froe_read() for models. options, report and diag may be NULL. */
 FROE_API froe_status froe_read_animation(const char *path, const froe_motion_read_options *options, froe_motion **out,
                                          froe_motion_report *report, froe_diagnostic *diag);
 

@@ -18,6 +18,7 @@ typedef struct moving_model {
     ARRAY(uint32_t) part_of;              /* of each node: 0: it stands still; of others and below: i + 1 */
     ARRAY(io_part) parts;
     froe_motion_report report;
+    size_t halvings; /* that are left */
     /* the motion */
     ARRAY(formats_life) lives;
     ARRAY(size_t) starts;
@@ -221,6 +222,7 @@ static froe_status add_lives(moving_model *m, froe_motion *motion, io_part *part
     const froe_allocator *alloc = &m->animation.sink->alloc;
     io_numbers ends = {0}, knots = {0};
     part->tolerance = m->asked->deviation * m->report.extent;
+    part->halvings = m->halvings;
     bool room = array_push(alloc, &ends, m->window.begin) &&
                 io_part_jumps(part, m->window.begin, m->window.end, &ends) && array_push(alloc, &ends, m->window.end);
     froe_status status = FROE_OK;
@@ -235,6 +237,7 @@ static froe_status add_lives(moving_model *m, froe_motion *motion, io_part *part
     }
     array_free(alloc, &ends), array_free(alloc, &knots);
     m->report.deviation = fmax(m->report.deviation, part->deviation);
+    m->halvings = part->halvings;
     return room ? status : no_memory(m);
 }
 
@@ -281,7 +284,8 @@ froe_status froe_read_animation(const char *path, const froe_motion_read_options
     const froe_motion_read_options standard = froe_motion_read_defaults();
     if (!path || !out) return support_fail_null(diag, __func__);
     if (options && options->size != sizeof *options) return support_fail_defaults(diag, "froe_motion_read_defaults");
-    moving_model m = {.options = froe_read_defaults(), .asked = options ? options : &standard};
+    moving_model m = {
+        .options = froe_read_defaults(), .asked = options ? options : &standard, .halvings = IO_HALVINGS};
     if (!(m.asked->deviation > 0) || !isfinite(m.asked->deviation))
         return support_fail(diag, FROE_E_OPTIONS, "The deviation of an animation, %g, is not above 0.",
                             m.asked->deviation);

@@ -378,6 +378,13 @@ static froe_status follow_piece(io_part *p, double from, double to, io_numbers *
             return support_fail(p->animation->sink->diag, FROE_E_LIMIT,
                                 "%s: animation '%.40s': At the time %.9g a deviation of %.3g cannot be kept.",
                                 support_short(p->animation->sink->path), p->animation->name, from, p->tolerance);
+        if (!p->halvings)
+            return support_fail(p->animation->sink->diag, FROE_E_LIMIT,
+                                "%s: animation '%.40s': At the time %.9g a deviation of %.3g is not reached by %d "
+                                "halvings of pieces.",
+                                support_short(p->animation->sink->path), p->animation->name, from, p->tolerance,
+                                IO_HALVINGS);
+        p->halvings--;
         room = array_push(alloc, ends, middle);
     }
     return room ? FROE_OK : support_fail_memory(p->animation->sink->diag);

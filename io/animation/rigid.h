@@ -31,6 +31,7 @@ typedef struct io_part {
     double lo[3], hi[3];    /**< of its corners in the body; the caller's */
     double tolerance;       /**< how far a corner may be from its place; the caller's */
     double deviation;       /**< how far one is at most */
+    size_t halvings;        /**< of pieces, so many are left; the caller's */
 } io_part;
 
 /** Makes the chain down to a node, which moves. `channel_of`: of each node, or NULL. FROE_E_UNSUPPORTED: it is not
@@ -38,6 +39,9 @@ typedef struct io_part {
 froe_status io_part_make(const io_animation *animation, const io_nodes *nodes, const io_channel *const *channel_of,
                          size_t node, double begin, io_part *out);
 void io_part_free(io_part *part);
+/** Halvings that the parts of a model may take together. Pieces are as many as the square root of 1 / deviation, and
+ * what is asked about the motion takes time for each. */
+enum { IO_HALVINGS = 1 << 16 };
 /** Does a node with this channel move? */
 bool io_channel_moves(const io_animation *animation, const io_channel *channel);
 /** The matrix of a node that stands still with a channel. */
@@ -46,7 +50,7 @@ void io_channel_matrix(const io_animation *animation, const io_channel *channel,
 /** Times at which the part jumps, ascending, strictly between two; appended. False: no memory. */
 bool io_part_jumps(const io_part *part, double from, double to, io_numbers *out);
 /** Appends t, x, y, z and the turn x, y, z, w of each knot from one time to another, between which the part does not
- * jump. FROE_E_LIMIT: the tolerance cannot be kept. FROE_E_MEMORY. */
+ * jump. FROE_E_LIMIT: the tolerance cannot be kept, or not by the halvings that are left. FROE_E_MEMORY. */
 froe_status io_part_follow(io_part *part, double from, double to, io_numbers *out);
 /** Where the body is at a time. */
 void io_part_pose(const io_part *part, double time, double place[3], double turn[4]);

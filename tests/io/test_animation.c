@@ -294,6 +294,25 @@ static void what_is_not_rigid_is_refused(void **state) {
            "through.gltf: animation 'go': At the time 0.5 a deviation of 0.00447 cannot be kept.");
 }
 
+/* Pieces are as many as the root of what is asked for: those that nobody could wait for are refused. */
+static void tiny_deviations_are_refused(void **state) {
+    (void)state;
+    static animated_model m;
+    froe_motion_read_options o = froe_motion_read_defaults();
+    make_random(&m, 7);
+    animated_write(&m, "tiny.gltf");
+    o.deviation = 1e-6;
+    const compared fine = compare(&m, "tiny.gltf", &o);
+    assert_true(fine.pieces > 2000 && fine.most <= fine.reported + 1e-12 * fine.extent);
+    o.deviation = 1e-12;
+    froe_diagnostic diag = {.message = ""};
+    froe_motion *motion = NULL;
+    assert_int_equal(froe_read_animation("tiny.gltf", &o, &motion, NULL, &diag), FROE_E_LIMIT);
+    assert_null(motion);
+    assert_non_null(strstr(diag.message, " is not reached by 65536 halvings of pieces."));
+    assert_ptr_equal(strstr(diag.message, "tiny.gltf: animation 'go': At the time "), diag.message);
+}
+
 static void a_scale_along_a_spline_between_equal_keys_is_refused(void **state) {
     (void)state;
     static animated_model m;
@@ -471,6 +490,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_deviation_that_is_told_holds_everywhere),
         cmocka_unit_test(less_deviation_takes_more_pieces),
+        cmocka_unit_test(tiny_deviations_are_refused),
         cmocka_unit_test(a_hinge_keeps_to_its_arc),
         cmocka_unit_test(collada_and_fbx_move_by_the_keys_that_assimp_has),
         cmocka_unit_test(keys_that_are_none_are_refused),
