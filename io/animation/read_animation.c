@@ -284,8 +284,7 @@ froe_status froe_read_animation(const char *path, const froe_motion_read_options
     const froe_motion_read_options standard = froe_motion_read_defaults();
     if (!path || !out) return support_fail_null(diag, __func__);
     if (options && options->size != sizeof *options) return support_fail_defaults(diag, "froe_motion_read_defaults");
-    moving_model m = {
-        .options = froe_read_defaults(), .asked = options ? options : &standard, .halvings = IO_HALVINGS};
+    moving_model m = {.options = froe_read_defaults(), .asked = options ? options : &standard, .halvings = IO_HALVINGS};
     if (!(m.asked->deviation > 0) || !isfinite(m.asked->deviation))
         return support_fail(diag, FROE_E_OPTIONS, "The deviation of an animation, %g, is not above 0.",
                             m.asked->deviation);

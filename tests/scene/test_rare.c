@@ -65,6 +65,12 @@ static void points_with_equal_tags_stay_apart(void **state) {
     }
     assert_true(collisions >= 2);
     assert_int_equal(s->vertex_count, MANY);
+    froe_scene *m, c; /* as a file has it: its vertices are found to be different */
+    assert_int_equal(scene_explicit(s, &s->alloc, &c), FROE_OK);
+    assert_int_equal(scene_mapped(&c, NULL, &m, NULL), FROE_OK);
+    assert_int_equal(froe_scene_check(m, NULL), FROE_OK);
+    froe_scene_free(m);
+    scene_explicit_free(s, &s->alloc, &c);
     froe_scene_free(s);
     free(x), free(tags), free(original);
 }
@@ -79,13 +85,36 @@ static void equal_objects_have_equal_forms_corners_and_radii(void **state) {
     for (uint32_t a = 0; a < 6; a++)
         for (uint32_t b = 0; b < 6; b++)
             assert_int_equal(scene_equal(s, a, b), a == b || (a >= 3 && a < 5 && b >= 3 && b < 5));
+    assert_int_equal(add(s, FROE_HULL, 1, (const double[]){0, 0, 1, 1}, (const size_t[]){0, 2}, NULL), FROE_OK);
+    assert_false(scene_equal(s, 5, 6)); /* which begins like the other, and has fewer corners */
+    assert_false(scene_equal(s, 6, 5));
     froe_scene_free(s);
+}
+
+/* Where no filter is trusted, exact numbers tell what is a triangle, and it comes out the same. */
+static void forms_do_not_depend_on_trust_in_filters(void **state) {
+    static const double coords[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 5, 2, 0, 5, 1, 0, 5, 0, 0, 9, 1, 1, 9, 1, 1, 9};
+    static const froe_kind forms[] = {FROE_POLYGON, FROE_SEGMENT, FROE_SEGMENT};
+    (void)state;
+    for (int count = 1; count <= 3; count += 2)
+        for (int trusted = 0; trusted < 2; trusted++) {
+            froe_scene *s = new_scene(3);
+            s->store->trusted = trusted;
+            assert_int_equal(add(s, FROE_POLYGON, (size_t)count, coords, (const size_t[]){0, 3, 6, 9}, NULL), FROE_OK);
+            for (uint32_t i = 0; i < (uint32_t)count; i++) assert_int_equal(froe_scene_object(s, i).form, forms[i]);
+            assert_int_equal(s->store->context_ready, !trusted || count > 1);
+            froe_scene_free(s);
+        }
 }
 
 /* ----------------------------------------------------------------------- arguments -- */
 
 static void wrong_arguments_are_refused(void **state) {
     (void)state;
+    froe_scene *none = new_scene(3);
+    assert_int_equal(add(none, FROE_POLYGON, 0, (const double[]){0}, (const size_t[]){0}, NULL), FROE_OK);
+    assert_int_equal(froe_scene_object_count(none), 0);
+    froe_scene_free(none);
     froe_scene *s = new_scene(3), *flat = new_scene(2);
     const froe_group group = {.name = "a"};
     uint32_t id = 9, ends[2];
@@ -297,10 +326,10 @@ static void many_polygons_in_doubt_may_lack_memory_and_be_cancelled(void **state
     p.coords = malloc(9 * p.count * sizeof *p.coords);
     assert_non_null(p.coords);
     for (size_t i = 0; i < p.count; i++) {
-        const double x = (double)i, thin = i % 50 ? 1 : 0x1p-60; /* an area that no filter is sure of */
-        const double corners[9] = {x, 0, 0, x + 1, 1, 1, x, thin, 0};
-        memcpy(p.coords + 9 * i, corners, sizeof corners);
-        if (i % 50 == 0) p.coords[9 * i + 6] = x + 1, p.coords[9 * i + 7] = 1 + 0x1p-52, p.coords[9 * i + 8] = 1;
+        const double x = (double)i;
+        const double corners[9] = {x, 0, 0, x + 1, 1, 1, x, 1, 0};
+        const double thin[9] = {x, 0, 0, x + 1, 1. / 3, 1. / 7, x + 2, 2. / 3, nextafter(2. / 7, 1)}; /* who knows */
+        memcpy(p.coords + 9 * i, i % 50 ? corners : thin, sizeof corners);
     }
     assert_int_equal(add_pile(&p, NULL), FROE_OK);
     const uint32_t calls = p.calls;
@@ -359,6 +388,7 @@ int main(void) {
         cmocka_unit_test(a_table_that_no_memory_could_hold_is_refused),
         cmocka_unit_test(points_with_equal_tags_stay_apart),
         cmocka_unit_test(equal_objects_have_equal_forms_corners_and_radii),
+        cmocka_unit_test(forms_do_not_depend_on_trust_in_filters),
         cmocka_unit_test(wrong_arguments_are_refused),
         cmocka_unit_test(more_groups_than_numbers_are_refused),
         cmocka_unit_test(strings_of_a_coordinate_system_end),
