@@ -137,7 +137,8 @@ endforeach()
 target_sources(test_files_writer PRIVATE tests/faults/faults.c)
 target_link_options(test_files_writer PRIVATE ${fault_options})
 if(FROE_HAS_CLI)
-  foreach(call malloc calloc realloc strdup strndup fopen open_memstream getline mmap pthread_create cli_progress_step)
+  foreach(call malloc calloc realloc strdup strndup fopen open_memstream getline mmap pthread_create cli_progress_step
+          json_set_alloc_funcs)
     list(APPEND fault_options -Wl,--wrap=${call})
   endforeach()
   # With all libraries inside, so that faults reach them; and without, which starts ten times as fast.

@@ -66,6 +66,12 @@ static const cli_part parts[] = {
 
 /* ----------------------------------------------------------------- measuring -- */
 
+/* Is a measure there? Memory that it lacked is noted. */
+static bool is_measured(froe_status status) {
+    if (status == FROE_E_MEMORY) (void)cli_report_lose();
+    return status == FROE_OK;
+}
+
 /* A few cheap measures, to tell scenes apart. */
 static json_t *measures_json(const compare_args *args, const froe_scene *scene) {
     froe_measure_options o = froe_measure_defaults();
@@ -76,17 +82,17 @@ static json_t *measures_json(const compare_args *args, const froe_scene *scene) 
     o.samples = 1000;
     o.seed = args->common.seed;
     json_t *out = json_pack("{s:I}", "objects", (json_int_t)froe_scene_object_count(scene));
-    if (!froe_measure_clutter(scene, &o, &clutter, NULL))
+    if (is_measured(froe_measure_clutter(scene, &o, &clutter, NULL)))
         json_object_set_new(out, "clutter at least", json_integer(clutter.lower));
-    if (!froe_measure_density(scene, FROE_SIZE_RADIUS, &o, &density, NULL)) {
+    if (is_measured(froe_measure_density(scene, FROE_SIZE_RADIUS, &o, &density, NULL))) {
         json_object_set_new(out, "density at least", json_integer(density.lower));
         if (density.count == froe_scene_object_count(scene))
             json_object_set_new(out, "density at most", json_integer(density.upper));
     }
-    if (!froe_measure_fatness(scene, &o, &fatness, NULL) && fatness.full.count + fatness.flat.count)
+    if (is_measured(froe_measure_fatness(scene, &o, &fatness, NULL)) && fatness.full.count + fatness.flat.count)
         json_object_set_new(out, "fatness median",
                             json_real(fatness.full.count ? fatness.full.median : fatness.flat.median));
-    if (!froe_measure_directional(scene, 0.5, &o, &directional, NULL))
+    if (is_measured(froe_measure_directional(scene, 0.5, &o, &directional, NULL)))
         json_object_set_new(out, "directional 95 %", json_real(directional.paired.q95));
     return out;
 }
@@ -130,7 +136,8 @@ static json_t *compare(const compare_args *args, froe_scene *const *scenes, mete
                                .pictures = args->page.name != NULL};
     json_t *list = json_array();
     for (size_t i = 0; i < args->scenes.count; i++)
-        if (json_array_append_new(list, scene_json(args, &plan, args->scenes.at[i], scenes[i], &meters[i])) != 0) {
+        if (json_array_append_new(list, scene_json(args, &plan, args->scenes.at[i], scenes[i], &meters[i])) != 0 ||
+            cli_report_short()) { /* what follows looks for members that may be missing */
             json_decref(list);
             return NULL;
         }
@@ -178,10 +185,12 @@ static int run_compare(const void *given) {
         if (code) scenes[i] = NULL;
     }
     json_t *comparison = code ? NULL : compare(args, scenes, meters);
-    if (comparison)
+    if (comparison && !cli_report_short()) {
         code = write(args, comparison);
-    else if (!code)
+    } else if (!code) {
+        json_decref(comparison);
         code = cli_interrupted() ? cli_fail_cancelled(NULL) : cli_fail_memory();
+    }
     for (size_t i = 0; i < args->scenes.count; i++) froe_scene_free(scenes[i]);
     return code;
 }

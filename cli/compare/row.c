@@ -52,6 +52,7 @@ static outcome build(const compare_plan *plan, froe_scene *scene, meter *memory,
     cli_progress_end(&a.bar);
     if (status) {
         out.tree = NULL;
+        if (status == FROE_E_MEMORY) (void)cli_report_lose();
         if (a.late)
             snprintf(out.note, sizeof out.note, "more than %g s", plan->seconds);
         else if (status == FROE_E_BUDGET)
@@ -98,7 +99,9 @@ static json_t *growth_json(const compare_plan *plan, const compare_scene *scene,
         const size_t count = n >> i;
         froe_scene *part;
         if (count < 16) continue;
-        if (part_new(scene->scene, scene->order, count, &part, NULL)) break;
+        const froe_status status = part_new(scene->scene, scene->order, count, &part, NULL);
+        if (status == FROE_E_MEMORY) (void)cli_report_lose();
+        if (status) break;
         outcome out = build(plan, part, NULL, method);
         if (out.tree) json_array_append_new(list, size_json(plan, out.tree, out.seconds));
         const bool built = out.tree != NULL;
@@ -125,6 +128,7 @@ static json_t *built_json(const compare_plan *plan, const outcome *out) {
     froe_diagnostic diag = {.message = ""};
     froe_status status = FROE_OK;
     json_t *queries = workload_run(out->tree, &load, &status, &diag);
+    if (status == FROE_E_MEMORY) (void)cli_report_lose();
     json_object_set_new(row, "leaf_loads", loads_json(out->tree));
     if (queries)
         json_object_set_new(row, "queries", queries);
@@ -140,9 +144,9 @@ json_t *compare_row(const compare_plan *plan, const compare_scene *scene, const 
                            : json_pack("{s:s, s:s, s:s}", "method", method, "status", "failed", "note", out.note);
     json_t *growth = growth_json(plan, scene, method);
     if (out.tree) json_array_append_new(growth, size_json(plan, out.tree, out.seconds));
-    if (row) json_object_set_new(row, "growth", growth);
+    json_object_set_new(row, "growth", growth); /* dropped without a row */
     froe_tree_free(out.tree);
-    if (!cli_interrupted()) return row;
+    if (!cli_interrupted() && !cli_report_short()) return row;
     json_decref(row);
     return NULL;
 }

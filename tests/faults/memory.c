@@ -23,8 +23,10 @@ typedef struct counted {
 static counted memory, steps;
 static int log_to = -1;
 
+static atomic_int json_blocks; /* that were given and not taken back */
+
 static void tell(void) {
-    if (log_to >= 0) dprintf(log_to, "memory %u steps %u\n", memory.calls, steps.calls);
+    if (log_to >= 0) dprintf(log_to, "memory %u steps %u json %d\n", memory.calls, steps.calls, json_blocks);
 }
 
 /* Counts a call; true when it shall fail. */
@@ -106,6 +108,28 @@ bool __wrap_cli_progress_step(void *progress, double done) {
     return __real_cli_progress_step(progress, done);
 }
 
+static json_malloc_t json_give;
+static json_free_t json_take;
+
+static void *give(size_t size) {
+    void *block = json_give(size);
+    if (block) atomic_fetch_add(&json_blocks, 1);
+    return block;
+}
+
+static void take(void *block) {
+    if (block) atomic_fetch_sub(&json_blocks, 1);
+    json_take(block);
+}
+
+/* What the program sets is called by what counts. */
+void __real_json_set_alloc_funcs(json_malloc_t malloc_fn, json_free_t free_fn);
+void __wrap_json_set_alloc_funcs(json_malloc_t malloc_fn, json_free_t free_fn);
+void __wrap_json_set_alloc_funcs(json_malloc_t malloc_fn, json_free_t free_fn) {
+    json_give = malloc_fn, json_take = free_fn;
+    __real_json_set_alloc_funcs(give, take);
+}
+
 static void read_plan(const char *name, counted *c) {
     const char *plan = getenv(name);
     if (plan && sscanf(plan, "%u %d", &c->at, &c->kind) != 2) c->at = 0;
@@ -117,6 +141,6 @@ static void begin(void) {
     read_plan("FROE_FAULT_MEMORY", &memory);
     read_plan("FROE_FAULT_STEPS", &steps);
     if (log) log_to = atoi(log);
-    json_set_alloc_funcs(__wrap_malloc, free);
+    __wrap_json_set_alloc_funcs(__wrap_malloc, free);
     if (log_to >= 0) atexit(tell);
 }
