@@ -59,6 +59,25 @@ froe_fuzzer(scene 6400)
 froe_fuzzer(read 900)
 froe_fuzzer(motion 850)
 froe_fuzzer(shards 150)
+froe_fuzzer(folder 6000)
+froe_fuzzer(poses 1000)
+froe_fuzzer(space 3500)
+
+# The parser of command lines, without the program.
+if(FROE_HAS_CLI)
+  froe_fuzzer(options 0)
+  target_sources(fuzz_options PRIVATE cli/args/options.c)
+  target_include_directories(fuzz_options PRIVATE cli)
+  target_link_libraries(fuzz_options PRIVATE PkgConfig::JANSSON)
+endif()
+
+# What GDAL and assimp hand over.
+if(TARGET froe_io_core)
+  froe_fuzzed(io_core)
+  target_link_libraries(froe_fuzzed_io_core PUBLIC froe_fuzzed_input froe_fuzzed_core)
+  froe_fuzzer(import 1300)
+  target_link_libraries(fuzz_import PRIVATE froe_fuzzed_io_core)
+endif()
 
 # Beside an oracle, which needs GMP.
 find_package(PkgConfig)

@@ -7,40 +7,6 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MOST_OBJECTS = 24, MOST_CORNERS = 6 };
-
-static size_t corners_of(froe_kind kind, fuzz_bytes *bytes) {
-    switch (kind) {
-    case FROE_POINT:
-    case FROE_BALL:
-        return 1;
-    case FROE_SEGMENT:
-    case FROE_BOX:
-        return 2;
-    default:
-        return 1 + fuzz_byte(bytes) % MOST_CORNERS;
-    }
-}
-
-/* One batch of one kind. Refusals are fine; boxes get their corners in order half of the time. */
-static void add_batch(froe_scene *scene, int dim, fuzz_bytes *bytes) {
-    double coords[MOST_OBJECTS * MOST_CORNERS * FROE_MAX_DIM], radii[MOST_OBJECTS];
-    size_t starts[MOST_OBJECTS + 1] = {0};
-    froe_objects o = froe_objects_defaults();
-    o.kind = (froe_kind)(fuzz_byte(bytes) % FROE_KIND_COUNT);
-    o.count = 1 + fuzz_byte(bytes) % MOST_OBJECTS;
-    const size_t corners = corners_of(o.kind, bytes);
-    for (size_t i = 0; i < o.count; i++) starts[i + 1] = starts[i] + corners, radii[i] = fuzz_double(bytes);
-    for (size_t i = 0; i < starts[o.count] * (size_t)dim; i++) coords[i] = fuzz_double(bytes);
-    o.coords = coords;
-    o.point_count = starts[o.count];
-    if (o.kind == FROE_POLYGON || o.kind == FROE_HULL) o.starts = starts;
-    if (o.kind == FROE_BALL) o.radii = radii;
-    froe_diagnostic why;
-    if (froe_scene_add(scene, &o, &why) && !memchr(why.message, '\0', sizeof why.message))
-        fuzz_complain("message without an end", &why);
-}
-
 /* Options of the method within their ranges, at an end of one, or as they are, by bits of the seed. */
 static void draw_settings(const char *method, uint64_t seed, char *out, size_t size) {
     size_t i = 0, length = 0;
@@ -86,7 +52,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     const int dim = d < 0x60 ? 2 : d < 0xc0 ? 3 : 2 + d % 7;
     froe_scene *scene;
     if (froe_scene_new(dim, NULL, &scene)) return 0;
-    for (int batches = 1 + fuzz_byte(&bytes) % 3; batches; batches--) add_batch(scene, dim, &bytes);
+    for (int batches = 1 + fuzz_byte(&bytes) % 3; batches; batches--) fuzz_add_batch(scene, &bytes);
     froe_defects defects = {.size = sizeof defects};
     froe_diagnostic why;
     (void)froe_scene_defects(scene, 1, NULL, NULL, &defects, &why);

@@ -1,7 +1,6 @@
 /* seeds.c: inputs for the fuzzers, made by the library as it is, so that they are of its formats.
  *
- *     seeds FOLDER     writes FOLDER/open, FOLDER/scene, FOLDER/shards and, with io,
- *                      FOLDER/read and FOLDER/motion */
+ *     seeds FOLDER     writes FOLDER/NAME for each fuzzer */
 #include "base/random.h"
 #include "support/samples.h"
 #include <froe/formats.h>
@@ -12,6 +11,9 @@
 #include <sys/stat.h>
 
 enum { QUESTIONS = 400, PROGRAMS = 48 };
+
+/* Fuzzers whose inputs are decisions. */
+static const char *const deciders[] = {"scene", "kinetic", "folder", "space", "import"};
 
 typedef struct output {
     const char *folder;
@@ -71,8 +73,8 @@ static void save_programs(output *out) {
         char name[30];
         random_bytes(i, bytes, sizeof bytes);
         snprintf(name, sizeof name, "program-%02d", (int)i);
-        put(path_of(out, "scene", name), "wb", bytes, sizeof bytes);
-        put(path_of(out, "kinetic", name), "wb", bytes, sizeof bytes);
+        for (size_t k = 0; k < sizeof deciders / sizeof *deciders; k++)
+            put(path_of(out, deciders[k], name), "wb", bytes, sizeof bytes);
     }
 }
 
@@ -133,6 +135,27 @@ static void save_motions(output *out) {
 
 /* ----------------------------------------------------------------- manifests -- */
 
+static void save_poses(output *out) {
+    static const char rows[] = "\0a,0,0,0,0,0,0,0,1\na,1,1,0,0,0,0,0.6,0.8\na,3,9,8,7,0,0,0,1\n\"b\",0,1,2,3,1,0,0,0\n"
+                               "b,2.5,-1,2,3,0.6,0,0.8,0\nc,1,0,0,0,0,0,0,1\n";
+    static const char plain[] = "\1"
+                                "0,a,1,2,3\n1,a,2,3,4\n0,b,5,5,5\n4,b,6,7,8\n";
+    static const char wrong[] = "\2a,1,0,0,0,x\na,1,0,0,0,x\nd,0,0,0,0,y\n";
+    put(path_of(out, "poses", "turns"), "wb", rows, sizeof rows - 1);
+    put(path_of(out, "poses", "plain"), "wb", plain, sizeof plain - 1);
+    put(path_of(out, "poses", "wrong"), "wb", wrong, sizeof wrong - 1);
+}
+
+static void save_command_lines(output *out) {
+    static const char all[] = "a.csv\0-f\0-t\0text\0--words=one\0--words\0two\0-n5\0--real\0-1e-3\0--choice=green\0"
+                              "--reals=1,2.5,-3\0-o\0out.csv\0--threads\0"
+                              "2\0--seed=7\0--\0-b";
+    static const char wrong[] = "--whol\0"
+                                "5\0--whole=2\0--real=nan\0--choice=gren\0--reals=1,,2\0-x\0--flag=1\0--text";
+    put(path_of(out, "options", "all"), "wb", all, sizeof all - 1);
+    put(path_of(out, "options", "wrong"), "wb", wrong, sizeof wrong - 1);
+}
+
 static void save_manifest(output *out) {
     static const char text[] =
         "froe shards 1\ndimension 2\ncut 1 0.5\nshard 2 2 64 00000000000000ff 0 0 1 0.5\nshard 0\n";
@@ -152,5 +175,7 @@ int main(int argc, char **argv) {
     save_files(&out);
     save_motions(&out);
     save_manifest(&out);
+    save_poses(&out);
+    save_command_lines(&out);
     return 0;
 }

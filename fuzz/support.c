@@ -18,6 +18,40 @@ double fuzz_double(fuzz_bytes *bytes) {
     return x;
 }
 
+enum { MOST_OBJECTS = 24, MOST_CORNERS = 6 };
+
+static size_t corners_of(froe_kind kind, fuzz_bytes *bytes) {
+    switch (kind) {
+    case FROE_POINT:
+    case FROE_BALL:
+        return 1;
+    case FROE_SEGMENT:
+    case FROE_BOX:
+        return 2;
+    default:
+        return 1 + fuzz_byte(bytes) % MOST_CORNERS;
+    }
+}
+
+void fuzz_add_batch(froe_scene *scene, fuzz_bytes *bytes) {
+    const int dim = froe_scene_dim(scene);
+    double coords[MOST_OBJECTS * MOST_CORNERS * FROE_MAX_DIM], radii[MOST_OBJECTS];
+    size_t starts[MOST_OBJECTS + 1] = {0};
+    froe_objects o = froe_objects_defaults();
+    o.kind = (froe_kind)(fuzz_byte(bytes) % FROE_KIND_COUNT);
+    o.count = 1 + fuzz_byte(bytes) % MOST_OBJECTS;
+    const size_t corners = corners_of(o.kind, bytes);
+    for (size_t i = 0; i < o.count; i++) starts[i + 1] = starts[i] + corners, radii[i] = fuzz_double(bytes);
+    for (size_t i = 0; i < starts[o.count] * (size_t)dim; i++) coords[i] = fuzz_double(bytes);
+    o.coords = coords;
+    o.point_count = starts[o.count];
+    if (o.kind == FROE_POLYGON || o.kind == FROE_HULL) o.starts = starts;
+    if (o.kind == FROE_BALL) o.radii = radii;
+    froe_diagnostic why;
+    if (froe_scene_add(scene, &o, &why) && !memchr(why.message, '\0', sizeof why.message))
+        fuzz_complain("message without an end", &why);
+}
+
 void fuzz_complain(const char *what, const froe_diagnostic *why) {
     fprintf(stderr, "%s: %s: %s\n", what, froe_status_name(why->status), why->message);
     abort();

@@ -21,6 +21,9 @@ static inline uint8_t fuzz_byte(fuzz_bytes *bytes) {
 /** Mostly small whole numbers, so that things meet; now and then any double at all. */
 double fuzz_double(fuzz_bytes *bytes);
 
+/** Adds a batch of objects of one kind. Refusals are fine. */
+void fuzz_add_batch(froe_scene *scene, fuzz_bytes *bytes);
+
 /** Says what is wrong, and ends the program so that fuzzers notice. */
 _Noreturn void fuzz_complain(const char *what, const froe_diagnostic *why);
 
