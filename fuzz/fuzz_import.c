@@ -1,6 +1,6 @@
-/* fuzz_import.c: files for GDAL and assimp, written from bytes so that these libraries take them: maps as GeoJSON with
- * geometries of every type, right and nearly so, and models as glTF with nodes, animations and numbers of any kind. What
- * comes back from the libraries is what froe has to cope with. */
+/* fuzz_import.c: files for GDAL and assimp, written from bytes so that these libraries take them. What comes back from
+ * the libraries is what froe has to cope with: maps as GeoJSON with geometries of every type, right and nearly so, and
+ * models as glTF with nodes, animations and numbers of any kind. */
 #include "support.h"
 #include <froe/io.h>
 #include <math.h>
