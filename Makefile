@@ -76,7 +76,7 @@ mutate: coverage build ## would the tests notice a wrong operator? A sample of 4
 	@scripts/mutate
 
 # What is found is kept outside the project: scripts/fuzz says where.
-.PHONY: fuzz platforms soak
+.PHONY: fuzz platforms soak night
 HOURS ?= 1
 fuzz: deps-fuzz ## all fuzzers in turn for HOURS=n hours; a table of executions, places and findings
 	@cmake --preset fuzz
@@ -87,6 +87,9 @@ soak: deps-test ## decisions that are checked, for HOURS=n hours of one processo
 	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=Release -DFROE_TESTS=ON
 	@cmake --build $(BUILD) --parallel $(JOBS) --target soak
 	@scripts/soak --build $(BUILD) $(HOURS)
+
+night: ## all that takes too long for every change, in order, with a summary; HOURS=n for fuzz and for soak
+	@scripts/night $(HOURS)
 
 platforms: deps-test ## trees, answers and pictures by other compilers, machines and checkers: the same hashes
 	@scripts/platforms --build $(BUILD)

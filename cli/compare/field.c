@@ -19,3 +19,8 @@ const json_t *field_row(const json_t *rows, const char *method) {
     }
     return NULL;
 }
+
+const char *field_scene(const json_t *scene) {
+    const char *path = json_string_value(json_object_get(scene, "scene")), *slash = strrchr(path, '/');
+    return slash && slash[1] ? slash + 1 : path;
+}

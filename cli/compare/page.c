@@ -148,8 +148,7 @@ static void put_promises(FILE *out, const json_t *rows) {
 
 static void put_scene(FILE *out, const json_t *scene) {
     const json_t *rows = json_object_get(scene, "methods");
-    const char *path = json_string_value(json_object_get(scene, "scene")), *slash = strrchr(path, '/');
-    const char *name = slash && slash[1] ? slash + 1 : path;
+    const char *name = field_scene(scene);
     fputs("<section>\n", out);
     html_element(out, "h2", name);
     put_choices(out, json_object_get(scene, "auto"));

@@ -172,7 +172,8 @@ static void put_cell(FILE *out, const json_t *value) {
 static void put_csv_row(FILE *out, const json_t *scene, const json_t *row, json_t *promises) {
     const char *name;
     json_t *ignored;
-    put_cell(out, scene);
+    put_csv_text(out, field_scene(scene));
+    fputc(',', out);
     for (int i = 0; csv_paths[i]; i++) put_cell(out, find(row, csv_paths[i]));
     for (int k = 0; csv_kinds[k]; k++)
         for (int c = 0; csv_costs[c]; c++) {
@@ -207,6 +208,6 @@ void table_put_csv(FILE *out, const void *user) {
     json_object_foreach(promises, name, bound) fprintf(out, "%s.promised,%s.measured,", name, name);
     fputs("promises_kept,note\n", out);
     json_array_foreach((json_t *)scenes, i, scene) json_array_foreach(json_object_get(scene, "methods"), j, row)
-        put_csv_row(out, json_object_get(scene, "scene"), row, promises);
+        put_csv_row(out, scene, row, promises);
     json_decref(promises);
 }
