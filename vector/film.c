@@ -1,11 +1,13 @@
 /* film.c: froe_film: triangles in motion as an animated picture, instant by instant. */
 #include "film.h"
+#include "film_instants.h"
 #include "support/axes.h"
 #include "support/fail.h"
 #include "support/floats.h"
 #include "support/path.h"
 #include "support/writer.h"
 #include <froe/formats.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -26,7 +28,9 @@ typedef struct film_work {
     film_list list;
     ARRAY(film_picture) waiting; /* to be shown, the next one last */
     ARRAY(double) times;         /* that are shown whatever they show */
+    film_instants instants;      /* exact films only */
     film_picture last;           /* what is shown */
+    double passed, soon;         /* exact films: the last frame; so long after an instant its picture is taken */
     bool any;                    /* it is one */
     froe_film_report report;
 } film_work;
@@ -213,6 +217,53 @@ static froe_status go_to(film_work *w, double time, double least) {
     return status;
 }
 
+/* The picture just after an instant, before anything else happens, and the instants that follow while its faces are in
+ * sight; or, where these are those of the last picture, those that follow then. *same: they are. */
+static froe_status look_after(film_work *w, film_instant at, double next, double time, film_picture *out, bool *same) {
+    double now = at.high + fmin(0.5 * (next - at.high), w->soon);
+    film_instant after;
+    for (;;) {
+        froe_status status = draw_instant(w, now, true, out);
+        if (status) return status;
+        *same = same_seen(&w->last, out);
+        const film_picture *seen = *same ? &w->last : out;
+        status = film_instants_find(&w->instants, seen->seen.data, seen->seen.count, at.high, time, w->diag);
+        if (status) return free_picture(out, &w->alloc), status;
+        if (!film_instants_next(&w->instants, at.high, now, &after, &next)) return FROE_OK;
+        const double sooner = 0.5 * at.high + 0.5 * after.low;
+        if (!(sooner > at.high && sooner < now)) return FROE_OK; /* no double is between */
+        free_picture(out, &w->alloc);
+        now = sooner;
+    }
+}
+
+/* Goes on to a time that is shown, and looks after each instant before it at which other faces may come into sight. */
+static froe_status go_exactly(film_work *w, double time) {
+    film_picture picture;
+    film_instant at;
+    double passed = -INFINITY, next;
+    bool same;
+    froe_status status = FROE_OK;
+    if (w->any)
+        status = film_instants_find(&w->instants, w->last.seen.data, w->last.seen.count, w->passed, time, w->diag);
+    while (!status && w->any && film_instants_next(&w->instants, passed, time, &at, &next)) {
+        passed = at.high;
+        if (!(at.high + fmin(0.5 * (next - at.high), w->soon) > at.high)) continue; /* together with the next */
+        status = look_after(w, at, next, time, &picture, &same);
+        if (status) break;
+        w->report.late = fmax(w->report.late, at.high - at.low);
+        w->report.changes += !same;
+        picture.time = at.high;
+        if (same)
+            free_picture(&picture, &w->alloc);
+        else
+            status = show(w, &picture);
+    }
+    w->passed = time;
+    if (!status) status = draw_instant(w, time, true, &picture);
+    return status ? status : show(w, &picture);
+}
+
 static int compare_instants(const void *a, const void *b) {
     const double x = *(const double *)a, y = *(const double *)b;
     return (x > y) - (x < y);
@@ -236,6 +287,14 @@ static froe_status list_times(film_work *w) {
     return FROE_OK;
 }
 
+static froe_status begin_exactly(film_work *w) {
+    froe_scene *scene = NULL;
+    froe_status status = gather_corners(w->motion, &scene, w->diag);
+    if (!status) status = film_instants_begin(&w->instants, w->motion, w->cameras, scene, &w->options, w->diag);
+    froe_scene_free(scene);
+    return status;
+}
+
 static froe_status make_film(film_work *w) {
     const double least = (w->end - w->begin) / w->film.frames / (double)(1u << w->film.halvings);
     const size_t count = w->film.turn ? (size_t)w->film.frames << w->film.halvings : 1;
@@ -243,10 +302,13 @@ static froe_status make_film(film_work *w) {
     if (status) return status;
     w->cameras = support_calloc(&w->alloc, count, sizeof *w->cameras);
     if (!w->cameras) return no_room(w);
-    w->camera_count = count, w->report.late = least;
+    w->camera_count = count, w->report.late = w->film.exact ? 0 : least;
+    w->soon = least / 1024;
     status = froe_film_cameras(w->motion, &w->options.camera, w->film.turn, count, w->cameras, w->diag);
+    if (!status && w->film.exact) status = begin_exactly(w);
     for (size_t i = 0; i < w->times.count && !status; i++)
-        if (!i || w->times.data[i] > w->times.data[i - 1]) status = go_to(w, w->times.data[i], least);
+        if (!i || w->times.data[i] > w->times.data[i - 1])
+            status = w->film.exact ? go_exactly(w, w->times.data[i]) : go_to(w, w->times.data[i], least);
     return status;
 }
 
@@ -262,6 +324,8 @@ static froe_status check_film(film_work *w, const froe_film_options *film) {
     if (!(film->seconds > 0 && film->seconds <= 1e6))
         return support_fail(w->diag, FROE_E_OPTIONS, "option 'seconds': '%g' is not a number above 0 and up to 1e6.",
                             film->seconds);
+    if (film->exact && film->turn)
+        return support_fail(w->diag, FROE_E_OPTIONS, "An exact film has an eye that stands still.");
     if (w->options.layers || w->options.interleaved || w->options.seams == FROE_SEAMS_TWICE)
         return support_fail(w->diag, FROE_E_OPTIONS,
                             "A film has no layers, no interleaved lines and no fills that are painted twice.");
@@ -277,6 +341,7 @@ static void free_film(film_work *w) {
     free_picture(&w->last, &w->alloc);
     array_free(&w->alloc, &w->waiting), array_free(&w->alloc, &w->times);
     vector_film_free(&w->list, &w->alloc);
+    film_instants_end(&w->instants);
     if (w->cameras) support_free(&w->alloc, w->cameras, w->camera_count * sizeof *w->cameras);
 }
 

@@ -73,6 +73,8 @@ static const cli_option motion[] = {
     {"frames", 0, CLI_WHOLE, offsetof(render_args, frames), "N",
      .help = "N pictures of a moving model, as those of a turntable; with --animate one SVG that plays (default 200)",
      .min = 1, .max = 100000},
+    {"exact", 0, CLI_FLAG, offsetof(render_args, exact),
+     .help = "with --animate: miss no face that comes into sight, however short; slow, and not for bodies that turn"},
     {0},
 };
 

@@ -24,7 +24,7 @@ typedef struct render_args {
     uint64_t decimals;                                                 /**< UINT64_MAX: not given */
     uint64_t turntable;                                                /**< frames; 0: none */
     cli_reals eye, target, section;
-    bool parallel, cull_back, animate;
+    bool parallel, cull_back, animate, exact;
 } render_args;
 
 /** --preset */

@@ -10,7 +10,7 @@
 #include <string.h>
 
 bool cli_is_moving(const render_args *args) {
-    return args->frames || !isnan(args->at) || !isnan(args->moving.from) || !isnan(args->moving.to) ||
+    return args->frames || args->exact || !isnan(args->at) || !isnan(args->moving.from) || !isnan(args->moving.to) ||
            !isnan(args->moving.deviation) || args->moving.animation || args->moving.poses ||
            !strcmp(support_path_extension(args->tree.scene.path).text, "mfjson");
 }
@@ -85,6 +85,8 @@ static int check_film(const render_args *args) {
                         "--method, --save-tree, --section: A moving model has a tree of its own at each instant.");
     if (!isnan(args->at) && (many || args->animate))
         return cli_fail(CLI_USE, NULL, "--at: It is one picture, and excludes --frames, --turntable and --animate.");
+    if (args->exact && (!args->animate || args->turntable))
+        return cli_fail(CLI_USE, NULL, "--exact: It is for --animate from an eye that stands still.");
     if (isnan(args->at) && !args->animate && !many)
         return cli_fail(CLI_USE, args->tree.scene.path, "A moving model needs --at, --frames or --animate.");
     if (args->frames && args->turntable && args->frames != args->turntable)
@@ -104,7 +106,7 @@ static int draw(film_run *r) {
     r->options->progress = cli_progress_step, r->options->user = &bar;
     froe_film_options film = froe_film_defaults();
     const uint64_t frames = args->turntable ? args->turntable : args->frames ? args->frames : film.frames;
-    film.frames = (uint32_t)frames, film.turn = args->turntable > 0;
+    film.frames = (uint32_t)frames, film.turn = args->turntable > 0, film.exact = args->exact;
     if (!isnan(args->seconds)) film.seconds = args->seconds;
     const froe_status status = !isnan(args->at) ? draw_one(r, write, &diag)
                                : args->animate

@@ -210,6 +210,23 @@ typedef bool froe_contact_fn(void *user, const froe_contact *contact);
 FROE_API froe_status froe_motion_contacts(const froe_motion *motion, const froe_contact_options *options,
                                           froe_contact_fn *fn, void *user, froe_diagnostic *diag);
 
+/** Receives an instant between two doubles, which are equal or a few units in the last place of the window apart; false
+ * stops. */
+typedef bool froe_sight_fn(void *user, double low, double high);
+
+/** The instants from `from` to `to` at which what an eye sees of triangles may change, ascending: a corner passes an
+ * edge, or three edges pass through one point, as the eye sees them. Each is a root of an exact polynomial of degree 8
+ * at most. `eye` is a point, or, if `parallel`, the direction towards the eye, not 0; `window` four points, the corners
+ * of the page in order, or NULL. Of the objects marked in `seen` (NULL: of all) something is seen: as long as these are
+ * what is seen, no change is missed where no triangles touch; froe_motion_contacts() tells when they do. There may be
+ * instants at which nothing changes. Those closer than neighbouring doubles are one. FROE_E_ARG: `from` and `to` are
+ * not in order and within the window of the motion, or something is NULL. FROE_E_UNSUPPORTED: the motion is of the
+ * plane, an object is of a body, or flies along a parabola and the eye is not parallel. FROE_E_LIMIT: two things
+ * happen within 2^-2047 of the time between two knots. FROE_E_MEMORY. O(edges corners + candidates). */
+FROE_API froe_status froe_motion_sights(const froe_motion *motion, const double eye[3], bool parallel,
+                                        const double *window, const uint8_t *seen, double from, double to,
+                                        froe_sight_fn *fn, void *user, froe_diagnostic *diag);
+
 /* --------------------------------------------------------------- partition -- */
 
 /** A cylindrical partition of a motion (Agarwal, Erickson and Guibas, "Kinetic BSPs for intersecting segments and

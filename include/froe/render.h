@@ -173,6 +173,8 @@ typedef struct froe_film_options {
     uint32_t halvings; /**< 0 .. 20: where one frame shows other faces than the one before, the time between the two is
                             halved so often; default 4 */
     bool turn;         /**< the eye goes around once, as froe_camera_turn() has it */
+    bool exact;        /**< the instants at which faces come into sight or vanish are roots of polynomials, and none is
+                            missed while no triangles touch; see froe_film(). default false */
 } froe_film_options;
 FROE_DEFAULTS(froe_film_options, froe_film_defaults);
 
@@ -193,7 +195,15 @@ typedef struct froe_film_report {
  * Beside the frames there are pictures of the instants at which objects appear or end, which are known exactly, and of
  * those at which a face comes into sight or vanishes: they are found by halving between two frames of which one shows
  * it, so that what comes and goes between two frames is not seen. All other parts of faces grow and shrink from frame
- * to frame. The camera holds all that moves in up to 33 frames; it is as given if it does not fit. Paths are as with
+ * to frame.
+ *
+ * An exact film has a picture after each of the instants of froe_motion_sights() and of those at which triangles begin
+ * or cease to touch, and shows it from then on if other faces are in sight. So it misses nothing, however short, but
+ * what is shorter than the doubles tell apart, and what happens along the lines of triangles that pass through one
+ * another. It needs many pictures: where n edges are in sight, up to n^2 an interval between frames. FROE_E_OPTIONS:
+ * the eye turns. FROE_E_UNSUPPORTED: as froe_motion_sights().
+ *
+ * The camera holds all that moves in up to 33 frames; it is as given if it does not fit. Paths are as with
  * FROE_IDS_OBJECT. `path` ends in .svg. FROE_E_OPTIONS: layers, interleaved lines, fills that are painted twice; see
  * froe_render(). FROE_E_UNSUPPORTED: the motion is of the plane. FROE_E_INPUT: nothing is ever there. The time of
  * froe_build() and froe_render() for each picture. */

@@ -115,6 +115,70 @@ static void faces_come_into_sight_at_their_instant(void **state) {
     froe_motion_free(motion);
 }
 
+/* Two walls overlap but for an instant, in which a leaf behind them is seen: from `open` to `closed`. In a parallel view
+ * its edges pass one another, and so they do as seen from a point in their plane. */
+static froe_motion *make_slit(double open, double closed) {
+    froe_motion *motion = NULL;
+    froe_motion_options w = froe_motion_defaults();
+    w.dim = 3, w.begin = 0, w.end = 4;
+    assert_int_equal(froe_motion_new(&w, NULL, &motion, NULL), FROE_OK);
+    const double wide = 0.5 * (closed - open), amid = 0.5 * (open + closed);
+    const size_t starts[] = {0, 1, 2, 3, 6, 9, 10, 11, 12, 13};
+    const double times[] = {0, 0, 0, 0, amid, 4, 0, amid, 4, 0, 0, 0, 0};
+    const double at[] = {0,     0, -9, 0,    0, 9,  -40,      0, 0,  /* the wall on the left, at rest */
+                         -amid, 2, -8, wide, 2, -8, amid - 4, 2, -8, /* the other: its edge is at 0 at `open` */
+                         -amid, 2, 8,  wide, 2, 8,  amid - 4, 2, 8,  40, 2, 0, /* and at `closed` */
+                         -1,    4, -1, 1,    4, -1, 0,        4, 1};           /* the leaf */
+    froe_moving m = froe_moving_defaults();
+    m.vertex_count = 9, m.count = 3, m.starts = starts, m.times = times, m.coords = at;
+    const uint32_t groups[] = {0, 1, 2};
+    for (int i = 0; i < 3; i++) {
+        uint32_t id;
+        const char *const names[] = {"t0", "t1", "t2"};
+        assert_int_equal(froe_motion_add_group(motion, &(froe_group){.name = names[i]}, &id), FROE_OK);
+    }
+    m.groups = groups;
+    assert_int_equal(froe_motion_add(motion, &m, NULL), FROE_OK);
+    return motion;
+}
+
+/* When the leaf is in sight: from the first of its paths on to the last. */
+static void leaf_times(double out[2]) {
+    playing_read("slit.svg");
+    out[0] = 5, out[1] = -1;
+    for (size_t i = 0; i < playing_file.path_count; i++)
+        if (playing_file.paths[i].group[1] == '2') {
+            out[0] = fmin(out[0], 4 * playing_file.paths[i].from);
+            out[1] = fmax(out[1], 4 * playing_file.paths[i].to);
+        }
+}
+
+static void what_is_seen_for_less_than_a_frame_is_seen(void **state) {
+    (void)state;
+    const double open = 1.4990234375, closed = 1.5029296875; /* a 140th of a frame */
+    for (int parallel = 0; parallel < 2; parallel++) {
+        froe_motion *motion = make_slit(open, closed);
+        froe_render_options o = froe_render_defaults();
+        froe_film_options film = froe_film_defaults();
+        froe_film_report report;
+        froe_diagnostic diag = {.message = ""};
+        double seen[2];
+        o.camera.parallel = parallel, o.camera.fit = false;
+        o.camera.eye[0] = 0, o.camera.eye[1] = -20, o.camera.eye[2] = 0;
+        o.camera.target[0] = o.camera.target[2] = 0, o.camera.target[1] = 0;
+        film.frames = 7, film.halvings = 4;
+        if (froe_film(motion, "slit.svg", &o, &film, &report, &diag)) fail_msg("%s", diag.message);
+        leaf_times(seen);
+        assert_true(seen[1] < 0 && report.changes == 0); /* by halving it is missed */
+        film.exact = true;
+        if (froe_film(motion, "slit.svg", &o, &film, &report, &diag)) fail_msg("%s", diag.message);
+        leaf_times(seen);
+        assert_true(fabs(seen[0] - open) < 1e-4 && fabs(seen[1] - closed) < 1e-4);
+        assert_true(report.changes == 2 && report.late <= 4e-15 && report.shown == 9);
+        froe_motion_free(motion);
+    }
+}
+
 /* Whatever comes and goes and changes places: what is shown stands in the list in the order of the picture. */
 static void a_list_shows_each_picture_in_its_order(void **state) {
     (void)state;
@@ -181,6 +245,11 @@ static void what_no_film_can_be_is_refused(void **state) {
     assert_int_equal(froe_film(motion, "no.svg", &o, NULL, NULL, &diag), FROE_E_OPTIONS);
     assert_string_equal(diag.message,
                         "A film has no layers, no interleaved lines and no fills that are painted twice.");
+    film.exact = film.turn = true;
+    assert_int_equal(froe_film(motion, "no.svg", NULL, &film, NULL, &diag), FROE_E_OPTIONS);
+    assert_string_equal(diag.message, "An exact film has an eye that stands still.");
+    film.turn = false; /* some of its triangles turn */
+    assert_int_equal(froe_film(motion, "no.svg", NULL, &film, NULL, &diag), FROE_E_UNSUPPORTED);
     film.frames = 0;
     assert_int_equal(froe_film(motion, "no.svg", NULL, &film, NULL, &diag), FROE_E_OPTIONS);
     assert_null(fopen("no.svg", "r"));
@@ -191,6 +260,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_frame_is_what_rays_meet),
         cmocka_unit_test(faces_come_into_sight_at_their_instant),
+        cmocka_unit_test(what_is_seen_for_less_than_a_frame_is_seen),
         cmocka_unit_test(a_list_shows_each_picture_in_its_order),
         cmocka_unit_test(allocations_may_fail),
         cmocka_unit_test(what_no_film_can_be_is_refused),

@@ -98,23 +98,25 @@ static double lower_by(double x, int lift, int way) {
 
 /* From share to time: an enclosure of two doubles. Small times are raised by a power of 2 meanwhile, since error bounds
  * of balls do not become as small as they are. */
-static bool time_of_event(num_arena *arena, walk_room *w, int k, meet_time *out) {
-    *out = k < 0 ? (meet_time){w->from, w->from} : (meet_time){w->to, w->to};
-    if (k < 0 || k == w->event_count) return true;
+bool walk_time(num_arena *arena, double from, double to, num_isolated *root, meet_time *out) {
     int length, size;
-    frexp(w->to - w->from, &length);
-    frexp(fabs(w->from) > fabs(w->to) ? w->from : w->to, &size);
+    frexp(to - from, &length);
+    frexp(fabs(from) > fabs(to) ? from : to, &size);
     const int depth = length - size + 55; /* a quarter of the last place of the greater end */
     const int lift = size < -400 ? -size : 0;
-    num_isolated *root = w->events[k].at;
     if (!num_isolated_narrow(arena, root, depth > 1 ? depth : 1)) return false;
-    const num_ball from = num_ball_from(ldexp(w->from, lift)), to = num_ball_from(ldexp(w->to, lift));
-    const num_ball t = num_ball_add(from, num_ball_mul(num_ball_sub(to, from), num_isolated_ball(root)));
+    const num_ball a = num_ball_from(ldexp(from, lift)), b = num_ball_from(ldexp(to, lift));
+    const num_ball t = num_ball_add(a, num_ball_mul(num_ball_sub(b, a), num_isolated_ball(root)));
     double low = t.x - t.e, high = t.x + t.e;
     if (t.e > 0) low = nextafter(low, -(double)INFINITY), high = nextafter(high, (double)INFINITY);
     if (lift) low = lower_by(low, lift, -1), high = lower_by(high, lift, 1);
-    *out = (meet_time){low > w->from ? low : w->from, high < w->to ? high : w->to};
+    *out = (meet_time){low > from ? low : from, high < to ? high : to};
     return true;
+}
+
+static bool time_of_event(num_arena *arena, walk_room *w, int k, meet_time *out) {
+    *out = k < 0 ? (meet_time){w->from, w->from} : (meet_time){w->to, w->to};
+    return k < 0 || k == w->event_count || walk_time(arena, w->from, w->to, w->events[k].at, out);
 }
 
 /* An event (or end) at which they meet or not. What is before it has been seen. */

@@ -54,6 +54,8 @@ bool walk_list(num_arena *arena, walk_room *w, int i);
 int walk_sign(num_arena *arena, walk_room *w, const walk_moment *at, int i);
 walk_moment walk_start(void);
 walk_moment walk_end(num_arena *arena);
+/** The time of a share of the time between two instants, which it narrows. False: too close to another. */
+bool walk_time(num_arena *arena, double from, double to, num_isolated *root, meet_time *out);
 /** Goes through both ends, all events and the gaps between them, and finds the spans. False: too close. */
 bool walk_through(num_arena *arena, walk_room *w, walk_fn *meets, void *user);
 #endif

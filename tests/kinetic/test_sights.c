@@ -1,0 +1,209 @@
+/* Instants at which what is seen may change: between two of them the faces in sight stay, as pictures taken at many
+ * times tell; each is known to neighbouring doubles; and all are needed. */
+#include "support/memory.h"
+#include <froe/formats.h>
+#include <froe/render.h>
+#include <math.h>
+#include <string.h>
+
+enum { FACES = 9, LARGE = 4, TIMES = 400, MOST = 8000 };
+
+static uint64_t dice;
+
+static double chance(void) {
+    dice = dice * 6364136223846793005u + 1442695040888963407u;
+    return (double)(dice >> 11) * 0x1p-53;
+}
+
+/* Triangles that fly straight, or (bent) along parabolas, each between planes of its own across y, so that none
+ * touches another. Large ones are before small ones. */
+static froe_motion *make_motion(uint64_t seed, bool bent) {
+    froe_motion *motion = NULL;
+    froe_motion_options w = froe_motion_defaults();
+    dice = seed * 7919 + 5;
+    w.dim = 3, w.begin = 0, w.end = 1;
+    assert_int_equal(froe_motion_new(&w, NULL, &motion, NULL), FROE_OK);
+    for (int i = 0; i < FACES; i++) {
+        const size_t starts[] = {0, 2, 4, 6};
+        const double times[] = {0, 1, 0, 1, 0, 1};
+        double at[18], controls[18];
+        const double size = i < LARGE ? 4 : 0.6;
+        double centre[6];
+        for (int k = 0; k < 6; k++) centre[k] = i < LARGE ? 0 : 2.4 * chance() - 1.2;
+        for (int k = 0; k < 18; k++) {
+            const double from = centre[k / 3 % 2 * 3 + k % 3];
+            at[k] = k % 3 == 1 ? i + 0.8 * chance() : from + size * (chance() - 0.5);
+            controls[k] = k % 3 == 1 ? i + 0.8 * chance() : from + size * (chance() - 0.5);
+        }
+        for (int k = 0; k < 6; k++)
+            if (k % 2) controls[3 * k] = NAN;
+        froe_moving m = froe_moving_defaults();
+        m.vertex_count = 3, m.count = 1, m.starts = starts, m.times = times, m.coords = at;
+        m.controls = bent ? controls : NULL;
+        assert_int_equal(froe_motion_add(motion, &m, NULL), FROE_OK);
+    }
+    return motion;
+}
+
+static const double window[12] = {-1, -20, -1, 1, -20, -1, 1, -20, 1, -1, -20, 1};
+
+static froe_eye make_eye(bool parallel) {
+    return (froe_eye){.at = {parallel ? 0.125 : 0.25, parallel ? -1 : -30, 0.25}, .parallel = parallel};
+}
+
+/* The objects in sight, as bits. */
+static unsigned look_at(const froe_motion *motion, froe_eye eye, double time) {
+    froe_scene *scene;
+    froe_tree *tree;
+    froe_surface *surface;
+    froe_visibility *v;
+    froe_build_options build = froe_build_defaults();
+    froe_visibility_options o = froe_visibility_defaults();
+    unsigned seen = 0;
+    build.purpose = "draw", build.threads = 1;
+    o.eye = eye, o.window = window, o.window_corners = 4;
+    assert_int_equal(froe_motion_scene(motion, time, NULL, &scene, NULL), FROE_OK);
+    assert_int_equal(froe_build(scene, &build, &tree, NULL), FROE_OK);
+    assert_int_equal(froe_surface_new(scene, NULL, &surface, NULL), FROE_OK);
+    assert_int_equal(froe_visibility_new(tree, surface, &o, &v, NULL), FROE_OK);
+    for (size_t i = 0; i < froe_visibility_piece_count(v); i++)
+        seen |= 1u << froe_scene_object(scene, froe_visibility_piece(v, i).object).tag;
+    froe_visibility_free(v), froe_surface_free(surface), froe_tree_free(tree), froe_scene_free(scene);
+    return seen;
+}
+
+typedef struct instants {
+    double low[MOST], high[MOST];
+    size_t count;
+} instants;
+
+static bool keep(void *user, double low, double high) {
+    instants *x = user;
+    assert_true(x->count < MOST && low <= high && high - low <= 1e-15 && (!x->count || low > x->high[x->count - 1]));
+    x->low[x->count] = low, x->high[x->count++] = high;
+    return true;
+}
+
+static instants find(const froe_motion *motion, froe_eye eye, const uint8_t *seen, double from, double to) {
+    instants out = {.count = 0};
+    froe_diagnostic diag;
+    if (froe_motion_sights(motion, eye.at, eye.parallel, window, seen, from, to, keep, &out, &diag))
+        fail_msg("%s", diag.message);
+    return out;
+}
+
+static void faces_in_sight_change_at_instants_alone(void **state) {
+    (void)state;
+    unsigned changes = 0, gaps = 0;
+    for (unsigned seed = 0; seed < 12; seed++) {
+        const bool parallel = seed % 2, bent = seed % 4 == 3;
+        froe_motion *motion = make_motion(seed, bent);
+        const froe_eye eye = make_eye(parallel);
+        const instants x = find(motion, eye, NULL, 0, 1);
+        size_t k = 0;
+        unsigned last = 0;
+        for (int i = 1; i < TIMES; i++) {
+            const double time = (i + 0.001) / TIMES;
+            const size_t before = k;
+            while (k < x.count && x.low[k] <= time) k++;
+            const unsigned now = look_at(motion, eye, time);
+            if (i > 1 && k == before && now != last) fail_msg("seed %u: other faces at %.17g", seed, time);
+            changes += i > 1 && now != last, gaps += k == before;
+            last = now;
+        }
+        froe_motion_free(motion);
+    }
+    print_message("  %u changes, %u times after which nothing happens\n", changes, gaps);
+    assert_true(changes > 40 && gaps > 200);
+}
+
+/* Just before an instant and just after it: of those at which other faces come into sight, each is told, too, where
+ * only what is seen before is known. */
+static void what_is_seen_before_tells_the_first_change(void **state) {
+    (void)state;
+    unsigned changes = 0, fewer = 0;
+    for (unsigned seed = 20; seed < 32; seed++) {
+        froe_motion *motion = make_motion(seed, seed % 4 == 3);
+        const froe_eye eye = make_eye(seed % 2);
+        const instants all = find(motion, eye, NULL, 0, 1);
+        double from = 0;
+        unsigned seen = look_at(motion, eye, 1e-9);
+        for (size_t i = 0; i < all.count; i++) {
+            const double next = i + 1 < all.count ? all.low[i + 1] : 1, gap = fmin(0.5 * (next - all.high[i]), 1e-7);
+            const unsigned now = look_at(motion, eye, all.high[i] + gap);
+            if (now == seen || gap < 1e-12) continue;
+            uint8_t flags[FACES];
+            for (int k = 0; k < FACES; k++) flags[k] = seen >> k & 1;
+            const instants some = find(motion, eye, flags, from, next), whole = find(motion, eye, NULL, from, next);
+            size_t k = 0;
+            while (k < some.count && some.high[k] < all.low[i]) k++;
+            assert_true(k < some.count && some.low[k] <= all.high[i]);
+            fewer += some.count < whole.count;
+            changes++, from = all.high[i], seen = now;
+        }
+        froe_motion_free(motion);
+    }
+    print_message("  %u changes, %u of them after fewer instants than there are in all\n", changes, fewer);
+    assert_true(changes > 30 && fewer > 5);
+}
+
+static bool stop(void *user, double low, double high) {
+    (void)low, (void)high;
+    return ++*(int *)user < 3;
+}
+
+static froe_status find_once(void *user, const froe_allocator *alloc) {
+    froe_motion *motion = NULL;
+    const froe_eye eye = make_eye(false);
+    int count = 0;
+    (void)user;
+    froe_status status = froe_generate_motion("moving-boxes", 1, 1, alloc, &motion, NULL);
+    froe_motion_free(motion);
+    motion = NULL;
+    froe_motion_options w = froe_motion_defaults();
+    w.dim = 3, w.begin = 0, w.end = 1;
+    if (!status) status = froe_motion_new(&w, alloc, &motion, NULL);
+    const size_t starts[] = {0, 2, 3, 4};
+    const double times[] = {0, 1, 0, 0}, at[] = {-3, 0, 0, 3, 0, 0, 0, 1, 1, 0, 1, -1};
+    froe_moving m = froe_moving_defaults();
+    m.vertex_count = 3, m.count = 1, m.starts = starts, m.times = times, m.coords = at;
+    if (!status) status = froe_motion_add(motion, &m, NULL);
+    if (!status) status = froe_motion_sights(motion, eye.at, false, window, NULL, 0, 1, stop, &count, NULL);
+    froe_motion_free(motion);
+    return status;
+}
+
+static void allocations_may_fail(void **state) {
+    (void)state;
+    assert_true(test_memory_each(find_once, NULL) > 5);
+}
+
+static void what_cannot_be_followed_is_refused(void **state) {
+    (void)state;
+    froe_motion *plane = NULL, *boxes = NULL, *bent = make_motion(1, true);
+    froe_diagnostic diag;
+    const double eye[3] = {0, -30, 0};
+    int count = 0;
+    assert_int_equal(froe_generate_motion("moving", 3, 1, NULL, &plane, NULL), FROE_OK);
+    assert_int_equal(froe_generate_motion("moving-boxes", 2, 1, NULL, &boxes, NULL), FROE_OK);
+    assert_int_equal(froe_motion_sights(plane, eye, true, NULL, NULL, 0, 0, stop, &count, &diag), FROE_E_UNSUPPORTED);
+    assert_int_equal(froe_motion_sights(boxes, eye, true, NULL, NULL, 0, 0, stop, &count, &diag), FROE_E_UNSUPPORTED);
+    assert_string_equal(diag.message, "object 0: It is of a body, which may turn.");
+    assert_int_equal(froe_motion_sights(bent, eye, false, NULL, NULL, 0, 1, stop, &count, &diag), FROE_E_UNSUPPORTED);
+    assert_int_equal(froe_motion_sights(bent, eye, true, NULL, NULL, 0, 2, stop, &count, &diag), FROE_E_ARG);
+    assert_int_equal(froe_motion_sights(bent, eye, true, NULL, NULL, 0, 1, NULL, &count, &diag), FROE_E_ARG);
+    assert_int_equal(count, 0);
+    assert_int_equal(froe_motion_sights(bent, eye, true, NULL, NULL, 0, 1, stop, &count, &diag), FROE_OK);
+    assert_int_equal(count, 3);
+    froe_motion_free(plane), froe_motion_free(boxes), froe_motion_free(bent);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(faces_in_sight_change_at_instants_alone),
+        cmocka_unit_test(what_is_seen_before_tells_the_first_change),
+        cmocka_unit_test(allocations_may_fail),
+        cmocka_unit_test(what_cannot_be_followed_is_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,69 @@
+/* film_instants.c: see film_instants.h. */
+#include "film_instants.h"
+#include "support/fail.h"
+#include <stdlib.h>
+#include <string.h>
+
+static int compare_film_instants(const void *a, const void *b) {
+    const film_instant *p = a, *q = b;
+    if (p->low != q->low) return p->low < q->low ? -1 : 1;
+    return (p->high > q->high) - (p->high < q->high);
+}
+
+static bool keep_touch(void *user, const froe_contact *c) {
+    film_instants *x = user;
+    x->full = !array_push(&x->alloc, &x->touches, ((film_instant){c->begin[0], c->begin[1]})) ||
+              !array_push(&x->alloc, &x->touches, ((film_instant){c->end[0], c->end[1]}));
+    return !x->full;
+}
+
+static bool keep_sight(void *user, double low, double high) {
+    film_instants *x = user;
+    x->full = !array_push(&x->alloc, &x->list, ((film_instant){low, high}));
+    return !x->full;
+}
+
+froe_status film_instants_begin(film_instants *x, const froe_motion *motion, const froe_camera *camera,
+                                const froe_scene *scene, const froe_render_options *options, froe_diagnostic *diag) {
+    froe_contact_options contacts = froe_contact_defaults();
+    *x = (film_instants){.motion = motion, .alloc = support_allocator(options->alloc)};
+    x->all = options->cull_back || options->min_area > 0 || options->shading == FROE_SHADE_NONE;
+    x->seen = support_calloc(&x->alloc, froe_motion_object_count(motion), 1);
+    if (!x->seen) return support_fail_memory(diag);
+    froe_status status = froe_camera_place(camera, scene, &x->view, diag);
+    contacts.neighbours = true, contacts.threads = 1;
+    if (!status) status = froe_motion_contacts(motion, &contacts, keep_touch, x, diag);
+    return x->full ? support_fail_memory(diag) : status;
+}
+
+void film_instants_end(film_instants *x) {
+    if (!x->motion) return;
+    array_free(&x->alloc, &x->touches), array_free(&x->alloc, &x->list);
+    support_free(&x->alloc, x->seen, froe_motion_object_count(x->motion));
+}
+
+froe_status film_instants_find(film_instants *x, const uint64_t *tags, size_t count, double from, double to,
+                               froe_diagnostic *diag) {
+    memset(x->seen, 0, froe_motion_object_count(x->motion));
+    for (size_t i = 0; i < count; i++) x->seen[tags[i]] = 1;
+    x->list.count = 0;
+    const froe_status status = froe_motion_sights(x->motion, x->view.eye.at, x->view.eye.parallel, x->view.window,
+                                                  x->all ? NULL : x->seen, from, to, keep_sight, x, diag);
+    for (size_t i = 0; i < x->touches.count && !x->full; i++)
+        if (x->touches.data[i].high >= from && x->touches.data[i].low <= to)
+            x->full = !array_push(&x->alloc, &x->list, x->touches.data[i]);
+    if (x->full) return support_fail_memory(diag);
+    if (x->list.count) qsort(x->list.data, x->list.count, sizeof *x->list.data, compare_film_instants);
+    return status;
+}
+
+bool film_instants_next(const film_instants *x, double after, double before, film_instant *out, double *next) {
+    size_t i = 0;
+    while (i < x->list.count && x->list.data[i].low <= after) i++;
+    if (i == x->list.count) return false;
+    *out = x->list.data[i];
+    for (i++; i < x->list.count && x->list.data[i].low <= out->high; i++)
+        if (x->list.data[i].high > out->high) out->high = x->list.data[i].high;
+    *next = i < x->list.count && x->list.data[i].low < before ? x->list.data[i].low : before;
+    return out->high < before;
+}
