@@ -62,9 +62,42 @@ static void films(floats_run *r, void *user) {
     froe_motion_free(motion);
 }
 
+static bool note_sight(void *user, double low, double high) {
+    const double at[2] = {low, high};
+    floats_note(user, at, sizeof at);
+    return true;
+}
+
+/* A triangle flies by behind another. */
+static void exact_films(floats_run *r, void *user) {
+    const froe_allocator memory = {floats_memory, r};
+    froe_motion_options w = froe_motion_defaults();
+    froe_render_options o = froe_render_defaults();
+    froe_film_options film = froe_film_defaults();
+    froe_moving m = froe_moving_defaults();
+    const size_t starts[] = {0, 1, 2, 3, 5, 7, 9};
+    const double times[] = {0, 0, 0, 0, 1, 0, 1, 0, 1};
+    const double at[] = {-1,   0, -1,   1, 0,   -1.1, 0,    0, 1.3, /* at rest */
+                         -2.1, 1, -0.2, 2, 1.1, 0.3,  -2.3, 1, 0.4, 1.9, 1, 0.2, -1.7, 1.2, 0.1, 2.2, 1.3, 0.7};
+    const double eye[3] = {0.3, -7.1, 0.2};
+    froe_motion *motion;
+    (void)user;
+    w.dim = 3, w.begin = 0, w.end = 1;
+    m.vertex_count = 6, m.count = 2, m.starts = starts, m.times = times, m.coords = at;
+    o.alloc = &memory, o.progress = floats_progress, o.user = r;
+    film.frames = 3, film.exact = true;
+    MUST(r, froe_motion_new(&w, &memory, &motion, NULL));
+    MUST(r, froe_motion_add(motion, &m, NULL));
+    MUST(r, froe_motion_sights(motion, eye, false, NULL, NULL, 0, 1, note_sight, r, NULL));
+    MUST(r, froe_film(motion, "exact.svg", &o, &film, NULL, NULL));
+    floats_note_file(r, "exact.svg");
+    froe_motion_free(motion);
+}
+
 static void films_have_the_same_bytes(void **state) {
     (void)state;
     floats_compare(films, NULL);
+    floats_compare(exact_films, NULL);
 }
 
 static void renderings_have_the_same_bytes(void **state) {

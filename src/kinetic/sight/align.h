@@ -8,9 +8,9 @@
  *       \|/                       parabolas parallel 8)
  *
  * r(x) is the ray of x, as in geom/eye.h, times the denominator of x: a point at e sees  e W - X,  a parallel eye
- * towards d  (X_i d_k - X_k d_i, X_j d_k - X_k d_j, d_k W),  d_k the largest of d. A root counts where the point may lie
- * between the ends of the edge, and the common point between those of all three, by error bounds: one too many does no
- * harm. Time runs from 0 to 1 between `from` and `to`, in which no point changes its piece. */
+ * towards d  (X_i d_k - X_k d_i, X_j d_k - X_k d_j, d_k W),  d_k the largest of d. A root counts where the point may
+ * lie between the ends of the edge, and the common point between those of all three, by error bounds: one too many does
+ * no harm. Time runs from 0 to 1 between `from` and `to`, in which no point changes its piece. */
 #ifndef FROE_KINETIC_ALIGN_H
 #define FROE_KINETIC_ALIGN_H
 #include "kinetic/contact/walk.h"

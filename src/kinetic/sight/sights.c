@@ -115,7 +115,7 @@ static int by_ends(const void *a, const void *b) {
     return (p->v[1] > q->v[1]) - (p->v[1] < q->v[1]);
 }
 
-static int by_place(const void *a, const void *b) {
+static int by_left_end(const void *a, const void *b) {
     const sight_edge *p = a, *q = b;
     if (p->box.lo[0] != q->box.lo[0]) return p->box.lo[0] < q->box.lo[0] ? -1 : 1;
     return by_ends(a, b);
@@ -161,7 +161,7 @@ static bool list_edges(sight_search *s) {
         s->edges.data[kept++] = e;
     }
     s->edges.count = kept;
-    base_sort(s->edges.data, kept, sizeof *s->edges.data, by_place);
+    base_sort(s->edges.data, kept, sizeof *s->edges.data, by_left_end);
     return true;
 }
 
