@@ -237,7 +237,8 @@ static froe_status look_after(film_work *w, film_instant at, double next, double
     }
 }
 
-/* Goes on to a time that is shown, and looks after each instant before it at which other faces may come into sight. */
+/* Goes on to a time, which is shown unless the film ends then, and looks after each instant before it at which other
+ * faces may come into sight. */
 static froe_status go_exactly(film_work *w, double time) {
     film_picture picture;
     film_instant at;
@@ -260,7 +261,8 @@ static froe_status go_exactly(film_work *w, double time) {
             status = show(w, &picture);
     }
     w->passed = time;
-    if (!status) status = draw_instant(w, time, true, &picture);
+    if (status || time == w->end) return status;
+    status = draw_instant(w, time, true, &picture);
     return status ? status : show(w, &picture);
 }
 
@@ -309,6 +311,7 @@ static froe_status make_film(film_work *w) {
     for (size_t i = 0; i < w->times.count && !status; i++)
         if (!i || w->times.data[i] > w->times.data[i - 1])
             status = w->film.exact ? go_exactly(w, w->times.data[i]) : go_to(w, w->times.data[i], least);
+    if (!status && w->film.exact) status = go_exactly(w, w->end);
     return status;
 }
 

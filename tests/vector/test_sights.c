@@ -1,10 +1,6 @@
 /* Instants at which what is seen may change: between two of them the faces in sight stay, as pictures taken at many
  * times tell; each is known to neighbouring doubles; and all are needed. */
-#include "support/memory.h"
-#include <froe/formats.h>
-#include <froe/render.h>
-#include <math.h>
-#include <string.h>
+#include "vector/playing.h"
 
 enum { FACES = 9, LARGE = 4, TIMES = 400, MOST = 8000 };
 
@@ -38,6 +34,9 @@ static froe_motion *make_motion(uint64_t seed, bool bent) {
         for (int k = 0; k < 6; k++)
             if (k % 2) controls[3 * k] = NAN;
         froe_moving m = froe_moving_defaults();
+        char name[16];
+        snprintf(name, sizeof name, "t%d", i);
+        assert_int_equal(froe_motion_add_group(motion, &(froe_group){.name = name}, &m.group), FROE_OK);
         m.vertex_count = 3, m.count = 1, m.starts = starts, m.times = times, m.coords = at;
         m.controls = bent ? controls : NULL;
         assert_int_equal(froe_motion_add(motion, &m, NULL), FROE_OK);
@@ -45,14 +44,14 @@ static froe_motion *make_motion(uint64_t seed, bool bent) {
     return motion;
 }
 
-static const double window[12] = {-1, -20, -1, 1, -20, -1, 1, -20, 1, -1, -20, 1};
+static const double page[12] = {-1, -20, -1, 1, -20, -1, 1, -20, 1, -1, -20, 1};
 
 static froe_eye make_eye(bool parallel) {
     return (froe_eye){.at = {parallel ? 0.125 : 0.25, parallel ? -1 : -30, 0.25}, .parallel = parallel};
 }
 
 /* The objects in sight, as bits. */
-static unsigned look_at(const froe_motion *motion, froe_eye eye, double time) {
+static unsigned look_at(const froe_motion *motion, froe_eye eye, const double *window, double time) {
     froe_scene *scene;
     froe_tree *tree;
     froe_surface *surface;
@@ -87,7 +86,7 @@ static bool keep(void *user, double low, double high) {
 static instants find(const froe_motion *motion, froe_eye eye, const uint8_t *seen, double from, double to) {
     instants out = {.count = 0};
     froe_diagnostic diag;
-    if (froe_motion_sights(motion, eye.at, eye.parallel, window, seen, from, to, keep, &out, &diag))
+    if (froe_motion_sights(motion, eye.at, eye.parallel, page, seen, from, to, keep, &out, &diag))
         fail_msg("%s", diag.message);
     return out;
 }
@@ -106,7 +105,7 @@ static void faces_in_sight_change_at_instants_alone(void **state) {
             const double time = (i + 0.001) / TIMES;
             const size_t before = k;
             while (k < x.count && x.low[k] <= time) k++;
-            const unsigned now = look_at(motion, eye, time);
+            const unsigned now = look_at(motion, eye, page, time);
             if (i > 1 && k == before && now != last) fail_msg("seed %u: other faces at %.17g", seed, time);
             changes += i > 1 && now != last, gaps += k == before;
             last = now;
@@ -127,10 +126,10 @@ static void what_is_seen_before_tells_the_first_change(void **state) {
         const froe_eye eye = make_eye(seed % 2);
         const instants all = find(motion, eye, NULL, 0, 1);
         double from = 0;
-        unsigned seen = look_at(motion, eye, 1e-9);
+        unsigned seen = look_at(motion, eye, page, 1e-9);
         for (size_t i = 0; i < all.count; i++) {
             const double next = i + 1 < all.count ? all.low[i + 1] : 1, gap = fmin(0.5 * (next - all.high[i]), 1e-7);
-            const unsigned now = look_at(motion, eye, all.high[i] + gap);
+            const unsigned now = look_at(motion, eye, page, all.high[i] + gap);
             if (now == seen || gap < 1e-12) continue;
             uint8_t flags[FACES];
             for (int k = 0; k < FACES; k++) flags[k] = seen >> k & 1;
@@ -145,6 +144,60 @@ static void what_is_seen_before_tells_the_first_change(void **state) {
     }
     print_message("  %u changes, %u of them after fewer instants than there are in all\n", changes, fewer);
     assert_true(changes > 30 && fewer > 5);
+}
+
+/* The objects that a film shows at a share of its time, as bits; *near: something begins or ends about then. */
+static unsigned shown_at(double share, bool *near) {
+    unsigned shown = 0;
+    *near = false;
+    for (size_t i = 0; i < playing_file.path_count; i++) {
+        const playing_path *p = playing_file.paths + i;
+        if (p->from <= share && share < p->to) shown |= 1u << (p->group[1] - '0');
+        *near = *near || fabs(p->from - share) < 1e-5 || fabs(p->to - share) < 1e-5;
+    }
+    return shown;
+}
+
+/* At how many of some times a film shows other objects than are in sight. */
+static unsigned count_wrong(const froe_motion *motion, const froe_render_options *o, bool exact) {
+    enum { SHARES = 200 };
+    froe_film_options film = froe_film_defaults();
+    froe_projection view;
+    froe_scene *scene;
+    froe_diagnostic diag;
+    unsigned wrong = 0;
+    film.frames = 3, film.exact = exact;
+    if (froe_film(motion, "any.svg", o, &film, NULL, &diag)) fail_msg("%s", diag.message);
+    playing_read("any.svg");
+    assert_int_equal(froe_motion_scene(motion, 0, NULL, &scene, NULL), FROE_OK);
+    assert_int_equal(froe_camera_place(&o->camera, scene, &view, NULL), FROE_OK);
+    for (int i = 0; i < SHARES; i++) {
+        const double time = chance();
+        bool near;
+        const unsigned shown = shown_at(time, &near);
+        wrong += !near && shown != look_at(motion, view.eye, view.window, time);
+    }
+    froe_scene_free(scene);
+    return wrong;
+}
+
+/* With three frames alone. A film by halving is wrong most of the time. */
+static void exact_films_show_what_is_in_sight_at_any_time(void **state) {
+    (void)state;
+    unsigned halving = 0;
+    for (unsigned seed = 40; seed < 46; seed++) {
+        froe_motion *motion = make_motion(seed, seed % 4 == 3);
+        froe_render_options o = froe_render_defaults();
+        const double eye[3] = {0.25, -30, 0.25}, target[3] = {0.2, 0, 0.2};
+        o.camera.parallel = seed % 2, o.camera.fit = false, o.camera.scale = 300, o.camera.fov = 5;
+        o.camera.width = o.camera.height = 600, o.decimals = 4;
+        for (int k = 0; k < 3; k++) o.camera.eye[k] = eye[k], o.camera.target[k] = target[k];
+        assert_int_equal(count_wrong(motion, &o, true), 0);
+        halving += count_wrong(motion, &o, false);
+        froe_motion_free(motion);
+    }
+    print_message("  halving: %u of 1200 wrong\n", halving);
+    assert_true(halving > 100);
 }
 
 static bool stop(void *user, double low, double high) {
@@ -168,7 +221,7 @@ static froe_status find_once(void *user, const froe_allocator *alloc) {
     froe_moving m = froe_moving_defaults();
     m.vertex_count = 3, m.count = 1, m.starts = starts, m.times = times, m.coords = at;
     if (!status) status = froe_motion_add(motion, &m, NULL);
-    if (!status) status = froe_motion_sights(motion, eye.at, false, window, NULL, 0, 1, stop, &count, NULL);
+    if (!status) status = froe_motion_sights(motion, eye.at, false, page, NULL, 0, 1, stop, &count, NULL);
     froe_motion_free(motion);
     return status;
 }
@@ -200,6 +253,7 @@ static void what_cannot_be_followed_is_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(exact_films_show_what_is_in_sight_at_any_time),
         cmocka_unit_test(faces_in_sight_change_at_instants_alone),
         cmocka_unit_test(what_is_seen_before_tells_the_first_change),
         cmocka_unit_test(allocations_may_fail),
