@@ -37,6 +37,7 @@ froe_status ghost_find(froe_kinetic *k, froe_diagnostic *diag) {
     o.progress = k->options.progress, o.user = k->options.user;
     g->all.count = g->lasting.count = g->next = 0;
     g->out_of_memory = false;
+    g->anew = true;
     const froe_status status = froe_motion_contacts(k->now.motion, &o, take_contact, k, diag);
     if (status || !g->out_of_memory) return status;
     return support_fail_memory(diag);
@@ -131,6 +132,9 @@ bool ghost_apply(froe_kinetic *k, const event_watcher *watcher) {
     ghost_state *g = &k->ghosts;
     const now_face *faces = k->now.faces.data;
     g->concerned.count = 0;
+    for (uint32_t o = 0; g->anew && o < k->now.faces.count; o++)
+        if (faces[o].ghost) call_push(&k->call, &g->concerned, o);
+    g->anew = false;
     bool go_on = pass_contacts(k, watcher);
     if (!k->call.stopped) choose(k);
     for (int back = 0; back < 2; back++) /* first those that leave */

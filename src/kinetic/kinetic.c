@@ -367,12 +367,13 @@ froe_status froe_kinetic_remove(froe_kinetic *k, uint32_t object, froe_diagnosti
     const uint32_t segment = now_segment_of(&k->now, object), life = k->certs.segments.data[segment].life;
     if (o->last >= k->now.tick) o->last = k->now.tick - 1;
     if (now_is_in_space(&k->now)) { /* it touches nothing any more */
-        o->death = now_time_of(&k->now, k->now.tick);
+        o->death = now_time_of(&k->now, k->now.tick - 1);
         k->touch.known = false;
     }
     if (life != FROE_NONE) cert_set_tick(&k->certs, life, NOW_NEVER);
     change_remove(k, segment);
-    return kinetic_settle(k, diag);
+    status = kinetic_settle(k, diag);
+    return status || !k->options.ghosts ? status : touch_find(k, diag);
 }
 
 static bool has_vertex(const motion_object *o, uint32_t vertex) {

@@ -398,6 +398,51 @@ static void ghosts_are_left_out_while_they_meet_others(void **state) {
     assert_true(f.refused > 300 && f.ended > 100);
 }
 
+static uint32_t below(froe_kinetic *k, double z) {
+    froe_kinetic_place place;
+    assert_int_equal(froe_kinetic_locate_in_space(k, (const double[]){1, 1, z}, &place, NULL), FROE_OK);
+    return place.below;
+}
+
+/* Three leaves, the second of which lies across the first, and the third elsewhere. */
+static froe_motion *three_leaves(void) {
+    static const double at[9][3] = {{0, 0, 0}, {9, 0, 0},  {0, 9, 0},  {0, 0, -1}, {9, 0, 1},
+                                    {0, 9, 1}, {0, 0, -9}, {9, 0, -9}, {0, 9, -9}};
+    static const double zeros[9];
+    static const size_t starts[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
+    froe_moving b = froe_moving_defaults();
+    b.vertex_count = 9, b.count = 3, b.starts = starts, b.times = zeros, b.coords = at[0];
+    return motion_of(&b, 0);
+}
+
+/* What was left out because of a triangle is there as soon as that has gone, or has gone elsewhere. */
+static void ghosts_return_when_what_they_meet_goes(void **state) {
+    (void)state;
+    for (int way = 0; way < 2; way++) {
+        froe_motion *m = three_leaves();
+        froe_kinetic_options o = froe_kinetic_defaults();
+        froe_kinetic *k;
+        o.ghosts = true;
+        assert_int_equal(froe_kinetic_new(m, &o, NULL, &k, NULL), FROE_OK);
+        assert_int_equal(below(k, 5), 0);
+        assert_int_equal(below(k, -0.5), 2);
+        assert_true(now_is_ghost(&k->now, 1));
+        if (way == 0) assert_int_equal(froe_kinetic_remove(k, 0, NULL), FROE_OK);
+        for (uint32_t v = 0; way == 1 && v < 3; v++) {
+            const double time = 0, to[3] = {v == 1 ? 9 : 0, v == 2 ? 9 : 0, 7};
+            assert_int_equal(froe_kinetic_replan(k, v, 1, &time, to, NULL, NULL), FROE_OK);
+        }
+        assert_false(now_is_ghost(&k->now, 1));
+        assert_int_equal(below(k, 5), 1);
+        assert_int_equal(below(k, 9), way == 0 ? 1 : 0);
+        assert_int_equal(froe_kinetic_audit(k, NULL), FROE_OK);
+        assert_int_equal(froe_kinetic_advance(k, WINDOW, NULL, NULL, NULL), FROE_OK);
+        assert_int_equal(below(k, 5), 1);
+        froe_kinetic_free(k);
+        froe_motion_free(m);
+    }
+}
+
 static froe_status with_ghosts(void *user, const froe_allocator *alloc) {
     froe_kinetic_options o = froe_kinetic_defaults();
     froe_kinetic *k = NULL;
@@ -426,6 +471,7 @@ int main(void) {
         cmocka_unit_test(every_way_to_meet_is_told_to_the_instant),
         cmocka_unit_test(a_partition_ends_when_neighbours_meet),
         cmocka_unit_test(ghosts_are_left_out_while_they_meet_others),
+        cmocka_unit_test(ghosts_return_when_what_they_meet_goes),
         cmocka_unit_test(memory_may_run_out_among_ghosts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
