@@ -6,6 +6,7 @@
 #include "motion/moving.h"
 #include "progress.h"
 #include "report/report.h"
+#include "support/path.h"
 #include <froe/io.h>
 #include <math.h>
 #include <stdlib.h>
@@ -114,6 +115,7 @@ static int animate(const simulation *s, const char *path) {
     if (!path) return 0;
     if (!isnan(s->args->seconds)) o.seconds = s->args->seconds;
     o.up = s->read.up;
+    o.numbers = s->read.extent > 0 || s->args->moving.poses; /* seconds of a model, or numbers of a table */
     const froe_status status = froe_animate(s->motion, s->contacts, s->count, &o, path, &diag);
     return status ? cli_fail_status(CLI_WRITING, path, status, &diag) : 0;
 }
@@ -141,7 +143,16 @@ static int report(const simulation *s) {
                                 seconds));
 }
 
+/* A picture and a page are told apart by their endings in the library, and by their options here. */
+static int check_ending(const char *option, const char *path, const char *ending) {
+    if (!path || !strcmp(support_path_extension(path).text, ending)) return 0;
+    return cli_fail(CLI_USE, NULL, "--%s: '%s' does not end in .%s.", option, path, ending);
+}
+
 static int check(const simulate_args *args) {
+    int code = check_ending("animate", args->animate, "svg");
+    if (!code) code = check_ending("player", args->player, "html");
+    if (code) return code;
     if (isnan(args->follow.at) != !args->follow.tree.name)
         return cli_fail(CLI_USE, NULL,
                         "--at: It needs --output, a file for the tree of that time, and --output needs it.");

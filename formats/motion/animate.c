@@ -63,8 +63,9 @@ froe_status froe_animate(const froe_motion *motion, const froe_contact *contacts
     a.options = options ? *options : froe_animation_defaults();
     a.begin = froe_motion_window(motion).begin;
     a.end = froe_motion_window(motion).end;
-    a.clock = a.end - a.begin >= 1000 && fmax(fabs(a.begin), fabs(a.end)) < 8e15; /* the clock of scripts ends there */
     if (a.options.size != sizeof a.options) return support_fail_defaults(diag, "froe_animation_defaults");
+    a.clock = !a.options.numbers && a.end - a.begin >= 1000 &&
+              fmax(fabs(a.begin), fabs(a.end)) < 8e15; /* the clock of scripts ends there */
     if (!(a.options.width >= 200) || !isfinite(a.options.width) || !(a.options.seconds > 0) ||
         !isfinite(a.options.seconds))
         return support_fail(diag, FROE_E_OPTIONS, "The width of the animation is below 200, or its time is none.");

@@ -304,6 +304,8 @@ typedef struct froe_animation_options {
     double width;   /**< of the picture, in pixels; default 960 */
     double seconds; /**< that the whole window takes to play; default 20 */
     int up;         /**< in space: the axis that points up; default 2, which is z */
+    bool numbers;   /**< times are shown as numbers. false (default): as milliseconds since 1970 by a clock, if the
+                         window lasts a thousand of them */
 } froe_animation_options;
 FROE_DEFAULTS(froe_animation_options, froe_animation_defaults);
 
