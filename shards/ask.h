@@ -21,9 +21,16 @@
 
 typedef struct shards_question shards_question;
 
+/** What a shard has answered. */
+typedef struct shards_answers {
+    froe_answers all;
+    bool own; /**< put together here, and not freed by froe_answers_free(), which knows what froe's own batches hold */
+} shards_answers;
+void shards_answers_free(shards_answers *answers);
+
 /** Asks `count` of the questions, those numbered by `which`, of one tree. */
 typedef froe_status shards_ask_fn(const shards_question *q, froe_query *query, const size_t *which, size_t count,
-                                  const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag);
+                                  const froe_batch_options *options, shards_answers *out, froe_diagnostic *diag);
 /** The same of questions that are rows of doubles. */
 typedef froe_status shards_rows_fn(froe_query *query, const double *rows, size_t count,
                                    const froe_batch_options *options, froe_answers *out, froe_diagnostic *diag);

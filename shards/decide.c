@@ -33,7 +33,7 @@ static froe_status copy_object(froe_scene *to, const froe_scene *from, uint32_t 
 
 /* Asks question i of these objects alone. */
 static froe_status ask_few(froe_shards *s, const shards_question *q, size_t i, const froe_find *items, size_t count,
-                           froe_answers *out, froe_diagnostic *diag) {
+                           shards_answers *out, froe_diagnostic *diag) {
     froe_scene *scene = NULL;
     froe_tree *tree = NULL;
     froe_query *query = NULL;
@@ -60,7 +60,7 @@ static froe_status decide_run(froe_shards *s, const shards_question *q, size_t i
     bool several = false;
     for (size_t j = 1; j < *count; j++) several = several || items[j].shard != items[0].shard;
     if (!several) return FROE_OK;
-    froe_answers order = {0};
+    shards_answers order = {.own = false};
     const size_t size = *count * sizeof *items;
     froe_find *before = support_realloc(&s->alloc, NULL, 0, size);
     if (!before) return support_fail_memory(diag);
@@ -68,10 +68,10 @@ static froe_status decide_run(froe_shards *s, const shards_question *q, size_t i
     memcpy(before, items, size);
     const froe_status status = ask_few(s, q, i, items, *count, &order, diag);
     if (!status) {
-        *count = order.starts[1];
-        for (size_t j = 0; j < *count; j++) items[j] = before[order.ids[j]];
+        *count = order.all.starts[1];
+        for (size_t j = 0; j < *count; j++) items[j] = before[order.all.ids[j]];
     }
-    froe_answers_free(&order);
+    shards_answers_free(&order);
     support_free(&s->alloc, before, size);
     return status;
 }

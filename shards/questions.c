@@ -20,7 +20,7 @@ static void free_rows(const shards_question *q, double *rows, size_t width, size
 
 /* Answers of at most one object each. */
 static froe_status answers_of_one(const froe_allocator *alloc, const uint32_t *objects, const double *values,
-                                  size_t count, froe_answers *out) {
+                                  size_t count, shards_answers *out) {
     size_t found = 0;
     for (size_t j = 0; j < count; j++) found += objects[j] != FROE_NONE;
     froe_answers a = {.queries = count, .alloc = *alloc};
@@ -40,17 +40,30 @@ static froe_status answers_of_one(const froe_allocator *alloc, const uint32_t *o
         }
         a.starts[j + 1] = at;
     }
-    *out = a;
+    *out = (shards_answers){.all = a, .own = true};
     return FROE_OK;
 }
 
+void shards_answers_free(shards_answers *answers) {
+    froe_answers *a = &answers->all;
+    if (answers->own) {
+        const size_t found = a->starts[a->queries];
+        support_free(&a->alloc, a->ids, found * sizeof *a->ids);
+        if (a->values) support_free(&a->alloc, a->values, found * sizeof *a->values);
+        support_free(&a->alloc, a->starts, (a->queries + 1) * sizeof *a->starts);
+    } else {
+        froe_answers_free(a);
+    }
+    *answers = (shards_answers){.own = false};
+}
+
 static froe_status ask_ranges(const shards_question *q, froe_query *query, const size_t *which, size_t count,
-                              const froe_batch_options *o, froe_answers *out, froe_diagnostic *diag) {
+                              const froe_batch_options *o, shards_answers *out, froe_diagnostic *diag) {
     froe_range *ranges = support_calloc(&q->alloc, count, sizeof *ranges);
     uint32_t *one = q->any ? support_calloc(&q->alloc, count, sizeof *one) : NULL;
     froe_status status = ranges && (one || !q->any) ? FROE_OK : support_fail_memory(diag);
     for (size_t j = 0; j < count && !status; j++) ranges[j] = q->ranges[which[j]];
-    if (!status && !q->any) status = froe_batch_range(query, ranges, count, o, out, diag);
+    if (!status && !q->any) status = froe_batch_range(query, ranges, count, o, &out->all, diag);
     if (!status && q->any) {
         status = froe_batch_any(query, ranges, count, o, one, diag);
         if (!status && answers_of_one(&q->alloc, one, NULL, count, out)) status = support_fail_memory(diag);
@@ -62,15 +75,15 @@ static froe_status ask_ranges(const shards_question *q, froe_query *query, const
 
 /* Questions that are rows of doubles, and nothing else. */
 static froe_status ask_rows(const shards_question *q, froe_query *query, const size_t *which, size_t count,
-                            const froe_batch_options *o, froe_answers *out, froe_diagnostic *diag) {
+                            const froe_batch_options *o, shards_answers *out, froe_diagnostic *diag) {
     double *rows = gather_rows(q, q->points, q->width, which, count);
-    const froe_status status = rows ? q->batch(query, rows, count, o, out, diag) : support_fail_memory(diag);
+    const froe_status status = rows ? q->batch(query, rows, count, o, &out->all, diag) : support_fail_memory(diag);
     free_rows(q, rows, q->width, count);
     return status;
 }
 
 static froe_status ask_vertical(const shards_question *q, froe_query *query, const size_t *which, size_t count,
-                                const froe_batch_options *o, froe_answers *out, froe_diagnostic *diag) {
+                                const froe_batch_options *o, shards_answers *out, froe_diagnostic *diag) {
     double *rows = gather_rows(q, q->points, (size_t)q->dim, which, count);
     uint32_t *objects = support_calloc(&q->alloc, count, sizeof *objects);
     froe_status status =
@@ -82,34 +95,34 @@ static froe_status ask_vertical(const shards_question *q, froe_query *query, con
 }
 
 static froe_status ask_related(const shards_question *q, froe_query *query, const size_t *which, size_t count,
-                               const froe_batch_options *o, froe_answers *out, froe_diagnostic *diag) {
+                               const froe_batch_options *o, shards_answers *out, froe_diagnostic *diag) {
     froe_range *ranges = support_calloc(&q->alloc, count, sizeof *ranges);
     for (size_t j = 0; ranges && j < count; j++) ranges[j] = q->ranges[which[j]];
-    const froe_status status =
-        ranges ? froe_batch_groups_range(query, ranges, count, q->relation, o, out, diag) : support_fail_memory(diag);
+    const froe_status status = ranges ? froe_batch_groups_range(query, ranges, count, q->relation, o, &out->all, diag)
+                                      : support_fail_memory(diag);
     if (ranges) support_free(&q->alloc, ranges, count * sizeof *ranges);
     return status;
 }
 
 /* A shard that is asked one group of a tree is asked all of them: they have the same box. */
 static froe_status ask_join(const shards_question *q, froe_query *query, const size_t *which, size_t count,
-                            const froe_batch_options *o, froe_answers *out, froe_diagnostic *diag) {
+                            const froe_batch_options *o, shards_answers *out, froe_diagnostic *diag) {
     (void)which, (void)count;
-    return froe_batch_groups_join(query, q->asking, q->relation, o, out, diag);
+    return froe_batch_groups_join(query, q->asking, q->relation, o, &out->all, diag);
 }
 
 static froe_status ask_near(const shards_question *q, froe_query *query, const size_t *which, size_t count,
-                            const froe_batch_options *o, froe_answers *out, froe_diagnostic *diag) {
+                            const froe_batch_options *o, shards_answers *out, froe_diagnostic *diag) {
     double *rows = gather_rows(q, q->points, (size_t)q->dim, which, count);
     const froe_status status =
-        rows ? froe_batch_near(query, rows, count, q->k, q->most, o, out, diag) : support_fail_memory(diag);
+        rows ? froe_batch_near(query, rows, count, q->k, q->most, o, &out->all, diag) : support_fail_memory(diag);
     free_rows(q, rows, (size_t)q->dim, count);
     return status;
 }
 
 /* The first hits of rays, or any. */
 static froe_status ask_first(const shards_question *q, froe_query *query, const double *origins,
-                             const double *directions, size_t count, const froe_batch_options *o, froe_answers *out,
+                             const double *directions, size_t count, const froe_batch_options *o, shards_answers *out,
                              froe_diagnostic *diag) {
     froe_hit *hits = support_calloc(&q->alloc, count, sizeof *hits);
     uint32_t *objects = support_calloc(&q->alloc, count, sizeof *objects);
@@ -128,7 +141,7 @@ static froe_status ask_first(const shards_question *q, froe_query *query, const 
 }
 
 static froe_status ask_ray(const shards_question *q, froe_query *query, const size_t *which, size_t count,
-                           const froe_batch_options *o, froe_answers *out, froe_diagnostic *diag) {
+                           const froe_batch_options *o, shards_answers *out, froe_diagnostic *diag) {
     const size_t dim = (size_t)q->dim;
     double *origins = gather_rows(q, q->points, dim, which, count);
     double *directions = gather_rows(q, q->directions, dim, which, count);
@@ -138,7 +151,7 @@ static froe_status ask_ray(const shards_question *q, froe_query *query, const si
     else if (q->k)
         status = ask_first(q, query, origins, directions, count, o, out, diag);
     else
-        status = froe_batch_ray_all(query, origins, directions, count, q->most, o, out, diag);
+        status = froe_batch_ray_all(query, origins, directions, count, q->most, o, &out->all, diag);
     free_rows(q, origins, dim, count);
     free_rows(q, directions, dim, count);
     return status;

@@ -148,7 +148,7 @@ static froe_status take_answers(shards_call *call, uint32_t shard, const size_t 
 froe_status shards_call_shard(shards_call *call, uint32_t shard, const size_t *which, const bool *alone, size_t count,
                               froe_diagnostic *diag) {
     froe_query *query;
-    froe_answers answers = {0};
+    shards_answers answers = {.own = false};
     froe_diagnostic why;
     while (count && which[count - 1] >= call->limit) count--;
     if (!count) return FROE_OK;
@@ -165,8 +165,8 @@ froe_status shards_call_shard(shards_call *call, uint32_t shard, const size_t *w
         if (diag) *diag = why;
         return shards_name_file(call->s, shard, status, diag);
     }
-    if (call->limit == call->q->count) status = take_answers(call, shard, which, alone, &answers, diag);
-    froe_answers_free(&answers);
+    if (call->limit == call->q->count) status = take_answers(call, shard, which, alone, &answers.all, diag);
+    shards_answers_free(&answers);
     return status;
 }
 

@@ -1,0 +1,93 @@
+/* test_memory.c: every question to a folder of shards while any allocation fails, with sizes that are checked where
+ * blocks are given back. */
+#include "folders.h"
+#include "support/memory.h"
+#include <math.h>
+
+enum { OBJECTS = 40, QUESTIONS = 3 };
+
+static const double points[2 * QUESTIONS] = {1, 1, 4, 6, 7, 2}, ways[2 * QUESTIONS] = {1, 2, -1, 0, 0, -3};
+static const double boxes[4 * QUESTIONS] = {0, 0, 3, 3, 2, 5, 9, 8, 6, 6, 6, 6};
+
+static froe_range range_of(size_t i) {
+    froe_range r = froe_range_defaults();
+    r.points = boxes + 4 * i;
+    return r;
+}
+
+typedef froe_status folder_question(froe_shards *s, const froe_batch_options *o);
+
+#define FINDS(call)                                                                                                    \
+    froe_finds found;                                                                                                  \
+    const froe_status status = (call);                                                                                 \
+    if (!status) froe_finds_free(&found);                                                                              \
+    return status
+
+static froe_status ask_range(froe_shards *s, const froe_batch_options *o) {
+    const froe_range r[QUESTIONS] = {range_of(0), range_of(1), range_of(2)};
+    FINDS(froe_shards_range(s, r, QUESTIONS, o, &found, NULL));
+}
+static froe_status ask_boxes(froe_shards *s, const froe_batch_options *o) {
+    FINDS(froe_shards_boxes(s, boxes, QUESTIONS, o, &found, NULL));
+}
+static froe_status ask_count(froe_shards *s, const froe_batch_options *o) {
+    const froe_range r[QUESTIONS] = {range_of(0), range_of(1), range_of(2)};
+    uint64_t counts[QUESTIONS];
+    return froe_shards_count(s, r, QUESTIONS, o, counts, NULL);
+}
+static froe_status ask_any(froe_shards *s, const froe_batch_options *o) {
+    const froe_range r[QUESTIONS] = {range_of(0), range_of(1), range_of(2)};
+    froe_find finds[QUESTIONS];
+    return froe_shards_any(s, r, QUESTIONS, o, finds, NULL);
+}
+static froe_status ask_locate(froe_shards *s, const froe_batch_options *o) {
+    FINDS(froe_shards_locate(s, points, QUESTIONS, o, &found, NULL));
+}
+static froe_status ask_vertical(froe_shards *s, const froe_batch_options *o) {
+    froe_find finds[QUESTIONS];
+    return froe_shards_vertical(s, points, QUESTIONS, 1, o, finds, NULL);
+}
+static froe_status ask_ray(froe_shards *s, const froe_batch_options *o) {
+    froe_find finds[QUESTIONS];
+    return froe_shards_ray(s, points, ways, QUESTIONS, INFINITY, o, finds, NULL);
+}
+static froe_status ask_ray_any(froe_shards *s, const froe_batch_options *o) {
+    froe_find finds[QUESTIONS];
+    return froe_shards_ray_any(s, points, ways, QUESTIONS, INFINITY, o, finds, NULL);
+}
+static froe_status ask_ray_all(froe_shards *s, const froe_batch_options *o) {
+    FINDS(froe_shards_ray_all(s, points, ways, QUESTIONS, INFINITY, o, &found, NULL));
+}
+static froe_status ask_near(froe_shards *s, const froe_batch_options *o) {
+    FINDS(froe_shards_near(s, points, QUESTIONS, 2, INFINITY, o, &found, NULL));
+}
+
+static folder_question *const questions[] = {ask_range,    ask_boxes, ask_count,   ask_any,     ask_locate,
+                                             ask_vertical, ask_ray,   ask_ray_any, ask_ray_all, ask_near};
+
+static froe_status ask(void *user, const froe_allocator *alloc) {
+    froe_shards *s;
+    froe_batch_options o = froe_batch_defaults();
+    o.threads = 1;
+    froe_status status = froe_shards_open("folder.froes", alloc, &s, NULL);
+    if (status) return status;
+    status = questions[*(size_t *)user](s, &o);
+    froe_shards_close(s);
+    return status;
+}
+
+static void any_allocation_of_any_question_may_fail(void **state) {
+    (void)state;
+    one_object *list = lattice_objects(2, FROE_SEGMENT, OBJECTS, 9, 5);
+    froe_shards_options o = froe_shards_defaults();
+    froe_shards_report report;
+    o.shards = 3;
+    assert_int_equal(build_folder("folder.froes", 2, list, OBJECTS, &o, &report, NULL), FROE_OK);
+    free(list);
+    for (size_t i = 0; i < sizeof questions / sizeof *questions; i++) assert_true(test_memory_each(ask, &i) > 5);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(any_allocation_of_any_question_may_fail)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
