@@ -181,7 +181,7 @@ static unsigned count_wrong(const froe_motion *motion, const froe_render_options
     return wrong;
 }
 
-/* With three frames alone. A film by halving is wrong most of the time. */
+/* With three frames alone. A film by halving is wrong a third of the time. */
 static void exact_films_show_what_is_in_sight_at_any_time(void **state) {
     (void)state;
     unsigned halving = 0;

@@ -284,20 +284,16 @@ static froe_status check_motion(const froe_motion *m, bool parallel, froe_diagno
     return FROE_OK;
 }
 
+/* A corner of the window is before an eye at a point; without a window, where some vertex is at first. */
 static align_eye choose_eye(sight_search *s, const double eye[3], bool parallel) {
     align_eye out = {.parallel = parallel, .at = {eye[0], eye[1], eye[2]}};
-    double way[3] = {1, 0, 0};
-    for (int k = 0; k < 3; k++) {
-        if (fabs(eye[k]) > fabs(eye[out.axis])) out.axis = k;
-        for (int i = 0; i < CORNERS && s->window; i++) way[k] += eye[k] - s->window[3 * i + k];
-        if (s->window && !k) way[k] -= 1;
-    }
-    s->chart = 2, s->side = eye[out.axis] > 0 ? 1 : -1;
-    if (parallel) return out;
-    s->chart = 0;
+    const double *before = s->window ? s->window : s->m->knots.count ? s->m->knots.data[0].at : eye;
     for (int k = 1; k < 3; k++)
-        if (fabs(way[k]) > fabs(way[s->chart])) s->chart = k;
-    s->side = way[s->chart] > 0 ? 1 : -1;
+        if (fabs(eye[k]) > fabs(eye[out.axis])) out.axis = k;
+    s->chart = 2, s->side = eye[out.axis] > 0 ? 1 : -1;
+    for (int k = 0; k < 3 && !parallel; k++)
+        if (!k || fabs(eye[k] - before[k]) > fabs(eye[s->chart] - before[s->chart])) s->chart = k;
+    if (!parallel) s->side = eye[s->chart] > before[s->chart] ? 1 : -1;
     return out;
 }
 
