@@ -8,6 +8,10 @@
 #include <stdio.h>
 #include <string.h>
 
+#ifndef CLI_PROGRAM /* froe-mpi is built with some of these sources, too */
+#define CLI_PROGRAM "froe"
+#endif
+
 static const unsigned char codes[FROE_STATUS_COUNT][3] = {
     /*                        reading        working        writing */
     [FROE_OK] = {CLI_YES, CLI_YES, CLI_YES},
@@ -35,7 +39,7 @@ int cli_fail(int code, const char *file, const char *sentence, ...) {
     vsnprintf(text + at, ROOM - at, sentence, args);
     va_end(args);
     support_one_line(text);
-    fprintf(stderr, "froe: %s\n", text);
+    fprintf(stderr, CLI_PROGRAM ": %s\n", text);
     return code;
 }
 

@@ -19,8 +19,8 @@ struct froe_mpi_builder {
     froe_shard_entry *entries;
     froe_shard_records batch;
     froe_mpi_cost began;
-    froe_mpi_costs costs;
-    froe_status status; /* of what this rank has done so far */
+    froe_mpi_costs costs; /* so far; waiting is counted by `ranks` */
+    froe_status status;   /* of what this rank has done so far */
     froe_diagnostic diag;
 };
 
@@ -71,7 +71,9 @@ froe_status froe_mpi_begin(MPI_Comm comm, const char *path, int dim, const froe_
         if (diag) *diag = why;
         return status;
     }
-    *b = (froe_mpi_builder){.ranks = ranks, .dim = dim, .alloc = alloc, .began = mpi_now()};
+    *b = (froe_mpi_builder){.ranks = ranks, .dim = dim, .alloc = alloc};
+    b->ranks.waited = &b->costs.wait;
+    b->began = mpi_now(&b->ranks);
     b->o = options ? *options : froe_shards_defaults();
     b->o.progress = NULL, b->o.alloc = NULL;
     status = begin_draft(b, path);
@@ -108,34 +110,74 @@ froe_status froe_mpi_add(froe_mpi_builder *b, const froe_objects *batch, uint64_
 
 /* ------------------------------------------------------------------- finish -- */
 
-/* Collective: the samples of all ranks as one, and the plan that they give. */
-static froe_status make_plan(froe_mpi_builder *b) {
-    const int ranks = b->ranks.count;
-    froe_shard_sample *all = NULL;
+/* Merges the sample of another rank, of so many words; 0: it has failed. It is told whether there is room. */
+static froe_status receive_sample(froe_mpi_builder *b, int from, uint64_t count) {
+    const MPI_Comm comm = b->ranks.comm;
+    uint64_t *words = count ? support_calloc(&b->alloc, count, sizeof *words) : NULL;
+    const int room = words != NULL;
+    MPI_Send(&room, 1, MPI_INT, from, 0, comm);
+    if (!room) return support_fail_memory(&b->diag);
+    MPI_Recv(words, (int)count, MPI_UINT64_T, from, 0, comm, MPI_STATUS_IGNORE);
+    const froe_status status = froe_shard_sample_merge(b->sample, words, count);
+    support_free(&b->alloc, words, count * sizeof *words);
+    return status ? support_fail_memory(&b->diag) : FROE_OK;
+}
+
+/* 2^17 objects are fewer than 2^31 words. A rank that has failed sends none. */
+static void send_sample(froe_mpi_builder *b, int to, froe_status status) {
     size_t words = 0;
-    const uint64_t *mine = froe_shard_sample_words(b->sample, &words);
-    int *counts = support_calloc(&b->alloc, 2 * (size_t)ranks, sizeof *counts), *starts = counts + ranks;
-    uint64_t *sum = NULL;
-    size_t total = 0;
-    const int count = (int)words; /* 2^17 objects are fewer than 2^31 words */
-    froe_status status =
-        counts && mine && !froe_shard_sample_new(b->dim, NULL, &all) ? FROE_OK : support_fail_memory(&b->diag);
-    if (!(status = mpi_agree(&b->ranks, status, &b->diag))) {
-        MPI_Allgather(&count, 1, MPI_INT, counts, 1, MPI_INT, b->ranks.comm);
-        for (int r = 0; r < ranks; r++) starts[r] = (int)total, total += (size_t)counts[r];
-        sum = support_calloc(&b->alloc, total, sizeof *sum);
-        status = sum && total < INT32_MAX ? FROE_OK : support_fail_memory(&b->diag);
+    const uint64_t *mine = status ? NULL : froe_shard_sample_words(b->sample, &words);
+    const uint64_t count = mine ? words : 0;
+    int room;
+    MPI_Send(&count, 1, MPI_UINT64_T, to, 0, b->ranks.comm);
+    MPI_Recv(&room, 1, MPI_INT, to, 0, b->ranks.comm, MPI_STATUS_IGNORE);
+    if (room) MPI_Send(mine, (int)count, MPI_UINT64_T, to, 0, b->ranks.comm);
+}
+
+/* Collective: rank 0 merges the samples of all, two by two:
+ *
+ *     0 <- 1   2 <- 3   4 <- 5
+ *     0 <----- 2        4
+ *     0 <-------------- 4 */
+static froe_status merge_samples(froe_mpi_builder *b) {
+    const int rank = b->ranks.rank;
+    froe_status status = FROE_OK;
+    for (int step = 1; step < b->ranks.count; step *= 2) {
+        if (rank & step) {
+            send_sample(b, rank - step, status);
+            return FROE_OK;
+        }
+        if (rank + step >= b->ranks.count) continue;
+        uint64_t count;
+        MPI_Recv(&count, 1, MPI_UINT64_T, rank + step, 0, b->ranks.comm, MPI_STATUS_IGNORE);
+        const froe_status received = receive_sample(b, rank + step, count);
+        if (!status) status = received;
     }
+    return status;
+}
+
+/* Collective: the plan that the samples of all ranks give. */
+static froe_status make_plan(froe_mpi_builder *b) {
+    const bool first = !b->ranks.rank;
+    size_t words = 0;
+    mpi_wait(&b->ranks);
+    froe_status status = merge_samples(b);
+    const uint64_t *all = first && !status ? froe_shard_sample_words(b->sample, &words) : NULL;
+    if (first && !status && !all) status = support_fail_memory(&b->diag);
+    if ((status = mpi_agree(&b->ranks, status, &b->diag))) return status;
+    uint64_t count = words, *copy = NULL;
+    MPI_Bcast(&count, 1, MPI_UINT64_T, 0, b->ranks.comm);
+    froe_shard_sample *sample = NULL;
+    if (!(copy = support_calloc(&b->alloc, count, sizeof *copy)) || froe_shard_sample_new(b->dim, NULL, &sample))
+        status = support_fail_memory(&b->diag);
+    if (first && copy) memcpy(copy, all, count * sizeof *copy);
     if (!(status = mpi_agree(&b->ranks, status, &b->diag))) {
-        MPI_Allgatherv(mine, count, MPI_UINT64_T, sum, counts, starts, MPI_UINT64_T, b->ranks.comm);
-        for (int r = 0; r < ranks && !status; r++)
-            if (froe_shard_sample_merge(all, sum + starts[r], (size_t)counts[r]))
-                status = support_fail_memory(&b->diag);
-        if (!status) status = froe_shard_plan_new(all, b->o.shards, b->o.memory, &b->plan, &b->diag);
+        MPI_Bcast(copy, (int)count, MPI_UINT64_T, 0, b->ranks.comm);
+        if (froe_shard_sample_merge(sample, copy, count)) status = support_fail_memory(&b->diag);
+        if (!status) status = froe_shard_plan_new(sample, b->o.shards, b->o.memory, &b->plan, &b->diag);
     }
-    support_free(&b->alloc, sum, total * sizeof *sum);
-    support_free(&b->alloc, counts, 2 * (size_t)ranks * sizeof *counts);
-    froe_shard_sample_free(all);
+    if (copy) support_free(&b->alloc, copy, count * sizeof *copy);
+    froe_shard_sample_free(sample);
     return mpi_agree(&b->ranks, status, &b->diag);
 }
 
@@ -173,23 +215,25 @@ static froe_status build_all(froe_mpi_builder *b) {
 
 froe_status froe_mpi_finish(froe_mpi_builder *b, froe_shards_report *out, froe_mpi_costs *costs,
                             froe_diagnostic *diag) {
-    const mpi_ranks ranks = b->ranks;
+    const mpi_ranks ranks = mpi_ranks_of(b->ranks.comm);
     froe_shards_report report = {0};
-    froe_mpi_costs spent = {.read = mpi_since(b->began)};
-    froe_status status = mpi_agree(&ranks, b->status, &b->diag);
+    mpi_count(&b->ranks, &b->costs.read, b->began);
+    froe_status status = mpi_agree(&b->ranks, b->status, &b->diag);
     const uint64_t objects = status ? 0 : mpi_sum(&ranks, b->objects);
     if (!status && !objects) status = support_fail(&b->diag, FROE_E_INPUT, "There are no objects.");
-    froe_mpi_cost then = mpi_now();
+    froe_mpi_cost then = mpi_now(&b->ranks);
     if (!status) status = send_all(b);
-    spent.exchange = mpi_since(then), spent.sent = b->costs.sent;
-    then = mpi_now();
+    mpi_count(&b->ranks, &b->costs.exchange, then);
+    then = mpi_now(&b->ranks);
     if (!status) status = build_all(b);
-    spent.build = mpi_since(then);
+    mpi_count(&b->ranks, &b->costs.build, then);
     if (!status) report = froe_shard_report(b->plan, b->entries);
+    froe_mpi_costs spent = b->costs;
     status = end_builder(b, status, diag);
     if (status) return status;
     spent.read = mpi_slowest(&ranks, spent.read), spent.exchange = mpi_slowest(&ranks, spent.exchange);
-    spent.build = mpi_slowest(&ranks, spent.build), spent.sent = mpi_sum(&ranks, spent.sent);
+    spent.build = mpi_slowest(&ranks, spent.build), spent.wait = mpi_slowest(&ranks, spent.wait);
+    spent.sent = mpi_sum(&ranks, spent.sent);
     if (out) *out = report;
     if (costs) *costs = spent;
     return FROE_OK;

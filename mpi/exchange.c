@@ -80,6 +80,7 @@ static froe_status trade(exchange *e) {
 static froe_status go_round(exchange *e, froe_status status, bool *more) {
     const int mine[2] = {status != FROE_OK, *more};
     int most[2] = {0};
+    mpi_wait(e->ranks);
     MPI_Allreduce(mine, most, 2, MPI_INT, MPI_MAX, e->ranks->comm);
     e->stopped = most[0] != 0, *more = most[1] != 0;
     if (e->stopped) return status;

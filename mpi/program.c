@@ -1,8 +1,10 @@
-/* program.c: froe-mpi, folders of shards built by several processes */
+/* program.c: froe-mpi, folders of shards built and asked by several processes */
+#include "ask.h"
 #include "rows.h"
 #include "support/fail.h"
 #include <froe/arrays.h>
 #include <getopt.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,20 +12,34 @@
 static const char help[] =
     "usage: mpirun -n RANKS froe-mpi build FILE.csv -o FOLDER [--shards N] [--memory BYTES[K|M|G]] [--threads N]\n"
     "                                      [--method NAME]\n"
+    "       mpirun -n RANKS froe-mpi range  FOLDER --queries FILE.csv [--shape SHAPE] [--count] [--threads N]\n"
+    "       mpirun -n RANKS froe-mpi locate FOLDER --queries FILE.csv [--above | --below] [--count] [--threads N]\n"
+    "       mpirun -n RANKS froe-mpi near   FOLDER --queries FILE.csv [-k K] [--within D] [--count] [--threads N]\n"
+    "       mpirun -n RANKS froe-mpi ray    FOLDER --queries FILE.csv [--all] [--t-max T] [--count] [--threads N]\n"
     "\n"
     "build makes the folder of shards that one process makes, byte for byte, with any number of ranks: each\n"
     "reads a part of the file, sends objects to the ranks that own their shards, and builds its own shards.\n"
     "All ranks see the same files.\n"
     "\n"
-    "Costs are printed on standard error: seconds of the slowest rank, by the clock and of processors. A rank has one\n"
-    "thread unless --threads says otherwise. When a rank fails or is killed, the folder that was there before stays.\n";
+    "range, locate, near and ray print what the commands of froe print that are called alike, byte for byte: each "
+    "rank\n"
+    "opens its own shards, reads a part of the questions, and sends them to the ranks whose shards they reach. SHAPE "
+    "is\n"
+    "box (default), ball, capsule, segment or ray.\n"
+    "\n"
+    "Costs are printed on standard error: seconds of the slowest rank, by the clock and of processors, and those of "
+    "the\n"
+    "processors of all ranks together. A rank has one thread unless --threads says otherwise. When a rank fails or is\n"
+    "killed, the folder that was there before stays.\n";
 
+/* What options say; each command looks at its own. */
 typedef struct job {
-    const char *input, *output;
+    const char *operand, *output, *queries;
     froe_shards_options shards;
+    mpi_query query;
 } job;
 
-enum { USE = 2, INPUT = 3, RESOURCES = 4 };
+enum { USE = 2, INPUT = 3, RESOURCES = 4 }; /* as in cli/exit.h */
 
 /* Collective: rank 0 says why. */
 static int fail(const mpi_ranks *ranks, const froe_diagnostic *why) {
@@ -41,16 +57,26 @@ static int fail(const mpi_ranks *ranks, const froe_diagnostic *why) {
     }
 }
 
-static void print_cost(const char *what, froe_mpi_cost cost) {
-    fprintf(stderr, "%-9s %9.3f s %9.3f s of processors\n", what, cost.wall, cost.processor);
-}
-
 /* ------------------------------------------------------------------- build -- */
 
 typedef struct build_job {
     froe_mpi_builder *builder;
     froe_diagnostic *diag;
 } build_job;
+
+/* How many corners objects of a kind have; 0: each as many as it has. */
+static size_t corners_of(froe_kind kind) {
+    return kind == FROE_SEGMENT || kind == FROE_BOX ? 2 : kind == FROE_POLYGON || kind == FROE_HULL ? 0 : 1;
+}
+
+/* Objects without length have fewer corners; the last one stands for those that are left out. NULL: no memory. */
+static uint32_t *all_corners(const froe_scene_arrays *a, size_t each) {
+    uint32_t *corners = malloc((a->object_count * each + 1) * sizeof *corners);
+    for (size_t i = 0; i < a->object_count && corners; i++)
+        for (size_t c = 0, last = a->starts[i + 1] - a->starts[i] - 1; c < each; c++)
+            corners[i * each + c] = a->corners[a->starts[i] + (c < last ? c : last)];
+    return corners;
+}
 
 /* The objects of one kind of a scene, which a CSV has, as a batch. */
 static bool add_rows(void *user, const froe_scene *scene, uint64_t first, bool tagged) {
@@ -64,11 +90,15 @@ static bool add_rows(void *user, const froe_scene *scene, uint64_t first, bool t
     froe_objects batch = froe_objects_defaults();
     batch.kind = a.object_count ? (froe_kind)a.kinds[0] : FROE_POINT;
     batch.count = a.object_count, batch.point_count = a.vertex_count;
-    batch.coords = a.coords, batch.indices = a.corners;
-    batch.starts = batch.kind == FROE_HULL ? a.starts : NULL;
+    const size_t each = corners_of(batch.kind);
+    uint32_t *corners = each ? all_corners(&a, each) : NULL;
+    batch.coords = a.coords, batch.indices = each ? corners : a.corners;
+    batch.starts = each ? NULL : a.starts;
     batch.radii = batch.kind == FROE_BALL ? a.radii : NULL;
     batch.tags = tagged ? a.tags : NULL;
-    const froe_status status = froe_mpi_add(b->builder, &batch, first, b->diag);
+    const froe_status status =
+        each && !corners ? support_fail_memory(b->diag) : froe_mpi_add(b->builder, &batch, first, b->diag);
+    free(corners);
     froe_scene_arrays_free(&a);
     return !status;
 }
@@ -79,17 +109,23 @@ static int build(const mpi_ranks *ranks, const job *j) {
     froe_shards_report report;
     froe_mpi_costs costs;
     int dim = 2;
-    froe_status status = mpi_agree(ranks, mpi_rows_dim(j->input, &dim, &diag), &diag);
+    froe_mpi_cost together = {0};
+    const froe_mpi_cost began = mpi_now(ranks);
+    froe_status status = mpi_agree(ranks, mpi_rows_dim(j->operand, &dim, &diag), &diag);
     if (!status) status = froe_mpi_begin(ranks->comm, j->output, dim, &j->shards, &b.builder, &diag);
     if (status) return fail(ranks, &diag);
-    if (mpi_rows_read(ranks, j->input, add_rows, &b, &diag)) froe_mpi_fail(b.builder, &diag);
+    if (mpi_rows_read(ranks, j->operand, add_rows, &b, &diag)) froe_mpi_fail(b.builder, &diag);
     status = froe_mpi_finish(b.builder, &report, &costs, &diag);
     if (status) return fail(ranks, &diag);
+    mpi_count(ranks, &together, began);
+    together = mpi_slowest(ranks, together);
     if (ranks->rank) return 0;
     fprintf(stderr, "%llu objects, %llu copies in %u shards, the largest of %llu; %llu bytes; %llu sent\n",
             (unsigned long long)report.objects, (unsigned long long)report.copies, report.shards,
             (unsigned long long)report.most, (unsigned long long)report.bytes, (unsigned long long)costs.sent);
-    print_cost("reading", costs.read), print_cost("exchange", costs.exchange), print_cost("building", costs.build);
+    mpi_print_cost("reading", costs.read), mpi_print_cost("exchange", costs.exchange);
+    mpi_print_cost("building", costs.build), mpi_print_cost("waiting", costs.wait);
+    mpi_print_cost("together", together);
     return 0;
 }
 
@@ -106,36 +142,80 @@ static bool read_size(const char *text, uint64_t most, uint64_t *out) {
     return true;
 }
 
-static bool read_options(int argc, char **argv, job *j) {
-    static const struct option options[] = {{"shards", required_argument, NULL, 's'},
-                                            {"memory", required_argument, NULL, 'm'},
-                                            {"threads", required_argument, NULL, 't'},
-                                            {"method", required_argument, NULL, 'M'},
-                                            {NULL, 0, NULL, 0}};
+/* A number that is not below 0. */
+static bool read_real(const char *text, double *out) {
+    char *end;
+    *out = strtod(text, &end);
+    return end != text && !*end && *out >= 0;
+}
+
+/* One letter for each option; those of `build` are in capitals, but for -o. Its letter must be among those that the
+ * command knows. */
+static const struct option options[] = {
+    {"shards", required_argument, NULL, 'S'},  {"memory", required_argument, NULL, 'M'},
+    {"method", required_argument, NULL, 'W'},  {"threads", required_argument, NULL, 't'},
+    {"queries", required_argument, NULL, 'q'}, {"shape", required_argument, NULL, 's'},
+    {"count", no_argument, NULL, 'c'},         {"above", no_argument, NULL, 'a'},
+    {"below", no_argument, NULL, 'b'},         {"neighbours", required_argument, NULL, 'k'},
+    {"within", required_argument, NULL, 'w'},  {"all", no_argument, NULL, 'A'},
+    {"t-max", required_argument, NULL, 'T'},   {NULL, 0, NULL, 0}};
+static const char *const known[] = {[MPI_RANGE] = "tqcs",
+                                    [MPI_LOCATE] = "tqcab",
+                                    [MPI_NEAR] = "tqckw",
+                                    [MPI_RAY] = "tqcAT",
+                                    [MPI_NO_COMMAND] = "toSMW"};
+
+static bool read_option(int letter, job *j) {
     uint64_t number = 0;
     bool good = true;
-    for (int c; (c = getopt_long(argc, argv, "o:", options, NULL)) != -1 && good;) {
-        if (c == 'o')
-            j->output = optarg;
-        else if (c == 'M')
-            j->shards.method = optarg;
-        else if (c == 's')
-            good = read_size(optarg, FROE_SHARDS_MOST, &number), j->shards.shards = (uint32_t)number;
-        else if (c == 'm')
-            good = read_size(optarg, UINT64_MAX, &j->shards.memory);
-        else if (c == 't')
-            good = read_size(optarg, 1024, &number), j->shards.threads = (unsigned)number;
-        else
-            good = false;
+    mpi_query *q = &j->query;
+    switch (letter) {
+    case 'o':
+        j->output = optarg;
+        return true;
+    case 'W':
+        j->shards.method = optarg;
+        return true;
+    case 'q':
+        j->queries = optarg;
+        return true;
+    case 'S':
+        good = read_size(optarg, FROE_SHARDS_MOST, &number), j->shards.shards = (uint32_t)number;
+        return good;
+    case 'M':
+        return read_size(optarg, UINT64_MAX, &j->shards.memory);
+    case 't':
+        good = read_size(optarg, 1024, &number), j->shards.threads = q->batch.threads = (unsigned)number;
+        return good;
+    case 'k':
+        good = read_size(optarg, 2147483646, &number), q->k = number;
+        return good;
+    case 's':
+        return mpi_shape_named(optarg, &q->shape);
+    case 'w':
+        return read_real(optarg, &q->within);
+    case 'T':
+        return read_real(optarg, &q->t_max);
+    default:
+        q->count = q->count || letter == 'c', q->all = q->all || letter == 'A';
+        q->above = q->above || letter == 'a', q->below = q->below || letter == 'b';
+        return true;
     }
-    if (optind + 1 != argc) return false;
-    j->input = argv[optind];
-    return good;
+}
+
+static bool read_options(int argc, char **argv, job *j) {
+    bool good = true;
+    for (int c; good && (c = getopt_long(argc, argv, "o:k:", options, NULL)) != -1;)
+        good = strchr(known[j->query.command], c) && read_option(c, j);
+    if (!good || optind + 1 != argc || (j->query.above && j->query.below)) return false;
+    j->operand = argv[optind];
+    return j->query.command == MPI_NO_COMMAND ? j->output != NULL : j->queries != NULL;
 }
 
 static int run(const mpi_ranks *ranks, int argc, char **argv) {
-    job j = {.shards = froe_shards_defaults()};
-    j.shards.threads = 1;
+    job j = {.shards = froe_shards_defaults(),
+             .query = {.k = 1, .within = INFINITY, .t_max = INFINITY, .batch = froe_batch_defaults()}};
+    j.shards.threads = j.query.batch.threads = 1;
     opterr = !ranks->rank;
     if (argc == 2 && !strcmp(argv[1], "--version")) {
         if (!ranks->rank) printf("froe-mpi %s\n", froe_version());
@@ -143,10 +223,19 @@ static int run(const mpi_ranks *ranks, int argc, char **argv) {
     }
     const bool asked = argc == 2 && !strcmp(argv[1], "--help");
     const char *command = argc > 1 ? argv[1] : "";
-    const bool good = argc > 1 && !asked && read_options(argc - 1, argv + 1, &j);
-    if (good && !strcmp(command, "build") && j.output) return build(ranks, &j);
+    j.query.command = mpi_command_named(command);
+    const bool builds = !strcmp(command, "build");
+    const bool good = (builds || j.query.command != MPI_NO_COMMAND) && read_options(argc - 1, argv + 1, &j);
+    if (good && builds) return build(ranks, &j);
+    if (good) return mpi_ask(ranks, &(mpi_asking){.folder = j.operand, .input = j.queries, .query = j.query});
     if (!ranks->rank) fputs(help, asked ? stdout : stderr);
     return asked ? 0 : USE;
+}
+
+/* What cli/exit.c asks of the command line of froe: there is no --limit-time here. */
+bool cli_late(void);
+bool cli_late(void) {
+    return false;
 }
 
 int main(int argc, char **argv) {

@@ -1,5 +1,6 @@
 /* ranks.c: see ranks.h. */
 #include "ranks.h"
+#include <stdio.h>
 #include <sys/resource.h>
 
 mpi_ranks mpi_ranks_of(MPI_Comm comm) {
@@ -9,31 +10,58 @@ mpi_ranks mpi_ranks_of(MPI_Comm comm) {
     return r;
 }
 
+static froe_mpi_cost used_by_now(void) {
+    struct rusage used;
+    getrusage(RUSAGE_SELF, &used);
+    const double seconds = (double)(used.ru_utime.tv_sec + used.ru_stime.tv_sec);
+    const double micros = (double)(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
+    return (froe_mpi_cost){MPI_Wtime(), seconds + 1e-6 * micros, 0};
+}
+
+static void add_since(froe_mpi_cost *sum, froe_mpi_cost then, froe_mpi_cost now) {
+    sum->wall += now.wall - then.wall;
+    sum->processor += now.processor - then.processor;
+}
+
 froe_status mpi_agree(const mpi_ranks *ranks, froe_status status, froe_diagnostic *diag) {
+    const froe_mpi_cost then = used_by_now();
     const int mine = status ? ranks->rank : ranks->count;
     int first = ranks->count;
     MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, ranks->comm);
+    if (ranks->waited) add_since(ranks->waited, then, used_by_now());
     if (first == ranks->count) return FROE_OK;
     MPI_Bcast(diag, (int)sizeof *diag, MPI_BYTE, first, ranks->comm);
     return diag->status;
 }
 
-froe_mpi_cost mpi_now(void) {
-    struct rusage used;
-    getrusage(RUSAGE_SELF, &used);
-    return (froe_mpi_cost){MPI_Wtime(), (double)(used.ru_utime.tv_sec + used.ru_stime.tv_sec) +
-                                            1e-6 * (double)(used.ru_utime.tv_usec + used.ru_stime.tv_usec)};
+void mpi_wait(const mpi_ranks *ranks) {
+    const froe_mpi_cost then = used_by_now();
+    MPI_Barrier(ranks->comm);
+    if (ranks->waited) add_since(ranks->waited, then, used_by_now());
 }
 
-froe_mpi_cost mpi_since(froe_mpi_cost then) {
-    const froe_mpi_cost now = mpi_now();
-    return (froe_mpi_cost){now.wall - then.wall, now.processor - then.processor};
+froe_mpi_cost mpi_now(const mpi_ranks *ranks) {
+    froe_mpi_cost now = used_by_now();
+    if (ranks->waited) now.wall -= ranks->waited->wall, now.processor -= ranks->waited->processor;
+    return now;
+}
+
+void mpi_count(const mpi_ranks *ranks, froe_mpi_cost *sum, froe_mpi_cost then) {
+    add_since(sum, then, mpi_now(ranks));
 }
 
 froe_mpi_cost mpi_slowest(const mpi_ranks *ranks, froe_mpi_cost mine) {
-    froe_mpi_cost most = {0};
-    MPI_Allreduce(&mine, &most, 2, MPI_DOUBLE, MPI_MAX, ranks->comm);
-    return most;
+    const double own[2] = {mine.wall, mine.processor};
+    double most[2] = {0};
+    froe_mpi_cost cost = {0};
+    MPI_Allreduce(own, most, 2, MPI_DOUBLE, MPI_MAX, ranks->comm);
+    MPI_Allreduce(&mine.processor, &cost.all, 1, MPI_DOUBLE, MPI_SUM, ranks->comm);
+    cost.wall = most[0], cost.processor = most[1];
+    return cost;
+}
+
+void mpi_print_cost(const char *what, froe_mpi_cost cost) {
+    fprintf(stderr, "%-9s %9.3f s %9.3f s of processors %9.3f s of all\n", what, cost.wall, cost.processor, cost.all);
 }
 
 uint64_t mpi_sum(const mpi_ranks *ranks, uint64_t mine) {

@@ -6,18 +6,24 @@
 typedef struct mpi_ranks {
     MPI_Comm comm;
     int rank, count;
+    froe_mpi_cost *waited; /**< what this rank spent waiting for others, while it agreed with them; NULL: not counted */
 } mpi_ranks;
 mpi_ranks mpi_ranks_of(MPI_Comm comm);
 
 /** Collective: the status of the first rank that has failed, with its diagnostic, on all ranks. `diag` is needed. */
 froe_status mpi_agree(const mpi_ranks *ranks, froe_status status, froe_diagnostic *diag);
 
-/** Seconds that the calling rank has used so far. */
-froe_mpi_cost mpi_now(void);
-/** What has gone by since then. */
-froe_mpi_cost mpi_since(froe_mpi_cost then);
-/** Collective: the most of all ranks. */
+/** Collective: waits for all ranks, which is counted. So what follows takes no more than its own time. */
+void mpi_wait(const mpi_ranks *ranks);
+
+/** Seconds that the calling rank has used so far, but for waiting. */
+froe_mpi_cost mpi_now(const mpi_ranks *ranks);
+/** Adds what has gone by since `then`. */
+void mpi_count(const mpi_ranks *ranks, froe_mpi_cost *sum, froe_mpi_cost then);
+/** Collective: the most of all ranks, and `all` of them together. */
 froe_mpi_cost mpi_slowest(const mpi_ranks *ranks, froe_mpi_cost mine);
+/** Prints what mpi_slowest() has found, on standard error. */
+void mpi_print_cost(const char *what, froe_mpi_cost cost);
 /** Collective: the sum of all ranks. */
 uint64_t mpi_sum(const mpi_ranks *ranks, uint64_t mine);
 #endif

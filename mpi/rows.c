@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 enum { PART = 16 << 20 }; /* bytes of rows that are read at once */
@@ -36,38 +37,49 @@ static off_t next_line(row_file *f, off_t at, off_t least, off_t size) {
     return found > size ? size : found;
 }
 
-static froe_status open_rows(const mpi_ranks *ranks, row_file *f) {
+/* Where part `part` of `parts` begins, if rows may be cut. */
+static off_t cut(off_t header, off_t rest, uint64_t part, uint64_t parts) {
+    const uint64_t bytes = (uint64_t)rest;
+    return header + (off_t)(bytes / parts * part + bytes % parts * part / parts);
+}
+
+static froe_status open_rows(row_file *f, uint64_t part, uint64_t parts) {
     f->file = fopen(f->path, "rb");
     if (!f->file) return fail_file(f, "opened");
     const ssize_t header = getline(&f->header, &f->header_room, f->file);
     if (header <= 0) return support_fail(f->diag, FROE_E_FORMAT, "%s: The file is empty.", support_short(f->path));
     if (fseeko(f->file, 0, SEEK_END)) return fail_file(f, "read");
     const off_t size = ftello(f->file), rest = size - header;
-    f->begin = next_line(f, header + rest / ranks->count * ranks->rank, header, size);
-    f->end = ranks->rank + 1 == ranks->count
-                 ? size
-                 : next_line(f, header + rest / ranks->count * (ranks->rank + 1), header, size);
+    f->begin = next_line(f, cut(header, rest, part, parts), header, size);
+    f->end = part + 1 == parts ? size : next_line(f, cut(header, rest, part + 1, parts), header, size);
     return f->begin < 0 || f->end < 0 || fseeko(f->file, f->begin, SEEK_SET) ? fail_file(f, "read") : FROE_OK;
+}
+
+static froe_status fail_quoted(row_file *f) {
+    return support_fail(f->diag, FROE_E_UNSUPPORTED, "%s: Rows with quotation marks are not read by several processes.",
+                        support_short(f->path));
 }
 
 /* How many rows begin there; blank lines are none. */
 static froe_status count_rows(row_file *f, uint64_t *rows) {
-    bool blank = true;
+    unsigned char block[1 << 16];
+    bool blank = true; /* so far, in this line */
     *rows = 0;
-    flockfile(f->file);
-    for (off_t at = f->begin; at < f->end; at++) {
-        const int c = getc_unlocked(f->file);
-        if (c == '"' || c == EOF) {
-            funlockfile(f->file);
-            return c == EOF ? fail_file(f, "read")
-                            : support_fail(f->diag, FROE_E_UNSUPPORTED,
-                                           "%s: Rows with quotation marks are not read by several processes.",
-                                           support_short(f->path));
+    for (off_t left = f->end - f->begin; left > 0;) {
+        const size_t most = left < (off_t)sizeof block ? (size_t)left : sizeof block;
+        const size_t count = fread(block, 1, most, f->file);
+        if (!count) return fail_file(f, "read");
+        if (memchr(block, '"', count)) return fail_quoted(f);
+        for (size_t at = 0; at < count;) {
+            while (blank && at < count && block[at] <= ' ') at++;
+            if (at == count) break;
+            *rows += blank;
+            const unsigned char *end = memchr(block + at, '\n', count - at);
+            blank = end != NULL;
+            at = end ? (size_t)(end - block) + 1 : count;
         }
-        if (c > ' ') *rows += blank, blank = false;
-        if (c == '\n') blank = true;
+        left -= (off_t)count;
     }
-    funlockfile(f->file);
     return fseeko(f->file, f->begin, SEEK_SET) ? fail_file(f, "read") : FROE_OK;
 }
 
@@ -117,11 +129,35 @@ static froe_status read_part(row_file *f, off_t *at, uint64_t first, froe_scene 
     return status;
 }
 
+uint64_t mpi_rows_parts(const mpi_ranks *ranks, const char *path, size_t bytes) {
+    struct stat info;
+    const uint64_t size = stat(path, &info) ? 0 : (uint64_t)info.st_size, step = (uint64_t)ranks->count * bytes;
+    return (size / step + 1) * (uint64_t)ranks->count;
+}
+
+froe_status mpi_rows_text(const char *path, uint64_t part, uint64_t parts, char **text, size_t *count,
+                          froe_diagnostic *diag) {
+    row_file f = {.path = path, .diag = diag};
+    froe_status status = open_rows(&f, part, parts);
+    const size_t header = status ? 0 : strlen(f.header), rows = status ? 0 : (size_t)(f.end - f.begin);
+    *count = header + rows;
+    if (!status && !(*text = malloc(*count + 1))) status = support_fail_memory(diag);
+    if (!status) {
+        memcpy(*text, f.header, header);
+        (*text)[*count] = '\0';
+        if (fread(*text + header, 1, rows, f.file) != rows) status = fail_file(&f, "read");
+        if (!status && memchr(*text + header, '"', rows)) status = fail_quoted(&f);
+    }
+    if (f.file) fclose(f.file);
+    free(f.header);
+    return status;
+}
+
 froe_status mpi_rows_dim(const char *path, int *dim, froe_diagnostic *diag) {
     row_file f = {.path = path, .diag = diag};
     froe_scene *scene = NULL;
     uint64_t rows = 0;
-    froe_status status = open_rows(&(mpi_ranks){.count = 1}, &f);
+    froe_status status = open_rows(&f, 0, 1);
     const off_t size = f.end;
     for (off_t at = f.begin; !status && !scene && at < size;) {
         f.end = at + 1; /* one line */
@@ -139,7 +175,7 @@ froe_status mpi_rows_read(const mpi_ranks *ranks, const char *path, mpi_rows_fn 
                           froe_diagnostic *diag) {
     row_file f = {.path = path, .diag = diag};
     uint64_t rows = 0, first = 0;
-    froe_status status = open_rows(ranks, &f);
+    froe_status status = open_rows(&f, (uint64_t)ranks->rank, (uint64_t)ranks->count);
     if (!status) status = count_rows(&f, &rows);
     MPI_Exscan(&rows, &first, 1, MPI_UINT64_T, MPI_SUM, ranks->comm);
     if (!ranks->rank) first = 0; /* which MPI leaves undefined */

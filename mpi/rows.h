@@ -10,6 +10,12 @@ typedef bool mpi_rows_fn(void *user, const froe_scene *scene, uint64_t first, bo
  * is one line: quotation marks are refused. FROE_E_IO, FROE_E_UNSUPPORTED, and the failures of froe_read_own(), of
  * which the message says from which row on the part is. */
 froe_status mpi_rows_read(const mpi_ranks *ranks, const char *path, mpi_rows_fn *fn, void *user, froe_diagnostic *diag);
+/** Part `part` of `parts` of a file, with the header in front of it: *count bytes, and a NUL. The caller frees it. A
+ * record is one line. FROE_E_IO, FROE_E_MEMORY, FROE_E_UNSUPPORTED. */
+froe_status mpi_rows_text(const char *path, uint64_t part, uint64_t parts, char **text, size_t *count,
+                          froe_diagnostic *diag);
+/** In how many parts a file is read that is cut into equal ones of at most so many bytes: a multiple of the ranks. */
+uint64_t mpi_rows_parts(const mpi_ranks *ranks, const char *path, size_t bytes);
 /** The dimension of the objects, by the header and the first row. Every rank reads them by itself. */
 froe_status mpi_rows_dim(const char *path, int *dim, froe_diagnostic *diag);
 #endif

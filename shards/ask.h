@@ -48,8 +48,8 @@ struct shards_question {
     /* arguments; those of the question alone are set */
     const froe_range *ranges;
     const double *points, *directions; /**< dim doubles each; boxes: 2 dim */
-    size_t width;                      /**< of rows: doubles of each, */
-    shards_rows_fn *batch;             /**< and what answers them */
+    size_t width;                      /**< doubles of each question's `points` */
+    shards_rows_fn *batch;             /**< what answers questions that are rows of these alone */
     size_t k;                          /**< how many answers are wanted, of rounds */
     double most;                       /**< largest value */
     bool any;                          /**< one answer is as good as another */
@@ -81,6 +81,7 @@ typedef struct shards_call {
     froe_diagnostic bad;
     shards_take_fn *take;
     void *take_user;
+    double done, upto; /**< share of the work that was done, and that will be behind the next shards_call_all() */
 } shards_call;
 froe_status shards_call_begin(froe_shards *s, const shards_question *q, const froe_batch_options *options,
                               shards_call *out, froe_diagnostic *diag);
@@ -88,8 +89,13 @@ froe_status shards_call_begin(froe_shards *s, const shards_question *q, const fr
  * only. */
 froe_status shards_call_shard(shards_call *call, uint32_t shard, const size_t *which, const bool *alone, size_t count,
                               froe_diagnostic *diag);
+/** Asks every shard the questions that are listed for it: which[starts[t] .. starts[t + 1]) are those of shard t. If
+ * several processes ask the folder together (share.h) all of them call it, also with a status that is a failure, which
+ * ends the call in all of them. *more: are there questions, of any process? */
+froe_status shards_call_all(shards_call *call, froe_status status, const size_t *starts, const size_t *which,
+                            const bool *alone, bool *more, froe_diagnostic *diag);
 /** Tells how much is done. FROE_E_CANCELLED. */
-froe_status shards_call_progress(const shards_call *call, double done, froe_diagnostic *diag);
+froe_status shards_call_progress(shards_call *call, double done, froe_diagnostic *diag);
 /** The failure of the first bad question, if there was one. */
 froe_status shards_call_end(const shards_call *call, froe_diagnostic *diag);
 
@@ -111,6 +117,15 @@ froe_status shards_gather_finds(shards_gather *gather, size_t questions, froe_fi
 
 /** Puts answers into the order of their tags. */
 void shards_sort_by_tag(froe_find *items, size_t count);
-/** Puts answers of equal values, of several shards, into their exact order, and keeps at most k of each question. */
-froe_status shards_decide(froe_shards *s, const shards_question *q, froe_finds *finds, size_t k, froe_diagnostic *diag);
+/** Puts answers of equal values, of several shards, into their exact order, and keeps at most k of each question.
+ * `status`: of what was done so far; processes that ask together call it also with a failure. */
+froe_status shards_decide(froe_shards *s, const shards_question *q, froe_finds *finds, size_t k, froe_status status,
+                          froe_diagnostic *diag);
+/** How many answers of question i, from `first` on, have the value of the first. */
+size_t shards_equal_values(const froe_finds *finds, size_t i, size_t first);
+/** Appends an object of a scene as a record. */
+froe_status shards_put_object(froe_shard_records *records, const froe_scene *scene, uint32_t object,
+                              froe_diagnostic *diag);
+/** Are they of several shards, so that they have no order yet? */
+bool shards_of_several(const froe_find *items, size_t count);
 #endif

@@ -2,6 +2,7 @@
 #include "folder.h"
 #include "record.h"
 #include "shard.h"
+#include "share.h"
 #include "support/fail.h"
 #include "support/floats.h"
 #include <errno.h>
@@ -85,6 +86,7 @@ froe_status froe_shards_open(const char *path, const froe_allocator *given, froe
 void froe_shards_close(froe_shards *s) {
     if (!s) return;
     const froe_allocator alloc = s->alloc;
+    shards_share_free(s);
     for (uint32_t i = 0; i < s->count; i++) {
         froe_query_free(s->slots[i].query);
         froe_tree_free(s->slots[i].tree);

@@ -8,12 +8,15 @@ typedef struct shards_slot {
     froe_query *query;
 } shards_slot;
 
+typedef struct shards_share shards_share;
+
 struct froe_shards {
     int dim;
     uint32_t count;
     uint32_t first; /**< the first shard that has objects */
     shards_manifest manifest;
-    shards_slot *slots; /**< of each shard */
+    shards_slot *slots;  /**< of each shard */
+    shards_share *share; /**< with other processes; NULL: this one has all shards. See share.h */
     char *path;
     size_t path_size;
     froe_allocator alloc;

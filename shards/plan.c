@@ -1,10 +1,10 @@
 /* plan.c: see plan.h. */
 #include "plan.h"
 #include "sample.h"
+#include "select.h"
 #include "support/fail.h"
 #include "support/floats.h"
 #include <math.h>
-#include <stdlib.h>
 
 /* -------------------------------------------------------------------- plans -- */
 
@@ -123,6 +123,8 @@ BY_AXIS(4)
 BY_AXIS(5)
 BY_AXIS(6)
 BY_AXIS(7)
+static shards_compare_fn *const by_axis[] = {by_axis_0, by_axis_1, by_axis_2, by_axis_3,
+                                             by_axis_4, by_axis_5, by_axis_6, by_axis_7};
 
 /* The axis on which places lie furthest apart; -1: they are one place. */
 static int widest_axis(const places *p, size_t first, size_t end) {
@@ -143,20 +145,31 @@ static int widest_axis(const places *p, size_t first, size_t end) {
     return widest;
 }
 
-/* Sorts places along an axis, and returns how many are to lie below a cut: about `wanted`, but with different numbers
- * on both sides of it, which there are. */
+/* Divides places along an axis, so that so many of them come first, and returns whether the last of these is below the
+ * next. */
+static bool part_places(const places *p, double *at, size_t count, size_t axis, size_t below) {
+    if (!below || below >= count) return false;
+    const size_t size = p->dim * sizeof *at;
+    shards_select(at, count, size, below, by_axis[axis]);
+    shards_select(at, below, size, below - 1, by_axis[axis]);
+    return at[(below - 1) * p->dim + axis] < at[below * p->dim + axis];
+}
+
+/* Divides places along an axis, and returns how many are to lie below a cut: about `wanted`, but with different numbers
+ * on both sides of it, which there are: in front of the run of equal numbers there, or behind it. */
 static size_t divide(const places *p, size_t first, size_t end, int axis, size_t wanted) {
-    static int (*const by_axis[])(const void *, const void *) = {by_axis_0, by_axis_1, by_axis_2, by_axis_3,
-                                                                 by_axis_4, by_axis_5, by_axis_6, by_axis_7};
     double *at = p->at + first * p->dim;
-    const size_t count = end - first, dim = p->dim, a = (size_t)axis;
-    qsort(at, count, dim * sizeof *at, by_axis[axis]);
-    for (size_t off = 0;; off++) {
-        if (wanted > off && wanted - off < count && at[(wanted - off - 1) * dim + a] < at[(wanted - off) * dim + a])
-            return wanted - off;
-        if (wanted + off > 0 && wanted + off < count && at[(wanted + off - 1) * dim + a] < at[(wanted + off) * dim + a])
-            return wanted + off;
-    }
+    const size_t count = end - first, a = (size_t)axis;
+    if (part_places(p, at, count, a, wanted)) return wanted;
+    const size_t middle = wanted < count ? wanted : count - 1;
+    shards_select(at, count, p->dim * sizeof *at, middle, by_axis[a]);
+    const double x = at[middle * p->dim + a];
+    size_t lower = 0, upper = 0;
+    for (size_t i = 0; i < count; i++) lower += at[i * p->dim + a] < x, upper += at[i * p->dim + a] <= x;
+    const bool down = lower > 0 && (upper == count || wanted - lower <= upper - wanted);
+    const size_t below = down ? lower : upper;
+    part_places(p, at, count, a, below);
+    return below;
 }
 
 /* Appends the cuts that divide the places among so many shards, in the order of the manifest. */

@@ -1,5 +1,5 @@
 /* questions.c: the public questions, each with its box or bound, and the batch call of froe/query.h that answers it. */
-#include "ask.h"
+#include "share.h"
 #include "support/fail.h"
 #include "support/floats.h"
 #include <math.h>
@@ -244,7 +244,7 @@ static froe_status refuse_null(const void *shards, const void *input, size_t cou
 }
 
 static shards_question question_of(const froe_shards *s, size_t count, shards_ask_fn *ask) {
-    return (shards_question){.count = count, .dim = s->dim, .ask = ask, .alloc = s->alloc};
+    return (shards_question){.count = count, .dim = s->dim, .ask = ask, .width = (size_t)s->dim, .alloc = s->alloc};
 }
 
 /* Questions that are points. */
@@ -252,7 +252,6 @@ static shards_question points_of(const froe_shards *s, const double *points, siz
     shards_question q = question_of(s, count, ask_rows);
     q.box = box_of_point;
     q.points = points;
-    q.width = (size_t)s->dim;
     q.batch = batch;
     return q;
 }
@@ -280,7 +279,7 @@ static froe_status find_ordered(froe_shards *s, const shards_question *q, const 
                                 froe_finds *out, froe_diagnostic *diag) {
     froe_finds f = {0};
     froe_status status = q->k ? shards_rounds(s, q, options, &f, diag) : find_all(s, q, options, &f, diag);
-    if (!status && !q->any) status = shards_decide(s, q, &f, q->k ? q->k : SIZE_MAX, diag);
+    if (!q->any) status = shards_decide(s, q, &f, q->k ? q->k : SIZE_MAX, status, diag);
     if (status)
         froe_finds_free(&f);
     else
@@ -416,6 +415,7 @@ froe_status froe_shards_groups_join(froe_shards *s, const froe_tree *questions, 
     froe_query *asking;
     if (froe_scene_dim(scene) != 2)
         return support_fail(diag, FROE_E_UNSUPPORTED, "Groups are areas in the plane only.");
+    if (s->share) return support_fail(diag, FROE_E_UNSUPPORTED, "A tree of questions is not sent to other processes.");
     (void)froe_scene_bounds(scene, bounds, bounds + 2); /* of no objects: any place does */
     froe_status status = froe_query_new(questions, &asking, diag);
     if (status) return status;
@@ -439,7 +439,7 @@ froe_status froe_shards_vertical(froe_shards *s, const double *points, size_t co
     q.points = points;
     q.way = direction;
     froe_status status = find_all(s, &q, options, &f, diag);
-    if (!status) status = shards_decide(s, &q, &f, 1, diag); /* of all shards: they have no values to compare */
+    status = shards_decide(s, &q, &f, 1, status, diag); /* of all shards: they have no values to compare */
     if (status)
         froe_finds_free(&f);
     else
@@ -544,7 +544,7 @@ froe_status froe_shards_pairs(froe_shards *s, bool shared, const froe_batch_opti
     for (uint32_t i = 0; i < s->count && !status && !p.stopped; i++) {
         froe_query *query;
         p.shard = i;
-        if (!shards_entry(s, i)->objects) continue;
+        if (!shards_entry(s, i)->objects || !shards_share_owns(s, i)) continue;
         status = shards_query(s, i, &query, diag);
         if (status) break;
         status = froe_batch_pairs(query, shared, &call.options, tell_pair, &p, diag);

@@ -1,6 +1,7 @@
 /* reach.c: one shard asked, all shards in reach asked, and what they found; see ask.h. */
 #include "ask.h"
 #include "record.h"
+#include "share.h"
 #include "support/fail.h"
 #include "support/floats.h"
 #include <math.h>
@@ -71,7 +72,8 @@ froe_status shards_gather_finds(shards_gather *g, size_t questions, froe_finds *
 froe_status shards_call_begin(froe_shards *s, const shards_question *q, const froe_batch_options *options,
                               shards_call *out, froe_diagnostic *diag) {
     if (options && options->size != sizeof *options) return support_fail_defaults(diag, "froe_batch_defaults");
-    *out = (shards_call){.s = s, .q = q, .options = froe_batch_defaults(), .limit = q->count};
+    *out = (shards_call){.s = s, .q = q, .options = froe_batch_defaults(), .limit = q->count, .upto = 1};
+    shards_share_begin(s);
     if (options) {
         out->options.threads = options->threads;
         out->progress = options->progress;
@@ -80,14 +82,15 @@ froe_status shards_call_begin(froe_shards *s, const shards_question *q, const fr
     return FROE_OK;
 }
 
-froe_status shards_call_progress(const shards_call *call, double done, froe_diagnostic *diag) {
-    const volatile double share = done;
+froe_status shards_call_progress(shards_call *call, double done, froe_diagnostic *diag) {
+    const volatile double share = call->done = done;
     return !call->progress || support_callback(call->progress(call->user, share)) ? FROE_OK
                                                                                   : support_fail_cancelled(diag);
 }
 
 froe_status shards_call_end(const shards_call *call, froe_diagnostic *diag) {
     if (call->limit == call->q->count) return FROE_OK;
+    shards_share_refuse(call->s);
     if (diag) *diag = call->bad;
     return call->bad.status;
 }
@@ -170,6 +173,22 @@ froe_status shards_call_shard(shards_call *call, uint32_t shard, const size_t *w
     return status;
 }
 
+froe_status shards_call_all(shards_call *call, froe_status status, const size_t *starts, const size_t *which,
+                            const bool *alone, bool *more, froe_diagnostic *diag) {
+    const uint32_t shards = call->s->count;
+    const double done = call->done;
+    if (call->s->share) return shards_share_ask(call, status, starts, which, alone, more, diag);
+    *more = !status && starts[shards] > 0;
+    for (uint32_t t = 0; t < shards && !status; t++) {
+        const size_t first = starts[t], end = starts[t + 1];
+        if (first == end) continue;
+        status = shards_call_shard(call, t, which + first, alone + first, end - first, diag);
+        const double part = (double)end / (double)starts[shards];
+        if (!status) status = shards_call_progress(call, done + (call->upto - done) * part, diag);
+    }
+    return status;
+}
+
 /* --------------------------------------------------------- all that is reached -- */
 
 /* Which shards are asked which questions. */
@@ -244,13 +263,9 @@ froe_status shards_reach(froe_shards *s, const shards_question *q, const froe_ba
     if (status) return status;
     call.take = take;
     call.take_user = user;
+    bool more;
     status = find_reached(s, q, &r) ? FROE_OK : support_fail_memory(diag);
-    for (uint32_t i = 0; i < s->count && !status; i++) {
-        const size_t first = r.shard_starts[i], count = r.shard_starts[i + 1] - first;
-        if (!count) continue;
-        status = shards_call_shard(&call, i, r.which + first, r.alone + first, count, diag);
-        if (!status) status = shards_call_progress(&call, (double)r.shard_starts[i + 1] / (double)r.shards.count, diag);
-    }
+    status = shards_call_all(&call, status, r.shard_starts, r.which, r.alone, &more, diag);
     free_reached(s, q, &r);
     return status ? status : shards_call_end(&call, diag);
 }

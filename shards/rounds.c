@@ -51,11 +51,12 @@ static bool find_next(const rounds *r, size_t i) {
     return true;
 }
 
-/* Assigns the questions that go on to their next shards. */
-static void assign_round(rounds *r) {
+/* Assigns the questions that go on to their next shards; none, behind a bad one. */
+static void assign_round(rounds *r, const shards_call *call) {
     const uint32_t shards = r->s->count;
     r->active = 0;
     memset(r->shard_starts, 0, ((size_t)shards + 2) * sizeof *r->shard_starts);
+    if (call->limit < r->q->count) return;
     for (size_t i = 0; i < r->q->count; i++) {
         question_state *state = &r->states[i];
         if (state->done) continue;
@@ -83,18 +84,17 @@ static froe_status join_round(rounds *r, shards_gather *found) {
     return FROE_OK;
 }
 
-static froe_status ask_round(rounds *r, shards_call *call, froe_diagnostic *diag) {
+/* Asks the questions that go on, and finds out which do so then. *more: does any? Also called with a failure, which
+ * other processes wait to hear of. */
+static froe_status ask_round(rounds *r, shards_call *call, froe_status status, bool *more, froe_diagnostic *diag) {
     shards_gather found = {.values = true, .alloc = r->s->alloc};
-    froe_status status = FROE_OK;
     call->take = shards_gather_take;
     call->take_user = &found;
-    for (uint32_t t = 0; t < r->s->count && !status; t++) {
-        const size_t first = r->shard_starts[t], count = r->shard_starts[t + 1] - first;
-        if (count) status = shards_call_shard(call, t, r->which + first, r->alone + first, count, diag);
-    }
-    if (!status && join_round(r, &found)) status = support_fail_memory(diag);
+    call->upto = 1 - (double)r->active / (double)(r->q->count + 1);
+    status = shards_call_all(call, status, r->shard_starts, r->which, r->alone, more, diag);
+    if (!status && (found.list.count || !r->finds.starts) && join_round(r, &found)) status = support_fail_memory(diag);
     array_free(&found.alloc, &found.list);
-    if (!status) status = shards_call_progress(call, 1 - (double)r->active / (double)(r->q->count + 1), diag);
+    if (!status) assign_round(r, call);
     return status;
 }
 
@@ -102,6 +102,7 @@ froe_status shards_rounds(froe_shards *s, const shards_question *q, const froe_b
                           froe_diagnostic *diag) {
     shards_call call;
     rounds r = {.s = s, .q = q};
+    bool more = true;
     froe_status status = shards_call_begin(s, q, options, &call, diag);
     if (status) return status;
     const size_t starts = ((size_t)s->count + 2) * sizeof *r.shard_starts;
@@ -110,11 +111,8 @@ froe_status shards_rounds(froe_shards *s, const shards_question *q, const froe_b
     r.which = support_calloc(&s->alloc, q->count, sizeof *r.which);
     r.alone = support_calloc(&s->alloc, q->count, sizeof *r.alone);
     if (!r.states || !r.shard_starts || !r.which || !r.alone) status = support_fail_memory(diag);
-    if (!status) assign_round(&r);
-    while (!status && (r.active || !r.finds.starts) && call.limit == q->count) {
-        status = ask_round(&r, &call, diag);
-        if (!status) assign_round(&r);
-    }
+    if (!status) assign_round(&r, &call);
+    while (more) status = ask_round(&r, &call, status, &more, diag);
     if (!status) status = shards_call_end(&call, diag);
     if (r.states) support_free(&s->alloc, r.states, q->count * sizeof *r.states);
     if (r.shard_starts) support_free(&s->alloc, r.shard_starts, starts);

@@ -1,9 +1,9 @@
 /* sample.c: see sample.h. */
 #include "sample.h"
 #include "record.h"
+#include "select.h"
 #include "support/fail.h"
 #include "support/floats.h"
-#include <stdlib.h>
 
 enum { HEAD = 3 }; /* dimension, objects, weight */
 
@@ -51,13 +51,17 @@ COMPARE_OF(6)
 COMPARE_OF(7)
 COMPARE_OF(8)
 
+static shards_compare_fn *compare_of(const froe_shard_sample *s) {
+    static shards_compare_fn *const compare[] = {NULL,      NULL,      compare_2, compare_3, compare_4,
+                                                 compare_5, compare_6, compare_7, compare_8};
+    return compare[s->dim];
+}
+
 uint64_t *shards_sample_settle(froe_shard_sample *s) {
-    static int (*const compare[])(const void *, const void *) = {NULL,      NULL,      compare_2, compare_3, compare_4,
-                                                                 compare_5, compare_6, compare_7, compare_8};
     if (!s->count) return NULL;
     uint64_t *items = s->words + HEAD;
-    qsort(items, s->count, s->width * sizeof *items, compare[s->dim]);
     if (s->count >= SHARDS_SAMPLE) {
+        shards_select(items, s->count, s->width * sizeof *items, SHARDS_SAMPLE - 1, compare_of(s));
         s->count = SHARDS_SAMPLE;
         s->bound = items[(SHARDS_SAMPLE - 1) * s->width];
     }
@@ -108,6 +112,7 @@ froe_status froe_shard_sample_add(froe_shard_sample *s, const void *records, siz
 }
 
 const uint64_t *froe_shard_sample_words(froe_shard_sample *s, size_t *count) {
+    SUPPORT_FLOATS_OWN;
     if (!s || !count || !next_item(s)) return NULL;
     shards_sample_settle(s);
     s->words[0] = (uint64_t)s->dim;
@@ -118,6 +123,7 @@ const uint64_t *froe_shard_sample_words(froe_shard_sample *s, size_t *count) {
 }
 
 froe_status froe_shard_sample_merge(froe_shard_sample *s, const uint64_t *words, size_t count) {
+    SUPPORT_FLOATS_OWN;
     if (!s || !words || count < HEAD || words[0] != (uint64_t)s->dim || (count - HEAD) % s->width) return FROE_E_ARG;
     for (size_t at = HEAD; at < count; at += s->width) {
         if (words[at] > s->bound) continue;

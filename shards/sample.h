@@ -16,12 +16,12 @@ struct froe_shard_sample {
     uint64_t objects; /**< all of them */
     uint64_t weight;  /**< shards_record_weight() of them together */
     uint64_t *words;  /**< a head of 3 words, then items; room for twice the sample */
-    size_t count;     /**< items; settled, at most SHARDS_SAMPLE, in ascending order */
+    size_t count;     /**< items; settled, at most SHARDS_SAMPLE */
     size_t room;      /**< for items */
     uint64_t bound;   /**< items of larger hashes are in no sample */
     froe_allocator alloc;
 };
-/** The items, in ascending order of hashes, at most SHARDS_SAMPLE of them. */
+/** The items, at most SHARDS_SAMPLE of them, in any order. */
 uint64_t *shards_sample_settle(froe_shard_sample *sample);
 /** Mixes a number into a hash. */
 uint64_t shards_mix(uint64_t hash, uint64_t number);

@@ -10,7 +10,7 @@
 enum { CELL = 40 }; /* a number and what follows it */
 
 static void flush_answers(cli_answers *out) {
-    if (!out->mute) fwrite(out->text, 1, out->length, stdout);
+    if (!out->mute) fwrite(out->text, 1, out->length, out->file);
     out->length = 0;
 }
 
@@ -176,6 +176,7 @@ void cli_answers_none(cli_answers *out) {
 void cli_answers_open(cli_answers *out, cli_format format, bool mute, const char *const *names, size_t columns) {
     out->format = format;
     out->mute = mute;
+    out->file = stdout;
     out->names = names;
     out->columns = columns;
     out->length = out->column = 0;

@@ -12,12 +12,14 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 typedef enum cli_format { CLI_CSV, CLI_JSONL, CLI_GEOJSON } cli_format;
 
 typedef struct cli_answers {
     cli_format format;
     bool mute;     /**< count them only */
+    FILE *file;    /**< standard output; set by the owner behind cli_answers_open() to write elsewhere */
     uint64_t rows; /**< written so far */
     const char *const *names;
     size_t columns, column; /**< the next cell's */

@@ -167,14 +167,18 @@ static int read_header(cli_rows *rows, const cli_column *columns, int dim) {
                     expected, *names ? names : "nothing");
 }
 
-int cli_rows_open(const char *path, const cli_column *columns, int dim, cli_rows *out) {
-    const bool standard = !strcmp(path, "-");
-    *out = (cli_rows){.path = standard ? "standard input" : path};
-    out->file = standard ? stdin : fopen(path, "r");
-    if (!out->file) return cli_fail_file(CLI_INPUT, path, "read");
+int cli_rows_begin(FILE *file, const char *path, const cli_column *columns, int dim, cli_rows *out) {
+    *out = (cli_rows){.path = path, .file = file};
     const int code = read_header(out, columns, dim);
     if (code) cli_rows_close(out);
     return code;
+}
+
+int cli_rows_open(const char *path, const cli_column *columns, int dim, cli_rows *out) {
+    const bool standard = !strcmp(path, "-");
+    FILE *file = standard ? stdin : fopen(path, "r");
+    if (!file) return cli_fail_file(CLI_INPUT, path, "read");
+    return cli_rows_begin(file, standard ? "standard input" : path, columns, dim, out);
 }
 
 void cli_rows_close(cli_rows *rows) {

@@ -47,6 +47,8 @@ typedef struct cli_rows {
 
 /** Opens a file ("-": standard input) and reads its header. Returns 0, or an exit code after saying why. */
 int cli_rows_open(const char *path, const cli_column *columns, int dim, cli_rows *out);
+/** The same of a file that is open, which cli_rows_close() closes; `path` is its name in messages. */
+int cli_rows_begin(FILE *file, const char *path, const cli_column *columns, int dim, cli_rows *out);
 /** Reads the next row's numbers, in the order of the columns asked for. CLI_ROW_BAD: `sentence` says why, and the next
  * call goes on behind it. CLI_ROWS_FAILED: the file cannot be read on, and that has been said. */
 cli_row cli_rows_next(cli_rows *rows, double *values);

@@ -139,6 +139,26 @@ FROE_API const char *froe_shard_draft_folder(const froe_shard_draft *draft);
  * draft. Frees it either way. Returns `status`, or FROE_E_IO. */
 FROE_API froe_status froe_shard_draft_end(froe_shard_draft *draft, froe_status status, froe_diagnostic *diag);
 
+/* --------------------------------------------------------------------- ask -- */
+
+/** Sends bytes to processes, and receives what they have sent to this one: those for process 0 come first in `out`,
+ * counts[0] of them, then those for process 1, and so on. What is received goes into `in`, which is empty, in the same
+ * way; its memory comes from in->alloc. All counts are multiples of 8. `status` says whether this process has failed,
+ * and diag, which is never NULL, why. If one has, nothing is sent, and all processes return the failure and diagnostic
+ * of the first that has. All of them call it at the same time. */
+typedef froe_status froe_shards_trade_fn(void *user, froe_status status, const froe_shard_records *out,
+                                         const size_t *counts, froe_shard_records *in, size_t *in_counts,
+                                         froe_diagnostic *diag);
+/** Lets `count` processes that have opened the same folder ask it together: shard s is asked by process s modulo
+ * `count`, and by no other. From now on the processes make each call that asks (froe/shards.h) together, with questions
+ * of their own, perhaps none, and the same other arguments. Each gets the answers to its own questions, as it would
+ * have got them alone. A bad question is a failure of the process that has it. Any other failure is one of all
+ * processes, but for one behind the last exchange, so that they have to compare what the calls returned.
+ * froe_shards_pairs() tells those of the process's own shards, and froe_shards_groups_join() is FROE_E_UNSUPPORTED.
+ * `count` 1: alone again. FROE_E_ARG, FROE_E_MEMORY. */
+FROE_API froe_status froe_shards_share(froe_shards *shards, uint32_t rank, uint32_t count, froe_shards_trade_fn *trade,
+                                       void *user, froe_diagnostic *diag);
+
 #ifdef __cplusplus
 }
 #endif

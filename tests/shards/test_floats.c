@@ -39,7 +39,9 @@ static void building_by_steps(floats_run *r, void *user) {
     const one_object *list = user;
     const froe_shards_options o = froe_shards_defaults();
     froe_shard_records records = {0}, taken = {0};
-    froe_shard_sample *sample;
+    froe_shard_sample *sample, *other;
+    const uint64_t *words;
+    size_t count;
     froe_shard_plan *plan;
     froe_shard_buckets *buckets;
     froe_shard_draft *draft;
@@ -56,7 +58,10 @@ static void building_by_steps(floats_run *r, void *user) {
     floats_note(r, box, sizeof box);
     froe_shard_sample_new(2, NULL, &sample);
     MUST(r, froe_shard_sample_add(sample, records.bytes, records.count));
-    MUST(r, froe_shard_plan_new(sample, 2, 0, &plan, NULL));
+    froe_shard_sample_new(2, NULL, &other);
+    TELL(r, (words = froe_shard_sample_words(sample, &count), 0));
+    MUST(r, froe_shard_sample_merge(other, words, count));
+    MUST(r, froe_shard_plan_new(other, 2, 0, &plan, NULL));
     TELL(r, froe_shard_plan_cells(plan, box, box + 2, cells));
     floats_note(r, cells, sizeof cells);
     MUST(r, froe_shard_draft_begin("steps.froes", NULL, &draft, NULL));
@@ -73,7 +78,7 @@ static void building_by_steps(floats_run *r, void *user) {
     floats_note_file(r, "steps.froes/froe.shards");
     froe_shard_records_free(&records);
     froe_shard_records_free(&taken);
-    froe_shard_sample_free(sample);
+    froe_shard_sample_free(sample), froe_shard_sample_free(other);
     froe_shard_plan_free(plan);
     froe_shard_buckets_free(buckets);
 }
@@ -94,6 +99,13 @@ static froe_status note_batch(void *user, int dim, const froe_objects *batch, fr
     (void)diag;
     floats_bytes(user, batch->coords, batch->count * 2 * (size_t)dim * sizeof *batch->coords);
     return FROE_OK;
+}
+
+static froe_status refuse_trade(void *user, froe_status status, const froe_shard_records *out, const size_t *counts,
+                                froe_shard_records *in, size_t *in_counts, froe_diagnostic *diag) {
+    (void)out, (void)in, (void)in_counts, (void)diag;
+    floats_bytes(user, counts, 2 * sizeof *counts);
+    return status ? status : FROE_E_CANCELLED;
 }
 
 /* A triangle and a square, as areas. */
@@ -134,6 +146,8 @@ static void areas(floats_run *r, void *user) {
     MUST(r, froe_shards_tree(shards, 0, &tree, NULL));
     MUST(r, froe_shards_groups_join(shards, tree, FROE_MEETS, NULL, &finds, NULL));
     note_finds(r, &finds);
+    MUST(r, froe_shards_share(shards, 0, 2, refuse_trade, r, NULL));
+    TELL(r, froe_shards_groups(shards, points, 2, NULL, &finds, NULL));
     froe_shards_close(shards);
     froe_scene_free(scene);
 }

@@ -1,0 +1,328 @@
+/* share.c: questions go to the owners of shards, and what was found comes back; see share.h.
+ *
+ *     words of questions     1: the sender has questions, for whichever process
+ *                            of each shard: its number and how many follow
+ *                                a byte each: is it put to this shard alone?
+ *                                rows of doubles; directions; or of each range its parts
+ *     words of answers       of each shard, in the same order: how many; the number of the first bad question, or that
+ *                            of all, and its diagnostic if there is one
+ *                                of each: number of the question, tag, object, value */
+#include "share.h"
+#include "support/fail.h"
+#include "support/floats.h"
+
+enum { WORD = 8, WORDS_OF_DIAGNOSTIC = (sizeof(froe_diagnostic) + WORD - 1) / WORD };
+
+/* ------------------------------------------------------------------ sharing -- */
+
+froe_status froe_shards_share(froe_shards *s, uint32_t rank, uint32_t count, froe_shards_trade_fn *trade, void *user,
+                              froe_diagnostic *diag) {
+    SUPPORT_FLOATS_OWN;
+    if (!s || !trade) return support_fail_null(diag, __func__);
+    if (rank >= count) return support_fail(diag, FROE_E_ARG, "There is no process %u of %u.", rank, count);
+    shards_share_free(s);
+    if (count == 1) return FROE_OK;
+    shards_share *share = support_calloc(&s->alloc, 1, sizeof *share);
+    if (!share) return support_fail_memory(diag);
+    *share = (shards_share){.rank = rank, .count = count, .trade = trade, .user = user};
+    share->out.alloc = share->in.alloc = s->alloc;
+    share->out_counts = support_calloc(&s->alloc, count, 2 * sizeof *share->out_counts);
+    s->share = share;
+    if (share->out_counts) {
+        share->in_counts = share->out_counts + count;
+        return FROE_OK;
+    }
+    shards_share_free(s);
+    return support_fail_memory(diag);
+}
+
+void shards_share_free(froe_shards *s) {
+    shards_share *share = s->share;
+    if (!share) return;
+    froe_shard_records_free(&share->out);
+    froe_shard_records_free(&share->in);
+    array_free(&s->alloc, &share->fetched);
+    if (share->out_counts) support_free(&s->alloc, share->out_counts, 2 * share->count * sizeof *share->out_counts);
+    support_free(&s->alloc, share, sizeof *share);
+    s->share = NULL;
+}
+
+void shards_share_begin(froe_shards *s) {
+    if (s->share) s->share->refused = false;
+}
+
+void shards_share_refuse(froe_shards *s) {
+    if (s->share) s->share->refused = true;
+}
+
+bool shards_share_put(shards_share *share, size_t *count, const void *words, size_t size) {
+    const size_t room = (size + WORD - 1) / WORD * WORD;
+    if (!shards_records_reserve(&share->out, room)) return false;
+    unsigned char *to = share->out.bytes + share->out.count;
+    memset(to + room - (room ? WORD : 0), 0, room ? WORD : 0);
+    if (size) memcpy(to, words, size);
+    share->out.count += room;
+    *count += room;
+    return true;
+}
+
+/* The transport may have made memory known to its devices, so that what it has seen must not grow: buffers are made
+ * anew for each exchange. */
+froe_status shards_share_trade(shards_share *share, froe_status status, froe_diagnostic *diag) {
+    froe_diagnostic why = {0};
+    if (status && diag) why = *diag;
+    why.status = status;
+    froe_shard_records_free(&share->in);
+    const froe_status agreed = support_callback(
+        share->trade(share->user, status, &share->out, share->out_counts, &share->in, share->in_counts, &why));
+    froe_shard_records_free(&share->out);
+    memset(share->out_counts, 0, share->count * sizeof *share->out_counts);
+    if (agreed && diag) *diag = why;
+    return agreed;
+}
+
+/* ------------------------------------------------------------------ reading -- */
+
+/* What is left of the words of a process. */
+typedef struct letter {
+    const unsigned char *at;
+    size_t left;
+} letter;
+
+/* The next bytes, whole words of them. NULL: they are not there. */
+static const void *take(letter *c, size_t size) {
+    const size_t room = (size + WORD - 1) / WORD * WORD;
+    const void *found = c->at;
+    if (size > SIZE_MAX - WORD || room > c->left) return NULL;
+    c->at += room;
+    c->left -= room;
+    return found;
+}
+
+static bool take_words(letter *c, uint64_t *words, size_t count) {
+    const void *found = take(c, count * WORD);
+    if (found) memcpy(words, found, count * WORD);
+    return found;
+}
+
+static froe_status fail_cut(froe_diagnostic *diag) {
+    return support_fail(diag, FROE_E_FORMAT, "Words of another process have been cut off on their way.");
+}
+
+/* ---------------------------------------------------------------- questions -- */
+
+enum { RANGE_WORDS = 5 };
+
+/* How many doubles the points of a range are. */
+static size_t points_of_range(const froe_range *r, size_t dim) {
+    const size_t rows[FROE_SHAPE_COUNT] = {[FROE_SHAPE_BOX] = 2,
+                                           [FROE_SHAPE_BALL] = 1,
+                                           [FROE_SHAPE_SIMPLEX] = dim + 1,
+                                           [FROE_SHAPE_CAPSULE] = 2,
+                                           [FROE_SHAPE_HALFSPACES] = r->count,
+                                           [FROE_SHAPE_HULL] = r->count,
+                                           [FROE_SHAPE_SEGMENT] = 2,
+                                           [FROE_SHAPE_RAY] = 2};
+    return r->points && (unsigned)r->shape < FROE_SHAPE_COUNT ? dim * rows[r->shape] : 0;
+}
+
+static bool put_range(shards_share *share, size_t *count, const froe_range *r, size_t dim) {
+    const bool halfspaces = r->shape == FROE_SHAPE_HALFSPACES && r->offsets;
+    const size_t points = points_of_range(r, dim), offsets = halfspaces && points ? r->count : 0;
+    uint64_t words[RANGE_WORDS] = {points, offsets, r->points != NULL, r->offsets != NULL, r->size};
+    return shards_share_put(share, count, words, sizeof words) && shards_share_put(share, count, r, sizeof *r) &&
+           shards_share_put(share, count, r->points, points * sizeof(double)) &&
+           shards_share_put(share, count, r->offsets, offsets * sizeof(double));
+}
+
+/* A range as it was sent; its arrays lie in the words. */
+static bool take_range(letter *c, froe_range *r) {
+    uint64_t words[RANGE_WORDS];
+    const void *range = take_words(c, words, RANGE_WORDS) ? take(c, sizeof *r) : NULL;
+    if (!range || words[0] > c->left / WORD || words[1] > c->left / WORD) return false;
+    memcpy(r, range, sizeof *r);
+    const double *points = take(c, words[0] * sizeof *points), *offsets = take(c, words[1] * sizeof *offsets);
+    r->points = words[2] ? points : NULL;
+    r->offsets = words[3] ? offsets : NULL;
+    return points && offsets;
+}
+
+/* The questions that are listed for a shard. */
+static bool put_questions(shards_share *share, size_t *count, const shards_question *q, uint32_t shard,
+                          const size_t *which, const bool *alone, size_t questions) {
+    const uint64_t head[2] = {shard, questions};
+    const size_t dim = (size_t)q->dim;
+    bool ok = shards_share_put(share, count, head, sizeof head) &&
+              shards_share_put(share, count, alone, questions * sizeof *alone);
+    for (size_t j = 0; j < questions && ok && !q->ranges; j++)
+        ok = shards_share_put(share, count, q->points + which[j] * q->width, q->width * sizeof(double));
+    for (size_t j = 0; j < questions && ok && q->directions; j++)
+        ok = shards_share_put(share, count, q->directions + which[j] * dim, dim * sizeof(double));
+    for (size_t j = 0; j < questions && ok && q->ranges; j++) ok = put_range(share, count, q->ranges + which[j], dim);
+    return ok;
+}
+
+/* Questions of another process, as they are asked here. */
+typedef struct block {
+    uint64_t head[2]; /* shard, how many */
+    const bool *alone;
+    shards_question q;
+    froe_range *ranges;
+} block;
+
+/* FROE_E_FORMAT, FROE_E_MEMORY. */
+static froe_status take_questions(letter *c, const shards_call *call, block *b, froe_diagnostic *diag) {
+    *b = (block){.q = *call->q};
+    if (!take_words(c, b->head, 2) || b->head[0] >= call->s->count || b->head[1] > c->left) return fail_cut(diag);
+    const size_t count = b->q.count = b->head[1];
+    b->alone = take(c, count * sizeof *b->alone);
+    if (!b->alone || !shards_share_owns(call->s, (uint32_t)b->head[0])) return fail_cut(diag);
+    if (!call->q->ranges) {
+        b->q.points = take(c, count * b->q.width * sizeof(double));
+        if (b->q.directions) b->q.directions = take(c, count * (size_t)b->q.dim * sizeof(double));
+        return b->q.points && (b->q.directions || !call->q->directions) ? FROE_OK : fail_cut(diag);
+    }
+    b->q.ranges = b->ranges = support_calloc(&call->s->alloc, count, sizeof *b->ranges);
+    if (!b->ranges) return support_fail_memory(diag);
+    for (size_t i = 0; i < count; i++)
+        if (!take_range(c, b->ranges + i)) return fail_cut(diag);
+    return FROE_OK;
+}
+
+/* Words for all processes of what is listed for their shards. */
+static froe_status put_lists(shards_call *call, const size_t *starts, const size_t *which, const bool *alone,
+                             froe_diagnostic *diag) {
+    shards_share *share = call->s->share;
+    const uint64_t active = starts[call->s->count] > 0;
+    for (uint32_t r = 0; r < share->count; r++) {
+        size_t *count = &share->out_counts[r];
+        bool ok = shards_share_put(share, count, &active, sizeof active);
+        for (uint32_t t = r; t < call->s->count && ok && r != share->rank; t += share->count) {
+            const size_t first = starts[t], questions = starts[t + 1] - first;
+            if (questions) ok = put_questions(share, count, call->q, t, which + first, alone + first, questions);
+        }
+        if (!ok) return support_fail_memory(diag);
+    }
+    return FROE_OK;
+}
+
+/* ------------------------------------------------------------------ answers -- */
+
+typedef struct answer {
+    uint64_t question, tag, object;
+    double value;
+} answer;
+
+typedef ARRAY(answer) answer_array;
+typedef struct answer_list {
+    answer_array list;
+    froe_allocator alloc;
+} answer_list;
+
+static bool note_answer(void *user, size_t i, const froe_find *find) {
+    answer_list *a = user;
+    return array_push(&a->alloc, &a->list, (answer){i, find->tag, find->object, find->value});
+}
+
+/* Answers a block of another process's questions. */
+static froe_status answer_block(const shards_call *call, const block *b, size_t *count, froe_diagnostic *diag) {
+    froe_shards *s = call->s;
+    answer_list found = {.alloc = s->alloc};
+    shards_call own = *call;
+    size_t *which = support_calloc(&s->alloc, b->q.count, sizeof *which);
+    if (!which) return support_fail_memory(diag);
+    for (size_t i = 0; i < b->q.count; i++) which[i] = i;
+    own.q = &b->q, own.limit = b->q.count, own.take = note_answer, own.take_user = &found;
+    froe_status status = shards_call_shard(&own, (uint32_t)b->head[0], which, b->alone, b->q.count, diag);
+    const uint64_t head[2] = {found.list.count, own.limit};
+    bool ok = status || shards_share_put(s->share, count, head, sizeof head);
+    if (ok && own.limit < b->q.count) ok = shards_share_put(s->share, count, &own.bad, sizeof own.bad);
+    if (ok && !status)
+        ok = shards_share_put(s->share, count, found.list.data, found.list.count * sizeof *found.list.data);
+    if (!ok) status = support_fail_memory(diag);
+    array_free(&s->alloc, &found.list);
+    support_free(&s->alloc, which, b->q.count * sizeof *which);
+    return status;
+}
+
+/* Answers what came, into `out`. *more: has any process questions? */
+static froe_status answer_others(const shards_call *call, bool *more, froe_diagnostic *diag) {
+    shards_share *share = call->s->share;
+    letter c = {share->in.bytes, 0};
+    froe_status status = FROE_OK;
+    *more = false;
+    for (uint32_t r = 0; r < share->count; r++) {
+        uint64_t active;
+        c.left = share->in_counts[r];
+        if (!take_words(&c, &active, 1)) return fail_cut(diag);
+        *more = *more || active;
+        while (c.left && !status) {
+            block b;
+            status = take_questions(&c, call, &b, diag);
+            if (!status) status = answer_block(call, &b, &share->out_counts[r], diag);
+            if (b.ranges) support_free(&call->s->alloc, b.ranges, b.q.count * sizeof *b.ranges);
+        }
+        if (status) return status;
+    }
+    return FROE_OK;
+}
+
+/* Takes what another process has found for the questions that were sent to it. */
+static froe_status take_block(shards_call *call, letter *c, uint32_t shard, const size_t *which, size_t questions,
+                              froe_diagnostic *diag) {
+    uint64_t head[2];
+    if (!take_words(c, head, 2) || head[0] > c->left || head[1] > questions) return fail_cut(diag);
+    if (head[1] < questions) {
+        const void *bad = take(c, sizeof call->bad);
+        if (!bad) return fail_cut(diag);
+        if (which[head[1]] < call->limit) {
+            memcpy(&call->bad, bad, sizeof call->bad);
+            call->limit = which[head[1]];
+            call->bad.object = (uint32_t)call->limit;
+        }
+    }
+    const answer *found = take(c, head[0] * sizeof *found);
+    if (!found) return fail_cut(diag);
+    for (size_t i = 0; i < head[0]; i++) {
+        const froe_find find = {
+            .tag = found[i].tag, .shard = shard, .object = (uint32_t)found[i].object, .value = found[i].value};
+        if (found[i].question >= questions) return fail_cut(diag);
+        if (!call->take(call->take_user, which[found[i].question], &find)) return support_fail_memory(diag);
+    }
+    return FROE_OK;
+}
+
+static froe_status take_all(shards_call *call, const size_t *starts, const size_t *which, froe_diagnostic *diag) {
+    const shards_share *share = call->s->share;
+    letter c = {share->in.bytes, 0};
+    froe_status status = FROE_OK;
+    for (uint32_t r = 0; r < share->count && !status; r++) {
+        c.left = share->in_counts[r];
+        for (uint32_t t = r; t < call->s->count && r != share->rank && !status; t += share->count)
+            if (starts[t] < starts[t + 1])
+                status = take_block(call, &c, t, which + starts[t], starts[t + 1] - starts[t], diag);
+        if (!status && c.left) status = fail_cut(diag);
+    }
+    return status;
+}
+
+froe_status shards_share_ask(shards_call *call, froe_status status, const size_t *starts, const size_t *which,
+                             const bool *alone, bool *more, froe_diagnostic *diag) {
+    shards_share *share = call->s->share;
+    *more = false;
+    if (!status) status = put_lists(call, starts, which, alone, diag);
+    if ((status = shards_share_trade(share, status, diag))) return status;
+    bool any;
+    status = answer_others(call, &any, diag);
+    for (uint32_t t = share->rank; t < call->s->count && !status; t += share->count) {
+        const size_t first = starts[t], count = starts[t + 1] - first;
+        if (count) status = shards_call_shard(call, t, which + first, alone + first, count, diag);
+    }
+    if (!status && !any) return FROE_OK; /* which all processes know */
+    if (!status) status = shards_call_progress(call, call->upto, diag);
+    if ((status = shards_share_trade(share, status, diag))) return status;
+    *more = true;
+    status = take_all(call, starts, which, diag);
+    froe_shard_records_free(&share->in);
+    return status;
+}
