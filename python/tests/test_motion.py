@@ -101,7 +101,7 @@ def test_triangles_in_space():
         (lambda: movers(3)[0].kinetic().advance(np.nan), ArgumentError),
         (lambda: movers(3)[0].kinetic().remove(9), ArgumentError),
         (lambda: movers(3)[0].kinetic().locate([[0, np.nan]]), ArgumentError),
-        (lambda: froe._core.kinetic(5, 1, False, None), ArrayError),
+        (lambda: froe._core.kinetic(5, 1, False, 1, False, None), ArrayError),
         (lambda: froe.read_motion("/nonexistent"), froe.errors.FileError),
     ],
 )
@@ -280,3 +280,36 @@ def test_made_up_motions(kind, dim):
 def test_bad_bodies_and_plans(call, kind):
     with pytest.raises(kind):
         call()
+
+
+def test_threads_change_no_event():
+    """Events and trees are the same for any number of threads."""
+    found = []
+    for threads in (1, 3, 0):
+        motion = froe.generate_motion("moving", 3000, 4)
+        kinetic = motion.kinetic(threads=threads)
+        events = kinetic.advance(1.5)
+        found.append((events.kinds.tolist(), events.objects.tolist(), events.ticks.tolist(), kinetic.time))
+        kinetic.audit()
+    assert len(found[0][0]) > 3000 and found[0] == found[1] == found[2]
+
+
+def test_bodies_that_turn_are_followed_on_parabolas():
+    """No vertex is farther from its body than is told, and triangles that meet are ghosts."""
+    bodies = froe.generate_motion("moving-boxes", 24)
+    with pytest.raises(UnsupportedError):
+        bodies.kinetic()
+    curved, off = bodies.without_bodies(1e-3)
+    assert 0 < off <= 1e-3 and len(curved) == len(bodies)
+    for time in np.linspace(0, 60, 200):
+        far = np.linalg.norm(curved.positions(time) - bodies.positions(time), axis=1)
+        assert far.max() <= off + 1e-12
+    kinetic = curved.kinetic(ghosts=True)
+    assert len(kinetic.advance(60)) > 1000
+    kinetic.audit()
+    with pytest.raises(InputError):
+        curved.kinetic().advance(60)
+    with pytest.raises(ArgumentError):
+        bodies.without_bodies(0)
+    with pytest.raises(UnsupportedError):
+        froe.Motion(0, 1).without_bodies(1)

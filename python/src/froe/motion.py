@@ -262,11 +262,45 @@ class Motion:
         a, b, begins, ends, *flags = map(np.asarray, self._core.contacts(begin, end, first, apart, threads, progress))
         return Contacts(a, b, begins, ends, *(flag.view(np.bool_) for flag in flags))
 
-    def kinetic(self, *, seed: int = 1, augmented: bool = False, progress: Progress | None = None) -> Kinetic:
+    def without_bodies(self, deviation: float) -> tuple[Motion, float]:
+        """The same motion in space, by the same numbers, but without bodies: their vertices fly along parabolas of their
+        own. So partitions can follow bodies that turn. Corners in one place of a body become one vertex.
+
+        :param deviation: how far a vertex may be from where its body has it, at any instant
+        :returns: the motion, and a bound of how far vertices are off
+        :raises UnsupportedError: the motion is of the plane
+        :raises ArgumentError: the deviation is not a number above 0
+        :raises LimitError: doubles, or instants, are too far apart for this deviation
+        :cost: O(times of the result)
+
+        >>> import froe
+        >>> motion = froe.Motion(0, 2, dim=3)
+        >>> body = motion.add_body([0, 2], [[0, 0, 0]] * 2, turns=[[0, 0, 0, 1], [0, 0, 0.6, 0.8]])
+        >>> motion.add([0] * 3, [[0, 0, 0], [1, 0, 0], [0, 1, 1]], [0, 1, 2, 3], bodies=[body] * 3)
+        >>> curved, off = motion.without_bodies(0.001)
+        >>> 0 < off <= 0.001, len(curved.kinetic().advance(2)) > 0
+        (True, True)
+        """
+        core, reached = self._core.without_bodies(deviation)
+        return Motion._of(core), reached
+
+    def kinetic(
+        self,
+        *,
+        seed: int = 1,
+        augmented: bool = False,
+        threads: int = 1,
+        ghosts: bool = False,
+        progress: Progress | None = None,
+    ) -> Kinetic:
         """A partition of the motion, which is at the beginning of the window.
 
         :param seed: of random choices; the same seed gives the same partition on every machine
         :param augmented: a segment that turns upright costs nothing, however many it crosses
+        :param threads: how many may work at once while time goes on, which changes nothing but the time it takes; 0:
+            one for each processor
+        :param ghosts: in space: of two triangles that meet, the one with the greater number is left out meanwhile;
+            without it, time ends before the first contact
         :param progress: is called with the share done; False from it ends the call
         :raises UnsupportedError: the motion has objects that no partition follows
         :cost: O(n log^2 n + crossings log n) expected
@@ -277,7 +311,7 @@ class Motion:
         >>> 0 <= motion.kinetic().time < 1
         True
         """
-        return Kinetic(self, _core.kinetic(self._core, seed, augmented, progress))
+        return Kinetic(self, _core.kinetic(self._core, seed, augmented, threads, ghosts, progress))
 
     def write(self, path: str | os.PathLike[str]) -> None:
         """Writes OGC Moving Features JSON, which ``froe.read_motion`` gives back.

@@ -29,17 +29,18 @@ static bool end(core_kinetic *self, core_call *call, froe_status status) {
     return done;
 }
 
-/* kinetic(motion, seed, augmented, progress) */
+/* kinetic(motion, seed, augmented, threads, ghosts, progress) */
 static PyObject *new_kinetic(PyObject *module, PyObject *const *args, Py_ssize_t count) {
     (void)module;
     froe_kinetic_options options = froe_kinetic_defaults();
-    core_motion *motion = core_arguments("kinetic", count, 4) ? core_motion_of(args[0]) : NULL;
+    core_motion *motion = core_arguments("kinetic", count, 6) ? core_motion_of(args[0]) : NULL;
     if (!motion || !core_long(args[1], "seed", &options.seed) || !core_flag(args[2], &options.augmented) ||
+        !core_unsigned(args[3], "threads", UINT32_MAX, &options.threads) || !core_flag(args[4], &options.ghosts) ||
         !core_motion_take(motion))
         return NULL;
     froe_kinetic *kinetic = NULL;
     core_call call;
-    core_call_begin(&call, args[3]);
+    core_call_begin(&call, args[5]);
     options.progress = core_call_progress, options.user = &call;
     const froe_status status = froe_kinetic_new(motion->motion, &options, &core_allocator, &kinetic, &call.diag);
     const bool done = core_call_end(&call, status);

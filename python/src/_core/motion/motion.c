@@ -230,6 +230,24 @@ static PyObject *positions(PyObject *object, PyObject *const *args, Py_ssize_t c
     return at ? core_array_of(at, "d", vertices, dim) : NULL;
 }
 
+/* without_bodies(deviation): (a motion, a bound of how far its vertices are off) */
+static PyObject *without_bodies(PyObject *object, PyObject *const *args, Py_ssize_t count) {
+    core_motion *self = (core_motion *)object;
+    if (!core_arguments("without_bodies", count, 1)) return NULL;
+    const double deviation = PyFloat_AsDouble(args[0]);
+    froe_motion *made = NULL;
+    double reached = 0;
+    core_call call;
+    if (PyErr_Occurred() || !core_motion_take(self)) return NULL;
+    core_call_begin(&call, Py_None);
+    const bool done = core_call_end(
+        &call, froe_motion_without_bodies(self->motion, deviation, &core_allocator, &made, &reached, &call.diag));
+    core_motion_give(self);
+    if (!done) return NULL;
+    PyObject *parts[] = {core_motion_object(made), PyFloat_FromDouble(reached)};
+    return core_tuple(2, parts);
+}
+
 /* write(path): MF-JSON */
 static PyObject *write_file(PyObject *object, PyObject *const *args, Py_ssize_t count) {
     core_motion *self = (core_motion *)object;
@@ -253,6 +271,7 @@ static PyMethodDef methods[] = {
     CORE_METHOD("contacts", contacts),
     CORE_METHOD("counts", counts),
     CORE_METHOD("positions", positions),
+    CORE_METHOD("without_bodies", without_bodies),
     CORE_METHOD("write", write_file),
     {NULL, NULL, 0, NULL},
 };
