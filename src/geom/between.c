@@ -29,11 +29,12 @@ static bool take_plane(between_search *s) {
     return geom_plane_valid(s->context, &s->plane);
 }
 
-/* Any plane through the first `depth` of the basis: they are independent, so that some of the seeds complete them. */
+/* Any plane through the first `depth` of the basis: they are independent, so that some dim - depth neighbours in the
+ * circle of the seeds complete them. */
 static void any_plane(between_search *s) {
     int missing = s->dim - s->depth;
     s->sign = 1;
-    for (int first = 0; first < s->dim; first++) {
+    for (int first = 0;; first++) {
         for (int i = 0; i < missing; i++) s->basis[s->depth + i] = s->seeds[(first + i) % s->dim];
         if (take_plane(s)) return;
     }

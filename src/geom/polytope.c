@@ -7,27 +7,32 @@
 
 /* ------------------------------------------------------------------ planes -- */
 
-static bool add_plane(const froe_allocator *alloc, geom_polytope *p, geom_plane plane, int sense) {
-    return array_push(alloc, &p->planes, plane) && array_push(alloc, &p->senses, (int8_t)sense);
+/* There is room. */
+static void add_plane(geom_polytope *p, geom_plane plane, int sense) {
+    p->planes.data[p->planes.count++] = plane;
+    p->senses.data[p->senses.count++] = (int8_t)sense;
 }
 
 /* The box, z = 0 in the plane, then the halfspaces. Halfspaces without a direction hold everything or nothing: then
  * *empty. */
 static bool lay_planes(const froe_allocator *alloc, int dim, const double *normals, const double *offsets, size_t count,
                        const double *lo, const double *hi, geom_polytope *p, bool *empty) {
-    bool ok = true;
-    for (int k = 0; k < dim && ok; k++)
-        ok = add_plane(alloc, p, geom_plane_axis(3, k, lo[k]), -1) &&
-             add_plane(alloc, p, geom_plane_axis(3, k, hi[k]), 1);
-    for (size_t i = 0; i < count && ok; i++) {
+    const size_t most = 2 * (size_t)dim + count + 1;
+    if (!array_reserve(alloc, &p->planes, most) || !array_reserve(alloc, &p->senses, most)) return false;
+    for (int k = 0; k < dim; k++) {
+        add_plane(p, geom_plane_axis(3, k, lo[k]), -1);
+        add_plane(p, geom_plane_axis(3, k, hi[k]), 1);
+    }
+    for (size_t i = 0; i < count; i++) {
         double n[3] = {0};
         memcpy(n, normals + i * (size_t)dim, (size_t)dim * sizeof *n);
         if (n[0] == 0 && n[1] == 0 && n[2] == 0)
             *empty |= offsets[i] < 0;
         else
-            ok = add_plane(alloc, p, geom_plane_vector(3, n, offsets[i]), 1);
+            add_plane(p, geom_plane_vector(3, n, offsets[i]), 1);
     }
-    return ok && add_plane(alloc, p, geom_plane_axis(3, 2, 0), 1); /* in space unused */
+    add_plane(p, geom_plane_axis(3, 2, 0), 1); /* in space unused */
+    return true;
 }
 
 /* ------------------------------------------------------------------- lines -- */
@@ -72,10 +77,11 @@ static int by_number(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
-static bool add_polytope_corner(const froe_allocator *alloc, geom_polytope *p, uint32_t a, uint32_t b, uint32_t c) {
+/* There is room. */
+static void add_polytope_corner(geom_polytope *p, uint32_t a, uint32_t b, uint32_t c) {
     geom_meeting corner = {{a, b, c}};
     base_sort(corner.planes, 3, sizeof *corner.planes, by_number);
-    return array_push(alloc, &p->corners, corner);
+    p->corners.data[p->corners.count++] = corner;
 }
 
 static bool add_polytope_line(num_context *context, const froe_allocator *alloc, geom_polytope *p, uint32_t a,
@@ -94,7 +100,9 @@ static bool add_polytope_line(num_context *context, const froe_allocator *alloc,
         if (i == a || i == b || turn_of_planes(context, planes + i, planes + a, planes + b)) continue;
         if (is_within_line(&l, i, l.after[0]) < 0) return true;
     }
-    return add_polytope_corner(alloc, p, a, b, l.after[0]) && add_polytope_corner(alloc, p, a, b, l.after[1]);
+    if (!array_reserve(alloc, &p->corners, 2)) return false;
+    for (int end = 0; end < 2; end++) add_polytope_corner(p, a, b, l.after[end]);
+    return true;
 }
 
 /* ----------------------------------------------------------------- corners -- */

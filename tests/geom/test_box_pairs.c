@@ -196,6 +196,36 @@ static void every_failing_allocation_is_survived(void **state) {
     assert_true(test_memory_each(enumerate, &x) > 4);
 }
 
+typedef struct few_calls {
+    uint64_t calls, most;
+} few_calls;
+
+static bool count_few(void *user, unsigned worker, uint32_t a, uint32_t b) {
+    few_calls *few = user;
+    (void)worker, (void)a, (void)b;
+    return ++few->calls < few->most;
+}
+
+/* Whichever pair the caller stops at is the last one. */
+static void the_caller_may_stop_at_any_pair(void **state) {
+    (void)state;
+    const froe_allocator alloc = support_allocator(NULL);
+    for (int dim = 2; dim <= 3; dim++)
+        for (uint32_t count = 20; count <= 520; count += 250) {
+            random_boxes(&x, dim, count, 20, 9, count);
+            const uint64_t pairs = check(&x, 1);
+            assert_true(pairs > 0);
+            for (few_calls few = {.most = 1}; few.most <= pairs; few.most += 1 + pairs / 50) {
+                base_task task;
+                base_task_init(&task, 1, NULL, NULL);
+                few.calls = 0;
+                const froe_status status = geom_box_pairs(&alloc, &task, 1, dim, count, x.lo, x.hi, count_few, &few);
+                assert_int_equal(status, FROE_E_CANCELLED);
+                assert_int_equal(few.calls, few.most);
+            }
+        }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(random_and_lattice_boxes),
@@ -204,6 +234,7 @@ int main(void) {
         cmocka_unit_test(nested_equal_and_flat_boxes),
         cmocka_unit_test(many_boxes_of_awkward_shapes_are_quick),
         cmocka_unit_test(a_scene_with_far_too_many_pairs_can_be_cancelled),
+        cmocka_unit_test(the_caller_may_stop_at_any_pair),
         cmocka_unit_test(every_failing_allocation_is_survived),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

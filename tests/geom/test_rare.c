@@ -93,6 +93,13 @@ static void boxes_lie_beside_vertical_planes(void **state) {
     assert_int_equal(geom_side_box(&context, &wall, (const double[]){0, 2, 0}, (const double[]){1, 3, 1}), -side);
     assert_int_equal(geom_side_box(&context, &wall, (const double[]){0, 0, 0}, (const double[]){1, 2, 1}), 2);
     assert_true(side == 1 || side == -1);
+    for (int k = 0; k < 3; k++) /* and beside planes across an axis, up to where they touch */
+        for (int at = -1; at <= 4; at++) {
+            double lo[3] = {-9, -9, -9}, hi[3] = {9, 9, 9};
+            lo[k] = 1, hi[k] = 2;
+            const geom_plane across = geom_plane_axis(3, k, 0.5 * at);
+            assert_int_equal(geom_side_box(&context, &across, lo, hi), at <= 2 ? 1 : at >= 4 ? -1 : 2);
+        }
 }
 
 /* Where segments of the plane cross lines given by vectors, beside walls through points: left or right, then below or
@@ -111,6 +118,47 @@ static void crossings_of_vectors_lie_beside_sheared_walls(void **state) {
                     const int side = x != 2 ? (x < 2) - (x > 2) : (y < 2) - (y > 2);
                     assert_int_equal(geom_side_crossing(&context, &wall, u, v, &line), side);
                 }
+}
+
+/* A point that is no segment has no crossing with a wall, whichever wall it is. */
+static void nothing_crosses_where_nothing_is(void **state) {
+    static const double u[2] = {1, 2}, v[2] = {3, 2};
+    double out[2];
+    (void)state;
+    const geom_plane wall = geom_plane_at_vertex(2, (const double[]){2, 7});
+    geom_round_crossing(&context, u, v, &wall, out);
+    assert_true(out[0] == 2 && out[1] == 2);
+    geom_round_crossing(&context, u, u, &wall, out);
+    assert_true(isnan(out[0]) && isnan(out[1]));
+}
+
+/* Tiny normals are scaled by powers of two, up to about 2^200, wherever they begin. */
+static void tiny_normals_are_raised(void **state) {
+    (void)state;
+    for (int power = -1074; power < -800; power++) {
+        const double most = ldexp(1.5, power < -1073 ? -1073 : power), lift = filter_lift(most);
+        assert_true(lift * most >= 0x1p-80 && lift * most < 0x1p200);
+        for (int less = 0; less > -1900; less -= 100) {
+            const double normal = ldexp(1.5, less), raise = filter_raise(lift, normal);
+            int exponent;
+            assert_true(frexp(raise, &exponent) == 0.5);
+            if (lift < 0x1p800) assert_true(raise == 1);
+            if (lift >= 0x1p800 && less >= -800) assert_true(raise * normal >= 0x1p199 && raise * normal < 0x1p201);
+            if (lift >= 0x1p800 && less < -900 && normal > 0) assert_true(raise == 0x1p1000);
+        }
+        assert_true(filter_raise(lift, 0) == 1 && filter_raise(lift, 0x1p200) == 1);
+    }
+}
+
+static void no_vector_is_fine_that_overflows(void **state) {
+    static const filter_vector vectors[] = {{{3, 4, 0}, 4, 1},
+                                            {{3, 4, 0}, 4, 3},
+                                            {{INFINITY, 0, 0}, INFINITY, 1},
+                                            {{INFINITY, 0, 0}, INFINITY, INFINITY},
+                                            {{0x1p999, 0, 0}, 0x1p999, 1}};
+    static const bool fine[] = {true, false, false, false, true};
+    (void)state;
+    for (int i = 0; i < 5; i++) assert_int_equal(filter_is_fine(vectors + i, 0.5), fine[i]);
 }
 
 /* ------------------------------------------------------------------------ sets -- */
@@ -159,6 +207,8 @@ static void sets_meet_surely_only_by_error_bounds(void **state) {
 
 static void ranges_of_nothing_shrink_to_nothing(void **state) {
     (void)state;
+    const geom_range thin = {.kind = GEOM_RANGE_THIN, .dim = 2, .lo = {0, 0}, .hi = {2, 2}};
+    assert_false(geom_range_holds(&context, &thin, 0, (const double[]){1, 1}, (const double[]){1, 1}));
     geom_range box = {.kind = GEOM_RANGE_BOX, .dim = 2, .lo = {0, 0}, .hi = {2, 2}};
     double lo[2] = {1, 1}, hi[2] = {0.5, 2};
     assert_false(geom_range_shrink(&box, lo, hi));
@@ -239,6 +289,9 @@ int main(void) {
         cmocka_unit_test(fine_planes_are_told_apart),
         cmocka_unit_test(boxes_lie_beside_vertical_planes),
         cmocka_unit_test(crossings_of_vectors_lie_beside_sheared_walls),
+        cmocka_unit_test(nothing_crosses_where_nothing_is),
+        cmocka_unit_test(tiny_normals_are_raised),
+        cmocka_unit_test(no_vector_is_fine_that_overflows),
         cmocka_unit_test(ranks_of_bodies),
         cmocka_unit_test(round_boxes_meet_across_gaps),
         cmocka_unit_test(sets_meet_surely_only_by_error_bounds),

@@ -63,7 +63,7 @@ static double dot(int dim, const double *a, const double *b) {
 
 /* ------------------------------------------------------------------- faces -- */
 
-/* Weights of the point of the affine hull that is nearest to 0. */
+/* Weights of the point of the affine hull that is nearest to 0, of dim + 1 corners at most. */
 static bool affine_weights(int dim, double y[GEOM_SIMPLEX][SIZE], int count, double *weight) {
     double e[SIZE][SIZE], a[SIZE][NUM_TABLE_COLUMNS];
     const int m = count - 1;
@@ -73,7 +73,7 @@ static bool affine_weights(int dim, double y[GEOM_SIMPLEX][SIZE], int count, dou
         for (int j = 0; j < m; j++) a[i][j] = dot(dim, e[i], e[j]);
         a[i][m] = -dot(dim, e[i], y[0]);
     }
-    if (m > dim || !num_plain_solve(m, m + 1, a)) return false;
+    if (!num_plain_solve(m, m + 1, a)) return false;
     weight[0] = 1;
     for (int i = 0; i < m; i++) weight[i + 1] = a[i][m], weight[0] -= a[i][m];
     return true;
@@ -167,7 +167,7 @@ void geom_guess_bounds(const geom_guess *g, const geom_convex *a, const geom_con
     *most = INFINITY;
     for (int k = 0; k < dim; k++) longest = fmax(longest, fabs(g->x[k]));
     /* what both reach along x, of length 1 or a little more */
-    if (longest > 0x1p-500 && longest < INFINITY) {
+    if (longest > 0x1p-500) { /* where x is not finite nothing is sure */
         for (int k = 0; k < dim; k++) n[k] = g->x[k] / longest, square += n[k] * n[k];
         const double length = sqrt(square) * (1 + SUM_ERROR);
         const double low = lowest_corner(g, a, n, 1, &i, &size) + lowest_corner(g, b, n, -1, &j, &size);

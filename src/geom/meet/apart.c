@@ -116,15 +116,14 @@ static int power_of(num_dyadic x) {
     return x.sign ? 64 * (x.exponent + (int)x.count) - __builtin_clzll(x.limbs[x.count - 1]) : INT32_MIN / 2;
 }
 
-/* The coefficients of the plane: the normal, then the value. False: the bodies meet. */
-static bool find_coefficients(apart_search *s, num_dyadic out[FROE_MAX_DIM + 1]) {
+/* The coefficients of the plane: the normal, then the value. The bodies do not meet. */
+static void find_coefficients(apart_search *s, num_dyadic out[FROE_MAX_DIM + 1]) {
     num_arena *arena = num_fresh(s->context);
     const int dim = s->a->dim;
     const geom_gaps gaps = {.a = &s->set_a, .b = &s->set_b};
     geom_nearest at;
     num_dyadic value = {0};
     geom_nearest_find(s->context, &gaps, &s->simplex, &at);
-    if (at.zero) return false;
     for (int k = 0; k < dim; k++) {
         const double p = geom_convex_coordinate(&s->set_a, at.simplex.a[0], k),
                      q = geom_convex_coordinate(&s->set_b, at.simplex.b[0], k);
@@ -137,7 +136,6 @@ static bool find_coefficients(apart_search *s, num_dyadic out[FROE_MAX_DIM + 1])
     const num_dyadic more =
         num_dyadic_mul(arena, num_dyadic_sub(arena, ra, rb), num_dyadic_add(arena, ra, rb)); /* r_a^2 - r_b^2 */
     out[dim] = num_dyadic_add(arena, value, num_dyadic_mul(arena, more, at.scale));
-    return true;
 }
 
 /* Each coefficient as the sum of one double a row, times 2^(-53 row). The greatest of the normal becomes about 1, or
@@ -169,7 +167,8 @@ int geom_apart(num_context *context, const geom_body *a, const geom_body *b, dou
     s.set_a = geom_convex_of(a);
     s.set_b = geom_convex_of(b);
     if (guess_plane(&s)) return 1;
-    if (s.meeting || geom_meet(context, &s.set_a, &s.set_b) || !find_coefficients(&s, coefficients)) return 0;
+    if (s.meeting || geom_meet(context, &s.set_a, &s.set_b)) return 0;
+    find_coefficients(&s, coefficients);
     cut_into_rows(&s, coefficients);
     for (int count = 1; count < GEOM_FINE_ROWS; count *= 2)
         if (is_between(&s, count)) return count;
