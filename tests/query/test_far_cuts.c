@@ -154,6 +154,9 @@ static void cuts_finer_than_doubles_are_kept_in_files(void **state) {
         assert_int_equal(froe_tree_save(tree, "fine.froe", NULL), FROE_OK);
         assert_int_equal(froe_tree_open("fine.froe", NULL, &again, NULL), FROE_OK);
         assert_int_equal(froe_tree_audit(again, NULL, NULL), FROE_OK);
+        const froe_node_info info = froe_tree_node(again, froe_tree_root(again));
+        assert_int_equal(info.cut.kind, FROE_CUT_FINE);
+        assert_true(info.cut.value == info.cut.normal[dim] && isfinite(info.cut.value) && info.cut.value != 0);
         froe_query *query = ask(again);
         froe_list found;
         assert_int_equal(froe_query_locate(query, touch, &found, NULL), FROE_OK);

@@ -302,6 +302,29 @@ static void wrong_ranges_are_refused(void **state) {
     froe_scene_free(scene), froe_scene_free(none);
 }
 
+static void missing_arguments_of_rays_are_refused(void **state) {
+    const double x[2] = {0.3, -2}, up[2] = {0, 1};
+    uint32_t object = 7;
+    froe_hit hit;
+    (void)state;
+    froe_scene *scene = areas();
+    froe_query *q = ask_by(scene, "autopartition", 4);
+    for (int missing = 0; missing < 4; missing++) {
+        froe_query *const on = missing == 0 ? NULL : q;
+        const double *from = missing == 1 ? NULL : x, *to = missing == 2 ? NULL : up;
+        froe_diagnostic why = {0};
+        assert_int_equal(froe_query_ray(on, from, to, 9, missing == 3 ? NULL : &hit, &why), FROE_E_ARG);
+        assert_int_equal(froe_query_ray_any(on, from, to, 9, missing == 3 ? NULL : &object, &why), FROE_E_ARG);
+        if (missing != 2)
+            assert_int_equal(froe_query_vertical(on, from, 1, missing == 3 ? NULL : &object, &why), FROE_E_ARG);
+        assert_true(why.message[0] != 0 && object == 7);
+    }
+    assert_int_equal(froe_query_vertical(q, x, 1, &object, NULL), FROE_OK);
+    assert_int_equal(object, 0); /* the lower side of the square */
+    end_query(q);
+    froe_scene_free(scene);
+}
+
 /* ----------------------------------------------------------------------------- scale -- */
 
 /* Powers of 2 change no answer: with them blocks of space have no units, and areas no numbers to compare. */
@@ -366,6 +389,7 @@ int main(void) {
         cmocka_unit_test(nothing_is_outside_of_a_scene_of_all_doubles),
         cmocka_unit_test(hulls_of_many_points_find_what_their_corners_find),
         cmocka_unit_test(wrong_ranges_are_refused),
+        cmocka_unit_test(missing_arguments_of_rays_are_refused),
         cmocka_unit_test(answers_are_the_same_at_any_scale),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -9,6 +9,7 @@
 #include "tree/audit/inseparable.h"
 #include "tree/audit/share.h"
 #include "tree/packed/packer.h"
+#include "tree/validate.h"
 #include <froe/query.h>
 #include <stdio.h>
 #include <unistd.h>
@@ -321,7 +322,83 @@ static void missing_arguments_are_refused(void **state) {
     assert_int_equal(froe_tree_write(tree, NULL, &f, NULL), FROE_E_ARG);
     assert_int_equal(froe_tree_save(NULL, "x", NULL), FROE_E_ARG);
     assert_int_equal(froe_tree_save(tree, NULL, NULL), FROE_E_ARG);
+    assert_int_equal(froe_tree_open_copy("x", NULL, NULL, NULL), FROE_E_ARG);
+    assert_int_equal(froe_tree_open_copy(NULL, NULL, &made, NULL), FROE_E_ARG);
+    assert_true(froe_tree_piece(tree, froe_tree_piece_count(tree)).object == FROE_NONE);
     froe_tree_free(tree);
+}
+
+/* Trees are told by how they begin; folders, and files that are shorter than that, are none. */
+static void files_that_begin_like_trees_are_trees(void **state) {
+    static const char *const starts[] = {"", "f", "PNG data", NULL};
+    (void)state;
+    froe_tree *tree = trees_grow(2, FROE_SEGMENT, 6, 0, 0.4, "autopartition", 1);
+    assert_int_equal(froe_tree_save(tree, "is.froe", NULL), FROE_OK);
+    assert_true(froe_is_tree("is.froe"));
+    assert_false(froe_is_tree(NULL) || froe_is_tree(".") || froe_is_tree("there-is-none"));
+    for (int i = 0; starts[i]; i++) {
+        FILE *out = fopen("short", "w");
+        assert_true(out && fputs(starts[i], out) >= 0 && fclose(out) == 0);
+        assert_false(froe_is_tree("short"));
+    }
+    froe_tree_free(tree);
+}
+
+/* --------------------------------------------------------------------------- cuts -- */
+
+/* The first cut of a kind; the tree's tables are those of its maker, so that they may be changed. */
+static tree_cut *cut_of_kind(const froe_tree *tree, uint32_t kind) {
+    for (uint32_t i = 0; i < tree->cut_count; i++)
+        if (tree->cuts[i].kind == kind) return (tree_cut *)(uintptr_t)(tree->cuts + i);
+    fail_msg("no cut of kind %u", kind);
+    return NULL;
+}
+
+static void cuts_of_the_plane_and_of_space_are_in_no_other_dimension(void **state) {
+    static const uint32_t kinds[] = {FROE_CUT_OBJECT, FROE_CUT_VERTICES, FROE_CUT_EDGE, FROE_CUT_VERTEX,
+                                     FROE_CUT_CROSSING};
+    (void)state;
+    froe_tree *tree = trees_grow(4, FROE_BALL, 60, 0, 0.6, "density", 1);
+    tree_cut *cut = cut_of_kind(tree, FROE_CUT_PLANE);
+    const tree_cut right = *cut;
+    assert_int_equal(tree_validate(tree, NULL), FROE_OK);
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        *cut = (tree_cut){.kind = kinds[i], .a = 0};
+        cut->u.id.b = kinds[i] == FROE_CUT_VERTICES;
+        froe_diagnostic why = {0};
+        assert_int_equal(tree_validate(tree, &why), FROE_E_FORMAT);
+        assert_true(why.message[0] != 0);
+    }
+    *cut = right;
+    froe_tree_free(tree);
+}
+
+/* Only segments cross, those that there are, the second from the right of the first to its left. */
+static void crossings_name_segments(void **state) {
+    static const double segments[6 * 4] = {0, 0, 4, 4, 0, 4, 4, 0, 5, 0, 5, 4}, points[] = {9, 1, 9, 2};
+    (void)state;
+    froe_scene *scene;
+    assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+    assert_int_equal(trees_add(scene, FROE_SEGMENT, 3, segments, NULL, NULL), FROE_OK);
+    assert_int_equal(trees_add(scene, FROE_POINT, 2, points, NULL, NULL), FROE_OK);
+    froe_tree *tree = trees_build(scene, "autopartition", 1);
+    tree_cut *cut = cut_of_kind(tree, FROE_CUT_OBJECT);
+    const tree_cut right = *cut;
+    for (uint32_t a = 0; a < 6; a++)
+        for (uint32_t b = 0; b < 6; b++)
+            for (uint32_t c = 0; c < 2; c++) {
+                const double *s = segments + 4 * a, *t = segments + 4 * b;
+                const bool fits = a < 3 && b < 3 && !c && (s[2] - s[0]) * (t[3] - t[1]) > (s[3] - s[1]) * (t[2] - t[0]);
+                froe_diagnostic why = {0};
+                *cut = (tree_cut){.kind = FROE_CUT_CROSSING, .a = a};
+                cut->u.id.b = b, cut->u.id.c = c;
+                assert_int_equal(tree_validate(tree, &why), FROE_E_FORMAT); /* lists of walls are empty: they say so */
+                assert_int_equal(!strstr(why.message, "a cut that does not exist"), fits);
+            }
+    *cut = right;
+    assert_int_equal(tree_validate(tree, NULL), FROE_OK);
+    froe_tree_free(tree);
+    froe_scene_free(scene);
 }
 
 static bool ignore(void *user, const void *data, size_t count) {
@@ -389,6 +466,9 @@ int main(void) {
         cmocka_unit_test(audits_can_be_cancelled_at_every_call),
         cmocka_unit_test(round_solids_share_points_where_distances_say_so),
         cmocka_unit_test(missing_arguments_are_refused),
+        cmocka_unit_test(files_that_begin_like_trees_are_trees),
+        cmocka_unit_test(cuts_of_the_plane_and_of_space_are_in_no_other_dimension),
+        cmocka_unit_test(crossings_name_segments),
         cmocka_unit_test(writing_may_lack_memory),
         cmocka_unit_test(opened_trees_of_many_objects_and_of_none_answer),
         cmocka_unit_test(packers_take_large_leaves_and_may_lack_memory),
