@@ -25,9 +25,9 @@ typedef struct world {
     uint64_t questions, answers, pairs; /* compared so far */
 } world;
 
-/* 24 for 400 objects; as dense with more of them. */
+/* 24 for 400 objects, and as dense with more of them; with many, less. */
 static int lattice_of(int dim) {
-    return (int)(24 * pow((double)object_count / USUAL, 1.0 / dim));
+    return (int)((object_count > CLOSE ? 72 : 24) * pow((double)object_count / USUAL, 1.0 / dim));
 }
 
 /* Groups of two triangles, which lie beside each other, one in the other, or cross. Tags ascend. */
@@ -255,28 +255,28 @@ static double *random_points(world *w, size_t count) {
 
 enum { CORNERS = FROE_MAX_DIM + 1 }; /* of a range, at most */
 
-/* Ranges of the shapes of a set, most of them small: halfspaces always have many answers, so that there are few. */
+/* Ranges of the shapes of a set, most of them small. Among many objects few are large, as halfspaces always are. */
 static void random_ranges(world *w, unsigned shapes, froe_range *ranges, double *points, double *offsets) {
-    const size_t dim = (size_t)w->dim;
+    const size_t dim = (size_t)w->dim, large = object_count > CLOSE ? 50 : 9;
     for (size_t i = 0; i < QUESTIONS; i++) {
         froe_range *r = ranges + i;
         double *p = points + i * CORNERS * dim;
         *r = froe_range_defaults();
         do r->shape = (froe_range_shape)(next_random(&w->state) % FROE_SHAPE_COUNT);
-        while (!(shapes >> r->shape & 1) || (object_count > CLOSE && i % 25 && r->shape == FROE_SHAPE_HALFSPACES));
+        while (!(shapes >> r->shape & 1) || (object_count > CLOSE && i % large && r->shape == FROE_SHAPE_HALFSPACES));
         r->points = p;
         r->count = r->shape == FROE_SHAPE_HULL || r->shape == FROE_SHAPE_HALFSPACES ? 3 : 0;
         r->radius = on_lattice(&w->state, 8) / 2;
         r->offsets = offsets + i;
-        for (size_t c = 1; c < CORNERS && i % 9; c++)
+        for (size_t c = 1; c < CORNERS && i % large; c++)
             for (size_t a = 0; a < dim; a++) p[c * dim + a] = p[a] + on_lattice(&w->state, 16) / 2 - 4;
         for (size_t a = 0; a < dim; a++) {
-            const double wide = i % 9 ? on_lattice(&w->state, 6) / 2 : on_lattice(&w->state, 30);
+            const double wide = i % large ? on_lattice(&w->state, 6) / 2 : on_lattice(&w->state, 30);
             if (r->shape == FROE_SHAPE_BOX || r->shape == FROE_SHAPE_SEGMENT) p[dim + a] = p[a] + wide;
             if (r->shape == FROE_SHAPE_RAY || r->shape == FROE_SHAPE_HALFSPACES) p[dim + a] = wide - 2;
         }
         if (r->shape == FROE_SHAPE_RAY) p[dim] += p[dim] == 0;
-        if (r->shape == FROE_SHAPE_BOX && i % 7 == 0) p[dim] = INFINITY;
+        if (r->shape == FROE_SHAPE_BOX && i % (large - 2) == 0) p[dim] = INFINITY;
     }
 }
 
@@ -564,16 +564,23 @@ static void values_that_round_to_one_double(void **state) {
     }
 }
 
+static void groups_in_space_are_no_areas(void **state) {
+    (void)state;
+    world w = make_world(3, FROE_SEGMENT, false, 2, 1);
+    froe_finds finds;
+    assert_int_equal(froe_shards_groups_join(w.shards, w.tree, FROE_MEETS, NULL, &finds, NULL), FROE_E_UNSUPPORTED);
+    assert_int_equal(froe_shards_groups_join(w.shards, NULL, FROE_MEETS, NULL, &finds, NULL), FROE_E_ARG);
+    free_world(&w);
+}
+
 int main(int argc, char **argv) {
     thorough = argc > 1;
     if (thorough) object_count = (size_t)strtoull(argv[1], NULL, 10);
     if (argc > 2) cmocka_set_test_filter(argv[2]);
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(of_objects_in_the_plane),
-        cmocka_unit_test(of_areas),
-        cmocka_unit_test(of_objects_in_space),
-        cmocka_unit_test(of_objects_above_space),
-        cmocka_unit_test(values_that_round_to_one_double),
+        cmocka_unit_test(of_objects_in_the_plane),      cmocka_unit_test(of_areas),
+        cmocka_unit_test(groups_in_space_are_no_areas), cmocka_unit_test(of_objects_in_space),
+        cmocka_unit_test(of_objects_above_space),       cmocka_unit_test(values_that_round_to_one_double),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
