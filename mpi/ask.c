@@ -177,7 +177,7 @@ static froe_status write_texts(const step *s, froe_diagnostic *diag) {
 static int refuse(const step *s, int stop, uint64_t line) {
     if (stop == s->ranks->count) return CLI_YES;
     if (stop == s->ranks->rank)
-        cli_fail(CLI_INPUT, s->asking->input, "line %llu: %s", (unsigned long long)(line + s->bad_line), s->sentence);
+        cli_fail(CLI_INPUT, s->asking->input, "line %llu: %s", (unsigned long long)line + s->bad_line, s->sentence);
     return CLI_INPUT;
 }
 
