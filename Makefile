@@ -7,7 +7,8 @@ PREFIX ?= /usr/local
 export CMAKE_GENERATOR = $(if $(shell command -v ninja 2>/dev/null),Ninja,Unix Makefiles)
 
 .DEFAULT_GOAL := build
-.PHONY: help build demo test install uninstall bench build-bench bench-peers claims oracle mutations faults coverage mutate bare docs python web single dist release-check site format lint clean
+.PHONY: help build demo test install uninstall build-bench bench bench-peers claims oracle mutations faults \
+    coverage mutate fuzz soak night platforms bare docs python web site dist release-check single format lint clean
 
 deps-%:
 	@scripts/deps $*
