@@ -68,6 +68,6 @@ void fuzz_file(const char *prefix, const char *suffix, const uint8_t *data, size
     FILE *file = fopen(path, "wb");
     if (!file) give_up(path);
     fputs(prefix, file);
-    fwrite(data, 1, size, file);
+    if (size) fwrite(data, 1, size, file);
     if (fclose(file)) give_up(path);
 }

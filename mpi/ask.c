@@ -145,7 +145,8 @@ static froe_status print_part(step *s, bool header, uint64_t first, froe_diagnos
 
 /* Rank 0 writes the texts of all, a piece at a time. */
 static froe_status write_texts(const step *s, froe_diagnostic *diag) {
-    enum { PIECE = 1 << 22 };
+    enum { PIECE = 1 << 16 };
+    char piece[PIECE]; /* rank 0 cannot fail before it has received what the others send */
     uint64_t count = s->text_length;
     froe_status status = FROE_OK;
     if (s->ranks->rank) {
@@ -154,8 +155,6 @@ static froe_status write_texts(const step *s, froe_diagnostic *diag) {
             MPI_Send(s->text + at, (int)(count - at < PIECE ? count - at : PIECE), MPI_CHAR, 0, 0, s->ranks->comm);
         return FROE_OK;
     }
-    char *piece = malloc(PIECE);
-    if (!piece) return support_fail_memory(diag);
     bool ok = fwrite(s->text, 1, count, stdout) == count;
     for (int r = 1; r < s->ranks->count; r++) {
         MPI_Recv(&count, 1, MPI_UINT64_T, r, 0, s->ranks->comm, MPI_STATUS_IGNORE);
@@ -165,7 +164,6 @@ static froe_status write_texts(const step *s, froe_diagnostic *diag) {
             ok = ok && fwrite(piece, 1, size, stdout) == size;
         }
     }
-    free(piece);
     ok = !fflush(stdout) && ok;
     if (!ok) status = support_fail(diag, FROE_E_LIMIT, "Standard output cannot be written.");
     return status;

@@ -194,7 +194,8 @@ static froe_status send_all(froe_mpi_builder *b) {
 }
 
 static froe_status gather(void *user, const void *records, size_t count) {
-    return froe_shard_records_append(user, records, count, NULL);
+    froe_mpi_builder *b = user;
+    return froe_shard_records_append(&b->batch, records, count, &b->diag);
 }
 
 /* This rank's shards, then all entries at rank 0 and the manifest. */
@@ -203,7 +204,7 @@ static froe_status build_all(froe_mpi_builder *b) {
     froe_status status = FROE_OK;
     for (uint32_t s = (uint32_t)b->ranks.rank; s < count && !status; s += (uint32_t)b->ranks.count) {
         b->batch.count = 0;
-        status = froe_shard_buckets_take(b->buckets, s, gather, &b->batch, &b->diag);
+        status = froe_shard_buckets_take(b->buckets, s, gather, b, &b->diag);
         if (!status) status = froe_shard_build(&b->batch, b->plan, s, NULL, &b->o, b->folder, &b->entries[s], &b->diag);
         froe_shard_records_free(&b->batch);
     }

@@ -180,7 +180,7 @@ static bool read_option(int letter, job *j) {
         j->queries = optarg;
         return true;
     case 'S':
-        good = read_size(optarg, FROE_SHARDS_MOST, &number), j->shards.shards = (uint32_t)number;
+        good = read_size(optarg, FROE_SHARDS_MOST, &number) && number, j->shards.shards = (uint32_t)number;
         return good;
     case 'M':
         return read_size(optarg, UINT64_MAX, &j->shards.memory);

@@ -30,6 +30,7 @@ froe_status mpi_agree(const mpi_ranks *ranks, froe_status status, froe_diagnosti
     MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, ranks->comm);
     if (ranks->waited) add_since(ranks->waited, then, used_by_now());
     if (first == ranks->count) return FROE_OK;
+    if (status) diag->status = status; /* also where nobody wrote a sentence */
     MPI_Bcast(diag, (int)sizeof *diag, MPI_BYTE, first, ranks->comm);
     return diag->status;
 }

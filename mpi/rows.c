@@ -3,6 +3,8 @@
  * header, which froe_read_own() reads. */
 #include "rows.h"
 #include "support/fail.h"
+#include "support/path.h"
+#include "support/text/csv.h"
 #include <errno.h>
 #include <froe/formats.h>
 #include <stdio.h>
@@ -55,7 +57,7 @@ static froe_status open_rows(row_file *f, uint64_t part, uint64_t parts) {
     return f->begin < 0 || f->end < 0 || fseeko(f->file, f->begin, SEEK_SET) ? fail_file(f, "read") : FROE_OK;
 }
 
-static froe_status fail_quoted(row_file *f) {
+static froe_status fail_quoted(const row_file *f) {
     return support_fail(f->diag, FROE_E_UNSUPPORTED, "%s: Rows with quotation marks are not read by several processes.",
                         support_short(f->path));
 }
@@ -101,14 +103,26 @@ static froe_status copy_part(row_file *f, FILE *part, off_t *at, uint64_t *rows)
     return status;
 }
 
-static bool has_tags(const char *header) {
-    for (const char *at = header; *at;) {
-        const size_t blank = strspn(at, " \t\"\r\n,;");
-        const size_t count = strcspn(at + blank, " \t\"\r\n,;");
-        if (count == 3 && !strncasecmp(at + blank, "tag", 3)) return true;
-        at += blank + count;
+/* Have the rows tags? Refuses a header whose rows cannot be cut anywhere: corners of a hull belong together, and a name
+ * that is not closed goes on in the next line. */
+static froe_status read_names(const row_file *f, bool *tagged) {
+    char *const names = strdup(f->header), *at = names;
+    if (!names) return support_fail_memory(f->diag);
+    if (!strncmp(at, "\xEF\xBB\xBF", 3)) at += 3; /* a byte order mark */
+    const char separator = support_csv_separator(at);
+    support_csv_field field = {.last = false};
+    bool hulls = false;
+    *tagged = false;
+    while (!field.last) {
+        field = support_csv_next(&at, separator);
+        *tagged = *tagged || support_equal_nocase(field.text, "tag");
+        hulls = hulls || support_equal_nocase(field.text, "hull");
     }
-    return false;
+    free(names);
+    if (field.open) return fail_quoted(f);
+    return hulls ? support_fail(f->diag, FROE_E_UNSUPPORTED,
+                                "%s: Hulls of several rows are not read by several processes.", support_short(f->path))
+                 : FROE_OK;
 }
 
 /* The next part as a scene; none where all its lines are blank. */
@@ -157,7 +171,9 @@ froe_status mpi_rows_dim(const char *path, int *dim, froe_diagnostic *diag) {
     row_file f = {.path = path, .diag = diag};
     froe_scene *scene = NULL;
     uint64_t rows = 0;
+    bool tagged;
     froe_status status = open_rows(&f, 0, 1);
+    if (!status) status = read_names(&f, &tagged);
     const off_t size = f.end;
     for (off_t at = f.begin; !status && !scene && at < size;) {
         f.end = at + 1; /* one line */
@@ -175,14 +191,16 @@ froe_status mpi_rows_read(const mpi_ranks *ranks, const char *path, mpi_rows_fn 
                           froe_diagnostic *diag) {
     row_file f = {.path = path, .diag = diag};
     uint64_t rows = 0, first = 0;
+    bool tagged = false;
     froe_status status = open_rows(&f, (uint64_t)ranks->rank, (uint64_t)ranks->count);
+    if (!status) status = read_names(&f, &tagged);
     if (!status) status = count_rows(&f, &rows);
     MPI_Exscan(&rows, &first, 1, MPI_UINT64_T, MPI_SUM, ranks->comm);
     if (!ranks->rank) first = 0; /* which MPI leaves undefined */
     for (off_t at = f.begin; !status && at < f.end; first += rows) {
         froe_scene *scene = NULL;
         status = read_part(&f, &at, first, &scene, &rows);
-        if (!status && scene && !fn(user, scene, first, has_tags(f.header))) status = FROE_E_CANCELLED;
+        if (!status && scene && !fn(user, scene, first, tagged)) status = FROE_E_CANCELLED;
         froe_scene_free(scene);
     }
     if (f.file) fclose(f.file);

@@ -123,7 +123,8 @@ static bool is_at(int folder, const char *path) {
     return !fstat(folder, &one) && !lstat(path, &other) && one.st_dev == other.st_dev && one.st_ino == other.st_ino;
 }
 
-/* Makes the draft, or takes over one that a killed program left. Returns an errno; EWOULDBLOCK: it is in use. */
+/* Makes the draft, or takes over one that a killed program left. Returns an errno; EWOULDBLOCK: it is in use, ENOTEMPTY:
+ * it holds what no program of froe left there. */
 static int make_draft(froe_shard_draft *d) {
     const char *slash = strrchr(d->target, '/');
     snprintf(d->folder, sizeof d->folder, "%.*s.%s.building", (int)(slash + 1 - d->target), d->target, slash + 1);
@@ -137,6 +138,8 @@ static int make_draft(froe_shard_draft *d) {
         close(d->lock); /* it was brought to its place, or removed */
         d->lock = -1;
     }
+    char other[NAME_MAX + 1];
+    if (!is_own_folder(d->folder, other)) return ENOTEMPTY;
     empty_folder(d->folder);
     return 0;
 }

@@ -217,10 +217,18 @@ static froe_status go_to(film_work *w, double time, double least) {
     return status;
 }
 
+/* When the picture after an instant is taken; at.high itself: no double is between it and the next instant. */
+static double soon_after(const film_work *w, film_instant at, double next) {
+    const double now = at.high + fmin(0.5 * (next - at.high), w->soon);
+    if (now > at.high) return now;
+    const double later = nextafter(at.high, INFINITY); /* far from 0 `soon` is less than that */
+    return later < next ? later : at.high;
+}
+
 /* The picture just after an instant, before anything else happens, and the instants that follow while its faces are in
  * sight; or, where these are those of the last picture, those that follow then. *same: they are. */
 static froe_status look_after(film_work *w, film_instant at, double next, double time, film_picture *out, bool *same) {
-    double now = at.high + fmin(0.5 * (next - at.high), w->soon);
+    double now = soon_after(w, at, next);
     film_instant after;
     for (;;) {
         froe_status status = draw_instant(w, now, true, out);
@@ -249,7 +257,7 @@ static froe_status go_exactly(film_work *w, double time) {
         status = film_instants_find(&w->instants, w->last.seen.data, w->last.seen.count, w->passed, time, w->diag);
     while (!status && w->any && film_instants_next(&w->instants, passed, time, &at, &next)) {
         passed = at.high;
-        if (!(at.high + fmin(0.5 * (next - at.high), w->soon) > at.high)) continue; /* together with the next */
+        if (!(soon_after(w, at, next) > at.high)) continue; /* together with the next */
         status = look_after(w, at, next, time, &picture, &same);
         if (status) break;
         w->report.late = fmax(w->report.late, at.high - at.low);
