@@ -123,8 +123,8 @@ static bool is_at(int folder, const char *path) {
     return !fstat(folder, &one) && !lstat(path, &other) && one.st_dev == other.st_dev && one.st_ino == other.st_ino;
 }
 
-/* Makes the draft, or takes over one that a killed program left. Returns an errno; EWOULDBLOCK: it is in use, ENOTEMPTY:
- * it holds what no program of froe left there. */
+/* Makes the draft, or takes over one that a killed program left. Returns an errno; EWOULDBLOCK: it is in use,
+ * ENOTEMPTY: it holds what no program of froe left there. */
 static int make_draft(froe_shard_draft *d) {
     const char *slash = strrchr(d->target, '/');
     snprintf(d->folder, sizeof d->folder, "%.*s.%s.building", (int)(slash + 1 - d->target), d->target, slash + 1);

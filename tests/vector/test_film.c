@@ -115,8 +115,8 @@ static void faces_come_into_sight_at_their_instant(void **state) {
     froe_motion_free(motion);
 }
 
-/* Two walls overlap but for an instant, in which a leaf behind them is seen: from `open` to `closed`, after `begin`. In a
- * parallel view their edges pass one another, and so they do as seen from a point in the plane of both. */
+/* Two walls overlap but for an instant, in which a leaf behind them is seen: from `open` to `closed`, after `begin`. In
+ * a parallel view their edges pass one another, and so they do as seen from a point in the plane of both. */
 static froe_motion *make_slit(double begin, double open, double closed) {
     froe_motion *motion = NULL;
     froe_motion_options w = froe_motion_defaults();
