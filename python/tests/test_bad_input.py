@@ -129,7 +129,7 @@ def test_empty_arrays(tree):
         (lambda t: t.cells([0, 0, 0], [1, 1]), ArrayError, r"\(3,\)"),
         (lambda t: t.order([0]), ArrayError, r"\(1,\)"),
         (lambda t: t.export("x.csv", "trees"), OptionError, "trees"),
-        (lambda t: t.save("/nonexistent/a"), FileError, "nonexistent"),
+        (lambda t: t.save("/dev/null/nonexistent/a"), FileError, "nonexistent"),
     ],
 )
 def test_bad_questions(tree, ask, kind, word):
@@ -167,7 +167,7 @@ def test_which_question_is_bad(tree):
         (lambda s: s.build(seed=-1), ArgumentError, "seed"),
         (lambda s: s.build(seed=2**70), ArgumentError, "seed"),
         (lambda s: s.build(settings="x=1"), OptionError, "x"),
-        (lambda s: s.write("/nonexistent/a.csv"), FileError, "nonexistent"),
+        (lambda s: s.write("/dev/null/nonexistent/a.csv"), FileError, "nonexistent"),
     ],
 )
 def test_bad_scenes(add, kind, word):

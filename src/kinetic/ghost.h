@@ -22,7 +22,7 @@ typedef struct ghost_state {
     ARRAY(uint32_t) lasting;   /**< of these, those that have begun and not ended */
     size_t next;               /**< the first that has not begun */
     ARRAY(uint32_t) concerned; /**< objects that may leave or return */
-    bool anew; /**< contacts have been found anew: what is left out may return although nothing ends */
+    bool anew;                 /**< contacts have been found anew: what is left out may return although nothing ends */
     bool out_of_memory;
 } ghost_state;
 

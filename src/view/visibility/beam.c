@@ -51,8 +51,7 @@ static view_way snap_to_edge(view_sightlines *s, uint32_t object, view_way way, 
             side_on_line(s, way >> 1, scene_corner(scene, object, next)))
             continue;
         int inside = 0; /* on which side of the wall is the polygon? */
-        for (uint32_t k = 0; k < n && !inside; k++)
-            inside = side_on_line(s, way >> 1, scene_corner(scene, object, k));
+        for (uint32_t k = 0; k < n && !inside; k++) inside = side_on_line(s, way >> 1, scene_corner(scene, object, k));
         const view_way own = own_way(s, object, i, facing);
         return own == FROE_NONE ? own : own ^ ((inside < 0) != (way & 1));
     }
