@@ -1,5 +1,6 @@
 /* film.c: froe_film: triangles in motion as an animated picture, instant by instant. */
 #include "film.h"
+#include "film_corners.h"
 #include "film_instants.h"
 #include "support/axes.h"
 #include "support/fail.h"
@@ -41,32 +42,6 @@ static froe_status no_room(const film_work *w) {
 
 /* ---------------------------------------------------------------------- cameras -- */
 
-/* A scene of all corners at up to 33 instants. */
-static froe_status gather_corners(const froe_motion *motion, froe_scene **out, froe_diagnostic *diag) {
-    enum { INSTANTS = 32 };
-    const froe_motion_options window = froe_motion_window(motion);
-    const froe_allocator alloc = support_allocator(NULL);
-    ARRAY(double) points = {0};
-    bool room = true;
-    for (uint32_t i = 0; i < froe_motion_object_count(motion) && room; i++) {
-        const froe_moving_object o = froe_motion_object(motion, i);
-        for (int step = 0; step <= INSTANTS && room; step++) {
-            const double share = (double)step / INSTANTS, time = window.begin * (1 - share) + window.end * share;
-            double at[3];
-            for (int k = 0; k < 3 && room && o.birth <= time && time <= o.death; k++)
-                if (froe_motion_position(motion, o.vertices[k], time, at)) room = array_append(&alloc, &points, at, 3);
-        }
-    }
-    froe_objects batch = froe_objects_defaults();
-    batch.kind = FROE_POINT, batch.count = points.count / 3, batch.coords = points.data;
-    froe_status status = room ? froe_scene_new(3, NULL, out) : FROE_E_MEMORY;
-    if (!status && !batch.count) status = support_fail(diag, FROE_E_INPUT, "Nothing is ever there to be seen.");
-    if (status == FROE_E_MEMORY) status = support_fail_memory(diag);
-    if (!status) status = froe_scene_add(*out, &batch, diag);
-    array_free(&alloc, &points);
-    return status;
-}
-
 froe_status froe_film_cameras(const froe_motion *motion, const froe_camera *camera, bool turn, size_t count,
                               froe_camera *cameras, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
@@ -76,7 +51,7 @@ froe_status froe_film_cameras(const froe_motion *motion, const froe_camera *came
     for (size_t i = 0; i < count; i++) cameras[i] = *camera;
     if (!camera->fit && !turn) return FROE_OK;
     froe_scene *scene = NULL;
-    froe_status status = gather_corners(motion, &scene, diag);
+    froe_status status = vector_film_corners(motion, &scene, diag);
     if (!status) status = froe_camera_turn(camera, scene, turn ? count : 1, cameras, diag);
     for (size_t i = 1; i < count && !turn; i++) cameras[i] = cameras[0];
     froe_scene_free(scene);
@@ -299,7 +274,7 @@ static froe_status list_times(film_work *w) {
 
 static froe_status begin_exactly(film_work *w) {
     froe_scene *scene = NULL;
-    froe_status status = gather_corners(w->motion, &scene, w->diag);
+    froe_status status = vector_film_corners(w->motion, &scene, w->diag);
     if (!status) status = film_instants_begin(&w->instants, w->motion, w->cameras, scene, &w->options, w->diag);
     froe_scene_free(scene);
     return status;

@@ -203,7 +203,7 @@ typedef struct froe_film_report {
  * another. It needs many pictures: where n edges are in sight, up to n^2 an interval between frames. FROE_E_OPTIONS:
  * the eye turns. FROE_E_UNSUPPORTED: as froe_motion_sights().
  *
- * The camera holds all that moves in up to 33 frames; it is as given if it does not fit. Paths are as with
+ * The camera holds all that is ever there, as long as it is there; it is as given if it does not fit. Paths are as with
  * FROE_IDS_OBJECT. `path` ends in .svg. FROE_E_OPTIONS: layers, interleaved lines, fills that are painted twice; see
  * froe_render(). FROE_E_UNSUPPORTED: the motion is of the plane. FROE_E_INPUT: nothing is ever there. The time of
  * froe_build() and froe_render() for each picture. */
