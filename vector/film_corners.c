@@ -89,7 +89,7 @@ static double mix(double p, double q, double share) {
 }
 
 /* Of a piece of a plan the point at share s = t, and for two shares the control point between these (the blossom). */
-static void point_of(const double *p, const double *control, const double *q, double s, double t, double out[3]) {
+static void blossom_of(const double *p, const double *control, const double *q, double s, double t, double out[3]) {
     for (int k = 0; k < 3; k++)
         out[k] = isnan(control[0]) ? mix(p[k], q[k], 0.5 * s + 0.5 * t)
                                    : mix(mix(p[k], control[k], s), mix(control[k], q[k], s), t);
@@ -129,14 +129,14 @@ static void fly(film_corners *w, const film_stay *stay) {
         const int parts = isnan(p.control[0]) || w->coarse ? 1 : PARTS;
         double shares[2], at[3];
         shares_of(p.time, q.time, stay, shares);
-        point_of(p.at, p.control, q.at, shares[0], shares[0], at);
+        blossom_of(p.at, p.control, q.at, shares[0], shares[0], at);
         if (i == low) add_point(w, at);
         for (int n = 0; n < parts && shares[0] < shares[1]; n++) {
             const double s = mix(shares[0], shares[1], (double)n / parts),
                          t = mix(shares[0], shares[1], (double)(n + 1) / parts);
-            point_of(p.at, p.control, q.at, s, t, at);
+            blossom_of(p.at, p.control, q.at, s, t, at);
             if (!isnan(p.control[0])) add_point(w, at);
-            point_of(p.at, p.control, q.at, t, t, at);
+            blossom_of(p.at, p.control, q.at, t, t, at);
             add_point(w, at);
         }
         p = q;
@@ -168,7 +168,7 @@ static void add_arc(film_corners *w, const froe_body_knot *p, const froe_body_kn
     for (int i = 0; i < 4; i++)
         ends[0][i] = mix(p->turn[i], q->turn[i], s), ends[1][i] = mix(p->turn[i], q->turn[i], t);
     for (int i = 0; i < 3; i++) {
-        point_of(p->at, p->control, q->at, i < 2 ? s : t, i ? t : s, flight[i]);
+        blossom_of(p->at, p->control, q->at, i < 2 ? s : t, i ? t : s, flight[i]);
         weight[i] = turned(ends[i == 2], ends[i != 0], corner, arc[i]);
     }
     for (int n = first ? 0 : 1; n <= 4; n++) {
