@@ -116,7 +116,7 @@ endif()
 
 # Decisions that are checked over and over (make soak); of each kind one block is a test.
 if(TARGET froe_io_white)
-  set(soak_kinds whole rational answers pictures contacts plane space)
+  set(soak_kinds whole rational walls answers pictures contacts plane space)
   file(GLOB soak_sources CONFIGURE_DEPENDS tests/soak/*.c)
   add_executable(soak ${soak_sources})
   set_target_properties(soak PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
@@ -190,6 +190,7 @@ set_tests_properties(project/flags PROPERTIES ENVIRONMENT CC=${CMAKE_C_COMPILER}
 froe_test(project index ${scripts}/check-index)
 froe_test(project names ${scripts}/check-names)
 froe_test(project soak ${scripts}/soak --check)
+froe_test(project fuzz ${scripts}/fuzz --check)
 froe_test(project messages ${scripts}/check-messages)
 froe_test(project prose ${scripts}/check-prose)
 froe_test(project root ${scripts}/check-root)

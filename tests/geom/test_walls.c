@@ -1,8 +1,6 @@
 /* test_walls.c: laws V5, X5 and C5 of geom/predicates.h: sides of and on sheared walls, started at every stage, against
  * exact rationals in which the infinitesimal is a number, 2^-65536 (support/rational.h). */
-#include "geom/sides.h"
-
-enum { POOL = 7 };
+#include "geom/walls.h"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 enum { SHARE = 8 };
@@ -14,65 +12,8 @@ typedef struct fixture {
     num_context context;
     sides_oracle oracle;
     sides_tally tally;
-    int dim;
-    double points[POOL * 3]; /* few, so that lines share their ends */
-    geom_plane planes[SIDES_PLANES];
-    const double *u, *v;
+    sides_case c;
 } fixture;
-
-static const double *pick(fixture *f, fuzz_source *r) {
-    return f->points + f->dim * fuzz_int(r, 0, POOL - 1);
-}
-
-/* Twice the signed area of what the lines span, as the definition of a wall wants it positive. */
-static int turn(fixture *f, const double *const ends[4]) {
-    const double *flat[2] = {ends[0], ends[1]};
-    geom_plane line = f->dim == 2 ? geom_plane_points(2, flat) : geom_plane_vertical(ends[0], ends[1]);
-    rational_plane h;
-    rational_point p;
-    mpq_t from, to;
-    rational_plane_init(&h);
-    rational_point_init(&p);
-    mpq_init(from);
-    mpq_init(to);
-    rational_plane_set(&h, &line);
-    rational_point_set(&p, f->dim, ends[2]);
-    rational_value(from, &h, &p);
-    rational_point_set(&p, f->dim, ends[3]);
-    rational_value(to, &h, &p);
-    int sign = mpq_cmp(to, from);
-    rational_plane_clear(&h);
-    rational_point_clear(&p);
-    mpq_clear(from);
-    mpq_clear(to);
-    return sign;
-}
-
-static geom_plane wall(fixture *f, fuzz_source *r) {
-    const double *e[4] = {pick(f, r), pick(f, r), pick(f, r), pick(f, r)};
-    int sign = fuzz_int(r, 0, 2) ? turn(f, e) : 0;
-    if (sign == 0) return geom_plane_at_vertex(f->dim, e[0]);
-    const double *other[4] = {e[2], e[3], e[0], e[1]};
-    return geom_plane_at_crossing(f->dim, sign > 0 ? e : other);
-}
-
-static geom_plane any_plane(fixture *f, fuzz_source *r) {
-    const double *p[3] = {pick(f, r), pick(f, r), pick(f, r)};
-    if (fuzz_int(r, 0, 1)) return wall(f, r);
-    return f->dim == 3 && fuzz_int(r, 0, 1) ? geom_plane_vertical(p[0], p[1]) : geom_plane_points(f->dim, p);
-}
-
-static void draw(fixture *f, fuzz_source *r, fuzz_class kind, int dim) {
-    f->dim = dim;
-    fuzz_points(r, kind, dim, f->points, POOL);
-    f->u = pick(f, r), f->v = pick(f, r);
-    for (int i = 0; i < SIDES_PLANES; i++) {
-        f->planes[i] = any_plane(f, r);
-        rational_plane_set(&f->oracle.planes[i], &f->planes[i]);
-    }
-    rational_point_set(&f->oracle.u, dim, f->u);
-    rational_point_set(&f->oracle.v, dim, f->v);
-}
 
 typedef void trial_fn(fixture *f, fuzz_class kind);
 
@@ -80,7 +21,8 @@ static void run_trials(fixture *f, int dim, int trials, trial_fn *fn) {
     for (int kind = 0; kind < FUZZ_CLASSES; kind++) {
         fuzz_source r = {(uint64_t)(kind * 1000 + dim + 500)};
         for (int i = 0; i < trials / SHARE; i++) {
-            draw(f, &r, (fuzz_class)kind, dim);
+            walls_draw(&r, (fuzz_class)kind, dim, &f->c);
+            sides_oracle_set(&f->oracle, &f->c, SIDES_PLANES);
             fn(f, (fuzz_class)kind);
         }
     }
@@ -89,7 +31,7 @@ static void run_trials(fixture *f, int dim, int trials, trial_fn *fn) {
 
 static void try_vertex(fixture *f, fuzz_class kind) {
     int expected = rational_side(&f->oracle.planes[0], &f->oracle.u);
-    SIDES_CHECK(&f->context, &f->tally, expected, kind, geom_side_vertex(&f->context, &f->planes[0], f->u));
+    SIDES_CHECK(&f->context, &f->tally, expected, kind, geom_side_vertex(&f->context, &f->c.planes[0], f->c.u));
 }
 
 /* Within one unit in the last place; the oracle is an infinitesimal beside the limit. */
@@ -130,22 +72,22 @@ static bool is_near(rational_point *x) {
 
 static void try_crossing(fixture *f, fuzz_class kind) {
     sides_oracle *o = &f->oracle;
-    const geom_plane *h = &f->planes[0], *a = &f->planes[1];
+    const geom_plane *h = &f->c.planes[0], *a = &f->c.planes[1];
     double out[3];
     int at_u = rational_side(&o->planes[1], &o->u), at_v = rational_side(&o->planes[1], &o->v);
     if (at_u * at_v > 0 || (at_u == 0 && at_v == 0) || !rational_meet(&o->x, &o->planes[1], &o->u, &o->v)) return;
     int expected = rational_side(&o->planes[0], &o->x);
-    SIDES_CHECK(&f->context, &f->tally, expected, kind, geom_side_crossing(&f->context, h, f->u, f->v, a));
-    geom_round_crossing(&f->context, f->u, f->v, a, out);
+    SIDES_CHECK(&f->context, &f->tally, expected, kind, geom_side_crossing(&f->context, h, f->c.u, f->c.v, a));
+    geom_round_crossing(&f->context, f->c.u, f->c.v, a, out);
     assert_rounded(&o->x, out);
-    double error = geom_image_crossing(f->u, f->v, a, out);
+    double error = geom_image_crossing(f->c.u, f->c.v, a, out);
     int sure = geom_side_image(h, out, error);
     assert_true(sure == NUM_UNSURE || sure == expected);
 }
 
 static void try_corner(fixture *f, fuzz_class kind) {
     sides_oracle *o = &f->oracle;
-    const geom_plane *p = f->planes;
+    const geom_plane *p = f->c.planes;
     double out[3];
     if (!rational_corner(&o->x, &o->planes[1], &o->planes[2], &o->planes[3])) return;
     int expected = rational_side(&o->planes[0], &o->x);
@@ -161,14 +103,14 @@ static void try_corner(fixture *f, fuzz_class kind) {
 
 /* A wall that a ball only touches counts as cutting it. */
 static void try_ball(fixture *f, fuzz_class kind) {
-    double radius = fabs(f->v[0]);
+    const double radius = f->c.radius;
     f->context.first = NUM_EXACT;
-    if (!geom_plane_valid(&f->context, &f->planes[0])) return;
+    if (!geom_plane_valid(&f->context, &f->c.planes[0])) return;
     int expected = rational_side_ball(&f->oracle.planes[0], &f->oracle.u, radius);
-    int exact = geom_side_ball(&f->context, &f->planes[0], f->u, radius);
+    int exact = geom_side_ball(&f->context, &f->c.planes[0], f->c.u, radius);
     assert_true(exact == expected || exact == 2);
     assert_true(expected != 2 || exact == 2);
-    SIDES_CHECK(&f->context, &f->tally, exact, kind, geom_side_ball(&f->context, &f->planes[0], f->u, radius));
+    SIDES_CHECK(&f->context, &f->tally, exact, kind, geom_side_ball(&f->context, &f->c.planes[0], f->c.u, radius));
 }
 
 static void sides_of_vertices_beside_walls(void **state) {

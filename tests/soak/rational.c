@@ -1,10 +1,10 @@
-/* rational.c: sides of points of every kind beside planes of every kind, started at each stage, against rationals, with
- * coordinates of every class of support/fuzz.h: denormal, huge, of any bits. */
-#include "geom/sides.h"
+/* rational.c: sides of points of every kind beside planes of every kind, and among sheared walls, started at each
+ * stage, against rationals, with coordinates of every class of support/fuzz.h: denormal, huge, of any bits. */
+#include "geom/walls.h"
 #include "soak.h"
 #include <stdlib.h>
 
-enum { CASES = 20 };
+enum { CASES = 20, WALL_CASES = 2 };
 
 typedef struct rational_case {
     num_context context;
@@ -57,23 +57,35 @@ static void rational_ball(rational_case *r) {
     RATIONAL_CHECK(r, "ball", side, geom_side_ball(&r->context, r->c.planes, r->c.u, r->c.radius))
 }
 
-void soak_rational(soak_block *block) {
+/* Draws points and planes. */
+typedef void rational_draw(fuzz_source *r, fuzz_class kind, int dim, sides_case *c);
+
+static void rational_run(soak_block *block, uint64_t stream, int cases, rational_draw *draw, bool balls) {
     rational_case *r = calloc(1, sizeof *r);
-    fuzz_source random = {base_hash(block->seed, 2, 0)};
+    fuzz_source random = {base_hash(block->seed, stream, 0)};
     if (!r || num_context_new(NULL, &r->context)) abort();
     sides_oracle_init(&r->oracle);
     r->block = block;
-    for (int i = 0; i < CASES * FUZZ_CLASSES; i++) {
+    for (int i = 0; i < cases * FUZZ_CLASSES; i++) {
         r->kind = (fuzz_class)(i % FUZZ_CLASSES);
-        sides_draw(&random, r->kind, 2 + fuzz_int(&random, 0, 1), &r->c);
+        draw(&random, r->kind, 2 + fuzz_int(&random, 0, 1), &r->c);
         sides_oracle_set(&r->oracle, &r->c, SIDES_PLANES);
         r->context.first = NUM_FILTER;
         rational_vertex(r);
         rational_crossing(r);
         rational_corners(r);
-        rational_ball(r);
+        if (balls) rational_ball(r);
     }
     sides_oracle_clear(&r->oracle);
     num_context_free(&r->context);
     free(r);
+}
+
+void soak_rational(soak_block *block) {
+    rational_run(block, 2, CASES, sides_draw, true);
+}
+
+/* Whether a wall cuts a ball that it only touches is not the oracle's: its infinitesimal is a number. */
+void soak_walls(soak_block *block) {
+    rational_run(block, 8, WALL_CASES, walls_draw, false);
 }

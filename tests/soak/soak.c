@@ -19,8 +19,8 @@ static const struct {
     const char *name;
     soak_fn *run;
 } kinds[] = {
-    {"whole", soak_whole},       {"rational", soak_rational}, {"answers", soak_answers}, {"pictures", soak_pictures},
-    {"contacts", soak_contacts}, {"plane", soak_plane},       {"space", soak_space},
+    {"whole", soak_whole},       {"rational", soak_rational}, {"walls", soak_walls}, {"answers", soak_answers},
+    {"pictures", soak_pictures}, {"contacts", soak_contacts}, {"plane", soak_plane}, {"space", soak_space},
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 

@@ -19,7 +19,7 @@ typedef struct soak_block {
 /** Does the block of a seed, and adds to the counts. A failing assertion ends the program. */
 typedef void soak_fn(soak_block *block);
 
-soak_fn soak_whole, soak_rational, soak_answers, soak_pictures, soak_contacts, soak_plane, soak_space;
+soak_fn soak_whole, soak_rational, soak_walls, soak_answers, soak_pictures, soak_contacts, soak_plane, soak_space;
 
 /** Counts a decision that is wrong. */
 void soak_complain(soak_block *block, const char *format, ...);
