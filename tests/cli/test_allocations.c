@@ -26,7 +26,7 @@
 
 enum { MOST_WORDS = 40, MOST_TEXT = 1 << 21, MOST_TOLD = 20 };
 static bool all;
-static const char *beginning = ""; /* of the command lines that are tried */
+static const char *only = ""; /* command lines that begin with this */
 
 /* Calls that are tried of a kind, of most kinds half as many. */
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
@@ -314,7 +314,7 @@ static void nothing_is_lost_and_every_end_is_told(void **state) {
     unsigned wrong = 0, tried = 0, chosen = 0;
     set_up();
     for (size_t i = 0; i < CASES; i++) {
-        if (strncmp(cases[i].words, beginning, strlen(beginning)) != 0) continue;
+        if (strncmp(cases[i].words, only, strlen(only)) != 0) continue;
         wrong += try_case(cases + i, &tried);
         chosen++;
     }
@@ -328,7 +328,7 @@ int main(int argc, char **argv) {
         cmocka_unit_test(nothing_is_lost_and_every_end_is_told),
     };
     all = argc > 1 && !strcmp(argv[1], "all");
-    if (argc > 2) beginning = argv[2];
+    if (argc > 2) only = argv[2];
     signal(SIGINT, SIG_DFL); /* shells make what they start in the background ignore it */
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
