@@ -374,6 +374,46 @@ static void a_limit_of_pieces_ends_trials(void **state) {
     froe_scene_free(scene);
 }
 
+/** Hulls that nearly all meet, of which each cut divides many; the scene is one cell of 4096 guard leaves. */
+static froe_scene *crowded_hulls(const froe_allocator *alloc) {
+    enum { DIM = 6, HULLS = 60, CORNERS = 9 };
+    static double x[HULLS * CORNERS * DIM];
+    size_t starts[HULLS + 1];
+    uint64_t state = 1;
+    froe_scene *scene = NULL;
+    froe_objects o = froe_objects_defaults();
+    for (size_t i = 0; i <= HULLS; i++) starts[i] = i * CORNERS;
+    for (size_t i = 0; i < HULLS; i++) {
+        double low[DIM];
+        for (size_t k = 0; k < DIM; k++) low[k] = unit(&state);
+        for (size_t c = 0; c < CORNERS * DIM; c++) x[i * CORNERS * DIM + c] = low[c % DIM] + 2 * unit(&state);
+    }
+    o.kind = FROE_HULL;
+    o.count = HULLS;
+    o.coords = x;
+    o.starts = starts;
+    assert_int_equal(froe_scene_new(DIM, alloc, &scene), FROE_OK);
+    assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
+    return scene;
+}
+
+/** Refinement is given up where it exceeds the limit, and not where it exceeds what the trial allows. So arrays
+ * grow to the pieces of a small tree: 60 calls for memory, and 131 when refinement goes on. */
+static void a_limit_of_pieces_ends_refinement_of_one_crowded_cell_soon(void **state) {
+    (void)state;
+    test_memory m;
+    const froe_allocator alloc = test_memory_begin(&m);
+    froe_scene *scene = crowded_hulls(&alloc);
+    froe_build_options o = froe_build_defaults();
+    froe_tree *tree = NULL;
+    o.method = "density", o.leaf = 1, o.threads = 1, o.max_fragments = 100;
+    const size_t before = m.calls;
+    assert_int_equal(froe_build(scene, &o, &tree, NULL), FROE_E_BUDGET);
+    assert_in_range(m.calls - before, 20, 100);
+    froe_scene_free(scene);
+    test_memory_end(&m);
+}
+
 /** In these squares refinement is taken back, and in these slats it waits and goes on. */
 static froe_status build_on_trial(void *user, const froe_allocator *alloc) {
     froe_scene *scene = NULL;
@@ -406,6 +446,7 @@ int main(void) {
         cmocka_unit_test(refinement_that_is_allowed_nothing_ends_all_the_same),
         cmocka_unit_test(points_of_many_scales_make_a_low_tree),
         cmocka_unit_test(a_limit_of_pieces_ends_trials),
+        cmocka_unit_test(a_limit_of_pieces_ends_refinement_of_one_crowded_cell_soon),
         cmocka_unit_test(trials_survive_every_failing_allocation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -159,15 +159,24 @@ static froe_status take_back(split_work *work, split_trial *t) {
     return lay(work, t, t->cell);
 }
 
+/** Is it known that what grows now has more pieces than the whole tree may have? Each pending fragment will be one
+ * piece at least. */
+static bool exceeds_limit(const split_job *job, const split_work *work, const split_trial *t) {
+    return job->max_fragments && pieces_of(work, t) > (double)job->max_fragments;
+}
+
 /** A cell that guard cuts cannot divide is allowed more and more up to the final allowance, which at the latest cuts
- * along its fragments alone keep to. */
-static froe_status judge_in_leaf(const split_job *job, split_work *work, split_trial *t) {
+ * along its fragments alone keep to. `ends`: nothing else waits, so a limit on all pieces ends the build where these
+ * cuts exceed it, too. */
+static froe_status judge_in_leaf(const split_job *job, split_work *work, split_trial *t, bool ends) {
     while (refinement_exceeds(work, t) && !t->final) {
         const split_allowance last = final_allowance(job, &t->cell), next = next_of(&t->allowed);
         t->final = next.pieces >= last.pieces;
         allow(work, t, t->final ? last : next);
     }
-    if (refinement_exceeds(work, t) && !t->cell.plain) {
+    const bool limited = ends && exceeds_limit(job, work, t);
+    if (limited && t->cell.plain) return FROE_E_BUDGET;
+    if ((limited || refinement_exceeds(work, t)) && !t->cell.plain) {
         t->cell.plain = true;
         return take_back(work, t);
     }
@@ -218,19 +227,19 @@ static void stay_by_guard(split_work *work, split_trial *t) {
     t->open = false;
 }
 
-/** Refinement of the first cell, and guard cuts in its place. A limit on all pieces changes no decision: it ends the
- * build once both ways are known to exceed it. What waited may be complete, if its cell was finished at once: then it
- * is judged again. */
+/** Refinement of the first cell, and guard cuts in its place. A limit on all pieces ends the build once both ways are
+ * known to exceed it: guard cuts are tried as soon as refinement does. What waited may be complete, if its cell was
+ * finished at once: then it is judged again. */
 static froe_status judge_first(const split_job *job, split_work *work, split_trial *t) {
-    const double most = job->max_fragments ? (double)job->max_fragments : (double)INFINITY;
-    if (pieces_of(work, t) > most && t->other > most) return FROE_E_BUDGET;
+    const bool limited = exceeds_limit(job, work, t);
+    if (limited && t->other > (double)job->max_fragments) return FROE_E_BUDGET;
     if (t->by_guard && pieces_of(work, t) > most_by_guard(t)) {
         go_on(work, t);
         if (!is_done(work, t)) return FROE_OK;
     }
     if (t->by_guard) {
         if (is_done(work, t)) stay_by_guard(work, t);
-    } else if (refinement_exceeds(work, t)) {
+    } else if (refinement_exceeds(work, t) || (limited && !t->other)) {
         return go_by_guard(work, t);
     } else if (is_done(work, t)) {
         close_trial(work, t);
@@ -242,13 +251,14 @@ froe_status trial_judge(const split_job *job, split_work *work) {
     split_trial *first = &work->first, *later = &work->later;
     froe_status status = FROE_OK;
     if (job->trials->idle) {
+        if (exceeds_limit(job, work, first)) return FROE_E_BUDGET;
         if (is_done(work, first)) close_trial(work, first);
         return status;
     }
     if (later->open)
-        status = is_guard_leaf(job, &later->cell) ? judge_in_leaf(job, work, later) : judge_later(work, later);
+        status = is_guard_leaf(job, &later->cell) ? judge_in_leaf(job, work, later, false) : judge_later(work, later);
     if (status || !first->open) return status;
-    return is_guard_leaf(job, &first->cell) ? judge_in_leaf(job, work, first) : judge_first(job, work, first);
+    return is_guard_leaf(job, &first->cell) ? judge_in_leaf(job, work, first, true) : judge_first(job, work, first);
 }
 
 void trial_add_up(split_sums *sums, const split_work *work) {
