@@ -1,12 +1,13 @@
-/* space.c: the long run of what tests/kinetic/test_space.c checks: partitions of moving triangles of all kinds, each
- * compared after every event with the tree of `cylindrical` and with one made from scratch, certificates too.
+/* space.c: the long run of what tests/kinetic/test_space.c and test_parabolas.c check: partitions of moving triangles of
+ * all kinds, among them bodies that turn, each compared after every event with the tree of `cylindrical` and with one
+ * made from scratch, certificates too.
  *
  *     bench_space [SEEDS [EVENTS [KIND]]]       default: 30 motions of each kind, up to 400 events each
  *
  * Prints a line for each kind: triangles, events, comparisons, trees made anew as a whole, nodes touched an event, and
  * how many motions went wrong. Ends with 1 if any did. Ten minutes. */
-#include "kinetic/space.h"
 #include "bench.h"
+#include "kinetic/flights.h"
 
 typedef struct study {
     size_t triangles;
@@ -15,15 +16,15 @@ typedef struct study {
     int wrong;
 } study;
 
-static void follow_one(const space_kind *kind, uint64_t seed, uint64_t events, study *all) {
-    froe_motion *motion = space_new(kind, seed, NULL);
+/* Follows a motion, and frees it. */
+static void follow_one(const char *name, froe_motion *motion, uint64_t seed, uint64_t events, study *all) {
     froe_kinetic_options options = froe_kinetic_defaults();
     froe_kinetic *kinetic = NULL;
     froe_diagnostic why = {0};
     options.seed = seed;
     bench_must(froe_kinetic_new(motion, &options, NULL, &kinetic, &why), &why);
     if (!space_follow(kinetic, events, &all->counts, &why)) {
-        fprintf(stderr, "%s %d at %.17g: %s\n", kind->name, (int)seed, froe_kinetic_time(kinetic), why.message);
+        fprintf(stderr, "%s %d at %.17g: %s\n", name, (int)seed, froe_kinetic_time(kinetic), why.message);
         all->wrong++;
     }
     const froe_kinetic_stats stats = froe_kinetic_statistics(kinetic);
@@ -37,14 +38,21 @@ int main(int argc, char **argv) {
     const uint64_t seeds = argc > 1 ? strtoull(argv[1], NULL, 10) : 30;
     const uint64_t events = argc > 2 ? strtoull(argv[2], NULL, 10) : 400;
     int wrong = 0;
-    for (size_t i = 0; i < SPACE_KINDS; i++) {
+    for (size_t i = 0; i < SPACE_KINDS + FLIGHT_KINDS; i++) {
         study all = {0};
-        if (argc > 3 && strcmp(argv[3], space_kinds[i].name) != 0) continue;
-        for (uint64_t seed = 1; seed <= seeds; seed++) follow_one(space_kinds + i, seed, events, &all);
-        printf("%-15s n %3zu  events %6llu  compared %6llu  anew %3llu  touched %6.1f  wrong %d\n", space_kinds[i].name,
-               all.triangles, (unsigned long long)all.counts.all, (unsigned long long)all.counts.compared,
+        const flight_kind *flight = i < SPACE_KINDS ? NULL : flight_kinds + (i - SPACE_KINDS);
+        const char *name = flight ? flight->name : space_kinds[i].name;
+        double reached;
+        if (argc > 3 && strcmp(argv[3], name) != 0) continue;
+        for (uint64_t seed = 1; seed <= seeds; seed++)
+            follow_one(name,
+                       flight ? flight_on_parabolas(flight, seed, &reached) : space_new(space_kinds + i, seed, NULL),
+                       seed, events, &all);
+        printf("%-15s n %3zu  events %6llu  compared %6llu  anew %3llu  touched %6.1f  wrong %d\n", name, all.triangles,
+               (unsigned long long)all.counts.all, (unsigned long long)all.counts.compared,
                (unsigned long long)all.restarts, (double)all.touched / (double)(all.counts.all + !all.counts.all),
                all.wrong);
+        fflush(stdout);
         wrong += all.wrong;
     }
     return wrong > 0;

@@ -7,98 +7,8 @@
 
 #include <cmocka.h>
 
-#include "kinetic/space.h"
+#include "kinetic/flights.h"
 #include "support/memory.h"
-
-enum { BODIES = 12, KEYS = 4, CORNERS = 4, MOST_CORNERS = 8 };
-
-typedef struct flight {
-    int corners, faces;
-    bool straight; /* it does not turn */
-    bool mortal;
-} flight;
-
-/* A quaternion of length 1 but for rounding, within some 75 degrees of the one before. */
-static void next_turn(fuzz_source *r, const double *before, double q[4]) {
-    double square = 0;
-    for (int k = 0; k < 4; k++) {
-        q[k] = 0.7 * fuzz_unit(r) + (before ? 1.4 * before[k] : k == 3);
-        square += q[k] * q[k];
-    }
-    for (int k = 0; k < 4; k++) q[k] /= sqrt(square);
-}
-
-/* A body in a ball around a way that is straight, or leads there by parabolas whose control points are on it. */
-static uint32_t add_flight(froe_motion *m, fuzz_source *r, const flight *f, const int at[3], const int to[3]) {
-    double times[KEYS] = {0, 17.3, 40.1, SPACE_WINDOW}, places[3 * KEYS], controls[3 * KEYS], turns[4 * KEYS];
-    for (size_t i = 0; i < KEYS; i++) {
-        const double share = times[i] / SPACE_WINDOW, later = i + 1 < KEYS ? times[i + 1] / SPACE_WINDOW : 1;
-        for (int k = 0; k < 3; k++) {
-            places[3 * i + (size_t)k] = at[k] + share * (to[k] - at[k]);
-            controls[3 * i + (size_t)k] = at[k] + (0.4 * share + 0.6 * later) * (to[k] - at[k]);
-        }
-        next_turn(r, i ? turns + 4 * i - 4 : NULL, turns + 4 * i);
-    }
-    froe_body body = froe_body_defaults();
-    uint32_t id;
-    body.count = KEYS, body.times = times, body.coords = places, body.turns = f->straight ? NULL : turns;
-    body.controls = fuzz_int(r, 0, 1) && !f->straight ? controls : NULL;
-    assert_int_equal(froe_motion_add_body(m, &body, &id, NULL), FROE_OK);
-    return id;
-}
-
-static void add_faces(froe_motion *m, fuzz_source *r, const flight *f, uint32_t body, int radius) {
-    static const uint32_t tetrahedron[12] = {0, 1, 2, 0, 3, 1, 1, 3, 2, 2, 3, 0};
-    static const uint32_t box[36] = {0, 1, 3, 0, 3, 2, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
-                                     2, 3, 7, 2, 7, 6, 0, 2, 6, 0, 6, 4, 1, 3, 7, 1, 7, 5};
-    const double zeros[MOST_CORNERS] = {0};
-    double at[3 * MOST_CORNERS], births[12], deaths[12];
-    uint64_t tags[12];
-    size_t starts[MOST_CORNERS + 1];
-    uint32_t bodies[MOST_CORNERS];
-    for (int c = 0; c < f->corners; c++) {
-        starts[c] = (size_t)c, bodies[c] = body;
-        for (int k = 0; k < 3; k++) /* boxes reach as far as their ball */
-            at[3 * c + k] = f->corners == 8 ? (c >> k & 1 ? 0.57 : -0.57) * radius : 0.57 * radius * fuzz_unit(r);
-    }
-    starts[f->corners] = (size_t)f->corners;
-    for (int i = 0; i < f->faces; i++) {
-        births[i] = f->mortal ? fuzz_int(r, -20, 70) : 0;
-        deaths[i] = f->mortal ? births[i] + fuzz_int(r, 0, 40) : SPACE_WINDOW;
-        tags[i] = 1000 * (uint64_t)body + (uint64_t)i;
-    }
-    froe_moving b = froe_moving_defaults();
-    assert_int_equal(froe_motion_add_group(m, &(froe_group){.name = "body"}, &b.group), FROE_OK);
-    b.vertex_count = (size_t)f->corners, b.count = (size_t)f->faces, b.starts = starts, b.times = zeros, b.coords = at;
-    b.vertices = f->corners == 8 ? box : tetrahedron, b.bodies = bodies;
-    b.births = births, b.deaths = deaths, b.tags = tags;
-    assert_int_equal(froe_motion_add(m, &b, NULL), FROE_OK);
-}
-
-/* Bodies that keep apart. */
-static froe_motion *make_bodies(const flight *f, int count, uint64_t seed) {
-    enum { RADIUS = 160, GRID = 700 };
-    int ways[BODIES][2][3], made = 0;
-    space_data d = {.random = {seed}};
-    froe_motion_options w = froe_motion_defaults();
-    froe_motion *m;
-    w.dim = 3, w.begin = 0, w.end = SPACE_WINDOW, w.tick = 0x1p-16;
-    assert_int_equal(froe_motion_new(&w, NULL, &m, NULL), FROE_OK);
-    while (made < count) {
-        bool apart = true;
-        for (int k = 0; k < 3; k++) {
-            ways[made][0][k] = fuzz_int(&d.random, 0, GRID);
-            ways[made][1][k] = fuzz_int(&d.random, 0, GRID);
-        }
-        for (int i = 0; i < made; i++) /* in time they may be elsewhere on their ways */
-            apart &= space_are_apart(ways[made][0], ways[made][1], ways[i][0], ways[i][1], 2.6 * RADIUS);
-        if (!apart) continue;
-        const uint32_t body = add_flight(m, &d.random, f, ways[made][0], ways[made][1]);
-        add_faces(m, &d.random, f, body, RADIUS);
-        made++;
-    }
-    return m;
-}
 
 /* A triangle that belongs to no body. */
 static void add_free(froe_motion *m) {
@@ -108,6 +18,12 @@ static void add_free(froe_motion *m) {
     b.vertex_count = 3, b.count = 1, b.starts = (const size_t[]){0, 3, 4, 5}, b.times = times, b.coords = coords;
     b.controls = controls;
     assert_int_equal(froe_motion_add(m, &b, NULL), FROE_OK);
+}
+
+static froe_motion *make_bodies(const flight_kind *f, int count, uint64_t seed) {
+    flight_kind kind = *f;
+    kind.count = count;
+    return flight_new(&kind, seed);
 }
 
 /* -------------------------------------------------------------------- how near -- */
@@ -134,7 +50,7 @@ static size_t knots_of(const froe_motion *m) {
 
 static void vertices_are_as_near_as_is_told(void **state) {
     (void)state;
-    const flight f = {4, 4, false, false};
+    const flight_kind f = {.corners = 4, .faces = 4, .grid = 700};
     enum { ROUNDS = 6 };
     for (uint64_t seed = 1; seed <= ROUNDS; seed++) {
         froe_motion *m = make_bodies(&f, 4, seed);
@@ -159,14 +75,14 @@ static void vertices_are_as_near_as_is_told(void **state) {
 
 static void bodies_that_do_not_turn_stay_in_one_piece(void **state) {
     (void)state;
-    const flight f = {4, 4, true, false};
+    const flight_kind f = {.corners = 4, .faces = 4, .grid = 700, .straight = true};
     froe_motion *m = make_bodies(&f, 4, 3), *n;
     double reached;
     assert_int_equal(froe_motion_without_bodies(m, 1e-6, NULL, &n, &reached, NULL), FROE_OK);
     assert_true(reached < 1e-11 && sampled(m, n) < 1e-11);
     for (uint32_t v = 0; v < froe_motion_vertex_count(n); v++) {
-        assert_int_equal(froe_motion_knot_count(n, v), KEYS);
-        for (size_t i = 0; i < KEYS; i++) assert_true(isnan(froe_motion_knot(n, v, i).control[0]));
+        assert_int_equal(froe_motion_knot_count(n, v), FLIGHT_KEYS);
+        for (size_t i = 0; i < FLIGHT_KEYS; i++) assert_true(isnan(froe_motion_knot(n, v, i).control[0]));
     }
     froe_motion_free(n);
     froe_motion_free(m);
@@ -174,7 +90,7 @@ static void bodies_that_do_not_turn_stay_in_one_piece(void **state) {
 
 static void all_else_stays_as_it_is(void **state) {
     (void)state;
-    const flight f = {8, 12, false, true};
+    const flight_kind f = {.corners = 8, .faces = 12, .grid = 700, .mortal = true};
     froe_motion *m = make_bodies(&f, 6, 5), *n;
     add_free(m);
     assert_int_equal(froe_motion_without_bodies(m, 1e-3, NULL, &n, NULL, NULL), FROE_OK);
@@ -204,11 +120,11 @@ static void all_else_stays_as_it_is(void **state) {
 /* Two faces of a body with corners of their own, and another body in the same place. */
 static void corners_in_one_place_become_one_vertex(void **state) {
     (void)state;
-    const flight f = {4, 0, true, false};
+    const flight_kind f = {.corners = 4, .grid = 700, .straight = true};
     fuzz_source r = {1};
     const int at[3] = {0, 0, 0};
     froe_motion *m = make_bodies(&f, 0, 1), *n;
-    const uint32_t body = add_flight(m, &r, &f, at, at), other = add_flight(m, &r, &f, at, at);
+    const uint32_t body = flight_add(m, &r, &f, at, at), other = flight_add(m, &r, &f, at, at);
     const double zeros[9] = {0};
     const double coords[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 1, 0, 0, 1, 0, 0, 0, 1, 0};
     const uint32_t bodies[] = {body, body, body, body, body, body, other, other, other};
@@ -237,7 +153,7 @@ static froe_status replace(void *user, const froe_allocator *alloc) {
 
 static void what_cannot_be_replaced_is_refused(void **state) {
     (void)state;
-    const flight f = {4, 4, false, false};
+    const flight_kind f = {.corners = 4, .faces = 4, .grid = 700};
     froe_motion *m = make_bodies(&f, 2, 9), *n = NULL;
     froe_diagnostic why;
     const double none[] = {0, -1, (double)NAN, (double)INFINITY};
@@ -263,28 +179,22 @@ static void what_cannot_be_replaced_is_refused(void **state) {
 
 /* ----------------------------------------------------------------- in partitions -- */
 
-static void follow_bodies(const flight *f, int count, uint64_t seed, double deviation, uint64_t most,
-                          space_counts *counts) {
-    froe_diagnostic why = {0};
-    froe_motion *m = make_bodies(f, count, seed), *n;
-    froe_kinetic_options o = froe_kinetic_defaults();
-    froe_kinetic *k = NULL;
-    double reached;
-    o.seed = seed;
-    assert_int_equal(froe_motion_without_bodies(m, deviation, NULL, &n, &reached, &why), FROE_OK);
-    if (froe_kinetic_new(n, &o, NULL, &k, &why)) fail_msg("seed %d: %s", (int)seed, why.message);
-    if (!space_follow(k, most, counts, &why)) fail_msg("seed %d: %s", (int)seed, why.message);
-    froe_kinetic_free(k);
-    froe_motion_free(n);
-    froe_motion_free(m);
-}
-
+/* A run of some seconds; bench_space goes on. */
 static void bodies_that_turn_are_followed(void **state) {
     (void)state;
-    const flight flights[] = {{4, 4, false, false}, {8, 12, false, false}, {4, 4, false, true}};
     space_counts counts = {0};
-    for (int i = 0; i < 3; i++)
-        for (uint64_t seed = 1; seed <= 2; seed++) follow_bodies(flights + i, i == 1 ? 3 : 6, seed, 1, 300, &counts);
+    for (uint64_t i = 0; i < FLIGHT_KINDS; i++) {
+        froe_diagnostic why = {0};
+        double reached;
+        froe_motion *m = flight_on_parabolas(flight_kinds + i, i, &reached);
+        froe_kinetic_options o = froe_kinetic_defaults();
+        froe_kinetic *k = NULL;
+        o.seed = i;
+        if (froe_kinetic_new(m, &o, NULL, &k, &why)) fail_msg("%s: %s", flight_kinds[i].name, why.message);
+        if (!space_follow(k, 150, &counts, &why)) fail_msg("%s: %s", flight_kinds[i].name, why.message);
+        froe_kinetic_free(k);
+        froe_motion_free(m);
+    }
     assert_true(counts.all > 1000 && counts.compared > 500);
     assert_true(counts.events[FROE_EVENT_FLOP] > 10 && counts.events[FROE_EVENT_PLAN] > 100);
 }

@@ -3,8 +3,8 @@
 #include "kinetic/changing.h"
 #include "support/found.h"
 
+#include "kinetic/flights.h"
 #include "kinetic/motions.h"
-#include "kinetic/space.h"
 #include "soak.h"
 #include "support/contacts.h"
 
@@ -29,17 +29,20 @@ void soak_plane(soak_block *block) {
 }
 
 void soak_space(soak_block *block) {
-    const space_kind *kind = space_kinds + block->seed % SPACE_KINDS;
-    froe_motion *m = space_new(kind, base_hash(block->seed, 7, 0) >> 16, NULL);
+    const uint64_t which = block->seed % (SPACE_KINDS + FLIGHT_KINDS), seed = base_hash(block->seed, 7, 0) >> 16;
+    const flight_kind *flight = which < SPACE_KINDS ? NULL : flight_kinds + (which - SPACE_KINDS);
+    const char *name = flight ? flight->name : space_kinds[which].name;
+    double reached;
+    froe_motion *m = flight ? flight_on_parabolas(flight, seed, &reached) : space_new(space_kinds + which, seed, NULL);
     froe_kinetic_options o = froe_kinetic_defaults();
     froe_kinetic *k;
     froe_diagnostic why = {0};
     space_counts counts = {.all = 0};
     o.seed = block->seed;
     if (froe_kinetic_new(m, &o, NULL, &k, &why)) {
-        soak_complain(block, "%s: %s", kind->name, why.message);
+        soak_complain(block, "%s: %s", name, why.message);
     } else {
-        if (!space_follow(k, 60, &counts, &why)) soak_complain(block, "%s: %s", kind->name, why.message);
+        if (!space_follow(k, 60, &counts, &why)) soak_complain(block, "%s: %s", name, why.message);
         block->decisions += 2 * counts.compared; /* node for node, and by the audit */
         froe_kinetic_free(k);
     }
