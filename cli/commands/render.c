@@ -74,7 +74,9 @@ static const cli_option motion[] = {
      .help = "N pictures of a moving model, as those of a turntable; with --animate one SVG that plays (default 200)",
      .min = 1, .max = 100000},
     {"exact", 0, CLI_FLAG, offsetof(render_args, exact),
-     .help = "with --animate: miss no face that comes into sight, however short; slow, and not for bodies that turn"},
+     .help =
+         "with --animate: miss no face that comes into sight, however short; slow. What turns needs --parallel, and is "
+         "followed within --deviation"},
     {0},
 };
 

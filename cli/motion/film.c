@@ -2,6 +2,7 @@
 #include "motion/film.h"
 #include "commands/render_writer.h"
 #include "exit.h"
+#include "motion/bodies.h"
 #include "progress.h"
 #include "report/report.h"
 #include "support/path.h"
@@ -18,6 +19,8 @@ bool cli_is_moving(const render_args *args) {
 typedef struct film_run {
     const render_args *args;
     froe_motion *motion;
+    froe_motion *replaced; /* exact films: without its bodies; NULL: it has none */
+    double reached;        /* how far its corners are off at most */
     froe_motion_report read;
     froe_render_options *options;
     froe_render_report last;
@@ -67,6 +70,7 @@ static json_t *report_film(const film_run *r) {
     json_t *all = json_pack("{s:o, s:o}", "model", cli_name_json(r->args->tree.scene.path), "output",
                             cli_name_json(r->args->output.name));
     cli_report_moving(&r->read, all);
+    if (r->replaced) json_object_set_new(all, "bodies_deviation", json_real(r->reached));
     if (!r->args->animate) return all;
     json_object_set_new(all, "pictures", json_integer((json_int_t)r->film.pictures));
     json_object_set_new(all, "shown", json_integer((json_int_t)r->film.shown));
@@ -86,7 +90,8 @@ static int check_film(const render_args *args) {
     if (!isnan(args->at) && (many || args->animate))
         return cli_fail(CLI_USE, NULL, "--at: It is one picture, and excludes --frames, --turntable and --animate.");
     if (args->exact && (!args->animate || args->turntable))
-        return cli_fail(CLI_USE, NULL, "--exact: It is for --animate from an eye that stands still.");
+        return cli_fail(CLI_USE, NULL,
+                        "--exact: It is for --animate from an eye that stands still, without --turntable.");
     if (isnan(args->at) && !args->animate && !many)
         return cli_fail(CLI_USE, args->tree.scene.path, "A moving model needs --at, --frames or --animate.");
     if (args->frames && args->turntable && args->frames != args->turntable)
@@ -96,11 +101,33 @@ static int check_film(const render_args *args) {
     return 0;
 }
 
+/* Exact films follow corners, and along parabolas only for parallel eyes. */
+static int prepare_exactly(film_run *r) {
+    const char *path = r->args->tree.scene.path;
+    const int code = cli_replace_bodies(path, r->motion, r->args->moving.deviation, &r->replaced, &r->reached);
+    const froe_motion *motion = r->replaced ? r->replaced : r->motion;
+    for (uint32_t v = 0; v < froe_motion_vertex_count(motion) && !code && !r->options->camera.parallel; v++)
+        for (size_t i = 0; i < froe_motion_knot_count(motion, v); i++)
+            if (!isnan(froe_motion_knot(motion, v, i).control[0]))
+                return cli_fail(CLI_USE, path,
+                                "--exact: What turns, or flies along parabolas, is followed for parallel eyes alone. "
+                                "Add --parallel.");
+    return code;
+}
+
+/* A call may fail because of the file that it writes, of the options, or else of the motion. */
+static int fail_to_draw(const render_args *args, froe_status status, const froe_diagnostic *diag) {
+    if (status == FROE_E_IO || status == FROE_E_OPTIONS || status == FROE_E_ARG)
+        return cli_output_fail(&args->output, status, diag);
+    return cli_fail_status(CLI_WORKING, args->tree.scene.path, status, diag);
+}
+
 static int draw(film_run *r) {
     const render_args *args = r->args;
     froe_diagnostic diag = {.message = "Out of memory."};
     render_fn *write = froe_render;
     int code = args->animate ? 0 : render_find_writer(args->output.path, &write);
+    if (!code && args->exact) code = prepare_exactly(r);
     if (code) return code;
     cli_progress bar = cli_progress_begin(&args->common, "looking");
     r->options->progress = cli_progress_step, r->options->user = &bar;
@@ -109,11 +136,11 @@ static int draw(film_run *r) {
     film.frames = (uint32_t)frames, film.turn = args->turntable > 0, film.exact = args->exact;
     if (!isnan(args->seconds)) film.seconds = args->seconds;
     const froe_status status = !isnan(args->at) ? draw_one(r, write, &diag)
-                               : args->animate
-                                   ? froe_film(r->motion, args->output.path, r->options, &film, &r->film, &diag)
-                                   : draw_frames(r, (size_t)frames, write, &diag);
+                               : args->animate  ? froe_film(r->replaced ? r->replaced : r->motion, args->output.path,
+                                                           r->options, &film, &r->film, &diag)
+                                                : draw_frames(r, (size_t)frames, write, &diag);
     cli_progress_end(&bar);
-    if (status) return cli_output_fail(&args->output, status, &diag);
+    if (status) return fail_to_draw(args, status, &diag);
     return cli_report(&args->common, NULL, report_film(r));
 }
 
@@ -140,6 +167,6 @@ int cli_render_moving(const render_args *args) {
     if (!code) code = draw(&r);
     render_release(&prepared);
     froe_scene_free(scene);
-    froe_motion_free(r.motion);
+    froe_motion_free(r.replaced), froe_motion_free(r.motion);
     return code;
 }

@@ -1,8 +1,8 @@
 /* follow.c: a motion followed event by event: the log of all, and the partition at one instant. */
 #include "motion/follow.h"
 #include "exit.h"
+#include "motion/bodies.h"
 #include "progress.h"
-#include <math.h>
 
 typedef struct walk {
     const cli_follow *asked;
@@ -89,35 +89,6 @@ static int follow(walk *w, const cli_common *common, froe_motion *motion, json_t
     return code;
 }
 
-/* The diagonal of the box around all vertices when the window begins. */
-static double size_of(const froe_motion *motion) {
-    double lo[3] = {0}, hi[3] = {0}, at[3], square = 0;
-    bool any = false;
-    for (uint32_t v = 0; v < froe_motion_vertex_count(motion); v++) {
-        if (!froe_motion_position(motion, v, froe_motion_window(motion).begin, at)) continue;
-        for (int k = 0; k < 3; k++) {
-            lo[k] = any && lo[k] < at[k] ? lo[k] : at[k];
-            hi[k] = any && hi[k] > at[k] ? hi[k] : at[k];
-        }
-        any = true;
-    }
-    for (int k = 0; k < 3; k++) square += (hi[k] - lo[k]) * (hi[k] - lo[k]);
-    return square > 0 ? sqrt(square) : 1;
-}
-
-/* Partitions follow vertices on parabolas. *out: those in place of bodies, to be freed, or NULL: there are none. */
-static int replace_bodies(const cli_follow *asked, const char *file, const froe_motion *motion, froe_motion **out,
-                          json_t *report) {
-    froe_diagnostic diag;
-    double reached;
-    const double share = isnan(asked->deviation) ? froe_motion_read_defaults().deviation : asked->deviation;
-    if (!froe_motion_body_count(motion)) return 0;
-    const froe_status status = froe_motion_without_bodies(motion, share * size_of(motion), NULL, out, &reached, &diag);
-    if (status) return cli_fail_status(CLI_WORKING, file, status, &diag);
-    json_object_set_new(report, "deviation", json_real(reached));
-    return 0;
-}
-
 int cli_follow_motion(const cli_common *common, const cli_follow *asked, const char *file, froe_motion *motion,
                       json_t **report) {
     froe_diagnostic diag;
@@ -131,7 +102,9 @@ int cli_follow_motion(const cli_common *common, const cli_follow *asked, const c
     if (status) return cli_fail_status(CLI_WRITING, asked->events, status, &diag);
     *report = json_object();
     froe_motion *replaced = NULL;
-    int code = replace_bodies(asked, file, motion, &replaced, *report);
+    double reached;
+    int code = cli_replace_bodies(file, motion, asked->deviation, &replaced, &reached);
+    if (replaced) json_object_set_new(*report, "deviation", json_real(reached));
     if (!code) code = follow(&w, common, replaced ? replaced : motion, *report);
     status = froe_event_writer_close(w.writer, code && !w.stopped ? FROE_E_CANCELLED : FROE_OK, &diag);
     froe_kinetic_free(w.kinetic);
