@@ -1,5 +1,5 @@
-/* space.c: the long run of what tests/kinetic/test_space.c and test_parabolas.c check: partitions of moving triangles of
- * all kinds, among them bodies that turn, each compared after every event with the tree of `cylindrical` and with one
+/* space.c: the long run of what tests/kinetic/test_space.c and test_parabolas.c check: partitions of moving
+ * triangles of all kinds, among them bodies that turn, each compared after every event with the tree of `cylindrical` and with one
  * made from scratch, certificates too.
  *
  *     bench_space [SEEDS [EVENTS [KIND]]]       default: 30 motions of each kind, up to 400 events each
@@ -7,7 +7,7 @@
  * Prints a line for each kind: triangles, events, comparisons, trees made anew as a whole, nodes touched an event, and
  * how many motions went wrong. Ends with 1 if any did. Ten minutes. */
 #include "bench.h"
-#include "kinetic/flights.h"
+#include "support/flights.h"
 
 typedef struct study {
     size_t triangles;

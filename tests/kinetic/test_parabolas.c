@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-#include "kinetic/flights.h"
+#include "support/flights.h"
 #include "support/memory.h"
 
 /* A triangle that belongs to no body. */

@@ -3,10 +3,10 @@
 #include "kinetic/changing.h"
 #include "support/found.h"
 
-#include "kinetic/flights.h"
 #include "kinetic/motions.h"
 #include "soak.h"
 #include "support/contacts.h"
+#include "support/flights.h"
 
 void soak_contacts(soak_block *block) {
     static motion_arrays arrays;

@@ -1,7 +1,7 @@
 /* flights.h: motions of rigid bodies that fly and turn, of many kinds, from integers; partitions follow them on
  * parabolas (froe_motion_without_bodies()). */
-#ifndef FROE_TESTS_KINETIC_FLIGHTS_H
-#define FROE_TESTS_KINETIC_FLIGHTS_H
+#ifndef FROE_TESTS_SUPPORT_FLIGHTS_H
+#define FROE_TESTS_SUPPORT_FLIGHTS_H
 #include "kinetic/space.h"
 #include <math.h>
 
