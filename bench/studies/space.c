@@ -1,6 +1,6 @@
-/* space.c: the long run of what tests/kinetic/test_space.c and test_parabolas.c check: partitions of moving
- * triangles of all kinds, among them bodies that turn, each compared after every event with the tree of `cylindrical` and with one
- * made from scratch, certificates too.
+/* space.c: the long run of what tests/kinetic/test_space.c and test_parabolas.c check: partitions of moving triangles
+ * of all kinds, among them bodies that turn, each compared after every event with the tree of `cylindrical` and with
+ * one made from scratch, certificates too.
  *
  *     bench_space [SEEDS [EVENTS [KIND]]]       default: 30 motions of each kind, up to 400 events each
  *
