@@ -94,19 +94,19 @@ static inline froe_motion *flight_new(const flight_kind *kind, uint64_t seed) {
     d->random.state = seed;
     w.dim = 3, w.begin = 0, w.end = SPACE_WINDOW, w.tick = 0x1p-16;
     if (froe_motion_new(&w, NULL, &m, NULL)) abort();
-    while (made < kind->count) {
+    for (int tries = 0; made < kind->count; tries++) {
         bool apart = true;
+        if (tries == 1000) tries = made = 0; /* there may be no room left */
         for (int k = 0; k < 3; k++) {
             ways[made][0][k] = fuzz_int(&d->random, 0, kind->grid);
             ways[made][1][k] = kind->still ? ways[made][0][k] : fuzz_int(&d->random, 0, kind->grid);
         }
         for (int i = 0; i < made; i++) /* in time they may be elsewhere on their ways */
             apart &= space_are_apart(ways[made][0], ways[made][1], ways[i][0], ways[i][1], 2.6 * FLIGHT_RADIUS);
-        if (!apart) continue;
-        const uint32_t body = flight_add(m, &d->random, kind, ways[made][0], ways[made][1]);
-        flight_add_faces(m, &d->random, kind, body);
-        made++;
+        made += apart;
     }
+    for (int i = 0; i < made; i++)
+        flight_add_faces(m, &d->random, kind, flight_add(m, &d->random, kind, ways[i][0], ways[i][1]));
     free(d);
     return m;
 }
