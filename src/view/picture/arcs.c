@@ -6,6 +6,12 @@
  * not count. */
 #include "view/picture/grid.h"
 #include "view/picture/parts.h"
+#include <math.h>
+
+/* Bounds on the page. */
+typedef struct arc_box {
+    float x0, y0, x1, y1;
+} arc_box;
 
 typedef struct finder {
     view_parts *parts;
@@ -14,6 +20,7 @@ typedef struct finder {
     view_grid grid;
     print_ring piece;
     view_ring own, ring;
+    arc_box *boxes;  /* per part */
     uint32_t *known; /* per node: the node + 1 that is known to come after it */
     uint64_t most, *tests;
 } finder;
@@ -47,6 +54,23 @@ static bool overlap_exactly(finder *f, uint32_t visible, const paint_part *part,
            (!ring_is_beyond(f->sights, a, a_count, b, b_count) && !ring_is_beyond(f->sights, b, b_count, a, a_count));
 }
 
+/* Bounds of points, widened by more than is unsure. */
+static arc_box box_of(const print_point *ring, size_t count, double unsure) {
+    double x0 = INFINITY, y0 = INFINITY, x1 = -INFINITY, y1 = -INFINITY;
+    for (size_t i = 0; i < count; i++) {
+        x0 = ring[i].x < x0 ? ring[i].x : x0, x1 = ring[i].x > x1 ? ring[i].x : x1;
+        y0 = ring[i].y < y0 ? ring[i].y : y0, y1 = ring[i].y > y1 ? ring[i].y : y1;
+    }
+    const float out = 0x1p-23f; /* more than rounding to a float moves a bound, in shares of itself */
+    const arc_box box = {(float)(x0 - unsure), (float)(y0 - unsure), (float)(x1 + unsure), (float)(y1 + unsure)};
+    return (arc_box){box.x0 - out * fabsf(box.x0), box.y0 - out * fabsf(box.y0), box.x1 + out * fabsf(box.x1),
+                     box.y1 + out * fabsf(box.y1)};
+}
+
+static bool boxes_meet(const arc_box *a, const arc_box *b) {
+    return a->x0 <= b->x1 && b->x0 <= a->x1 && a->y0 <= b->y1 && b->y0 <= a->y1;
+}
+
 /* ------------------------------------------------------------------------- arcs -- */
 
 /* Finds the arcs from parts that lie under a visible piece. */
@@ -57,8 +81,10 @@ static froe_status compare_piece(finder *f, uint32_t visible) {
     f->piece.count = 0;
     if (!view_print_visible(f->parts, visible, &f->piece)) return FROE_E_MEMORY;
     if (f->piece.count < 3) return FROE_OK;
+    const arc_box box = box_of(f->piece.data, f->piece.count, unsure);
     view_grid_walk walk = view_grid_begin(&f->grid, view_grid_cells(&f->grid, f->piece.data, f->piece.count, 0));
     for (uint32_t i; view_grid_next(&walk, &i);) {
+        if (!boxes_meet(&box, f->boxes + i)) continue;
         const paint_part *part = f->parts->parts.data + i;
         if (part->node == node || f->known[part->node] == node + 1) continue;
         if (f->parts->clear && part->place <= piece->place) continue;
@@ -87,11 +113,16 @@ froe_status view_find_arcs(view_parts *parts, view_sightlines *sights, uint64_t 
     finder f = {.parts = parts, .sights = sights, .arcs = arcs, .most = most, .tests = tests};
     const size_t part_count = parts->parts.count, node_count = parts->nodes.count;
     arcs->count = 0;
+    const double unsure = 1e-9 * (parts->view->width + parts->view->height);
     f.known = support_calloc(alloc, node_count + 1, sizeof *f.known);
-    froe_status status = f.known ? FROE_OK : FROE_E_MEMORY;
+    f.boxes = support_calloc(alloc, part_count + 1, sizeof *f.boxes);
+    froe_status status = f.known && f.boxes ? FROE_OK : FROE_E_MEMORY;
+    for (size_t i = 0; i < part_count && !status; i++)
+        f.boxes[i] = box_of(parts->points.data + parts->parts.data[i].first, parts->parts.data[i].count, unsure);
     if (!status) status = view_grid_new(alloc, parts->view, part_count, arc_points, parts, &f.grid);
     for (uint32_t i = 0; i < parts->v->piece_count && !status; i++) status = compare_piece(&f, i);
     support_free(alloc, f.known, (node_count + 1) * sizeof *f.known);
+    support_free(alloc, f.boxes, (part_count + 1) * sizeof *f.boxes);
     view_grid_free(alloc, &f.grid);
     array_free(alloc, &f.piece);
     array_free(alloc, &f.own);

@@ -80,21 +80,22 @@ static bool find_detour(view_outliner *o, uint32_t patch, uint32_t side, outline
     const print_point a = page_of(o, o->starts.data[side]), b = page_of(o, s->to);
     print_point c;
     double height;
-    bool bare;
+    bool beside, hidden;
     out->count = 0;
     if (object != FROE_NONE && apex(o, object, a, b, &c, &height)) {
         *out = detour_by(o, a, b, c, height);
         return true;
     }
     if (!o->seams) return true;
-    if (!view_seams_look(o->seams, o->node, a, b, &bare)) return false;
-    if (!bare || !apex(o, s->object, b, a, &c, &height)) return true;
+    if (!view_seams_look(o->seams, o->node, a, b, &beside)) return false;
+    if (beside || !apex(o, s->object, b, a, &c, &height)) return true;
     /* The side is drawn short where the patch is hidden and what hides it ends at the same side; see seams.h. */
     const outline_detour d = detour_by(o, a, b, c, height);
     const print_point ring[4] = {a, b, d.at[d.count - 1], d.at[0]};
-    bool hidden;
+    bool ends = false;
     if (!view_seams_hidden(o->seams, o->node, ring, 2 + d.count, &hidden)) return false;
-    if (hidden) *out = d;
+    if (hidden && !view_seams_end(o->seams, o->node, a, b, &ends)) return false;
+    if (ends) *out = d;
     return true;
 }
 
@@ -103,14 +104,14 @@ static bool find_detour(view_outliner *o, uint32_t patch, uint32_t side, outline
 /* Appends the ring: with its detours, or cut where a vertex is out of sight or too far away. */
 static bool put_ring(view_outliner *o, uint32_t patch, print_ring *points, print_ends *ends) {
     const size_t first = points->count, n = o->ring.count;
-    bool cut, bare;
+    bool cut, beside;
     print_begin(&o->press);
     for (size_t i = 0; i < n; i++)
         if (!print_add(&o->press, view_vertex(o->sights, o->starts.data[o->ring.data[i]]))) return false;
     if (!print_end(&o->press, points, &cut)) return false;
     const print_point *at = points->data + first;
     for (size_t i = 0, m = points->count - first; cut && o->seams && i < m; i++) /* strips along what is left */
-        if (!view_seams_look(o->seams, o->node, at[i], at[i + 1 < m ? i + 1 : 0], &bare)) return false;
+        if (!view_seams_look(o->seams, o->node, at[i], at[i + 1 < m ? i + 1 : 0], &beside)) return false;
     if (!cut) {
         points->count = first;
         o->detours.count = 0;

@@ -52,9 +52,9 @@ static bool end_ring(froe_picture *picture, size_t first) {
 static bool look_along(view_painter *p, uint32_t node, size_t first) {
     const print_point *ring = p->picture->points.data + first;
     const size_t n = p->picture->points.count - first;
-    bool bare;
+    bool beside;
     for (size_t i = 0; p->seams.parts && i < n; i++)
-        if (!view_seams_look(&p->seams, node, ring[i], ring[i + 1 < n ? i + 1 : 0], &bare)) return false;
+        if (!view_seams_look(&p->seams, node, ring[i], ring[i + 1 < n ? i + 1 : 0], &beside)) return false;
     return true;
 }
 

@@ -3,6 +3,9 @@
 #include "base/sort.h"
 #include "support/clip.h"
 #include <math.h>
+#include <string.h>
+
+#define MARGIN 0.02 /* widths: rings that overlap by less only touch */
 
 /* ----------------------------------------------------------------- begin, end -- */
 
@@ -20,7 +23,8 @@ froe_status view_seams_new(view_seams *s, view_parts *parts, const uint32_t *ord
     *s = (view_seams){.parts = parts, .clear = clear, .width = width};
     s->place = support_calloc(alloc, n + 1, sizeof *s->place);
     s->run = support_calloc(alloc, n + 1, sizeof *s->run);
-    if (!s->place || !s->run || !array_reserve(alloc, &s->pieces, parts->v->piece_count)) return FROE_E_MEMORY;
+    s->marks = support_calloc(alloc, n + 1, sizeof *s->marks);
+    if (!s->place || !s->run || !s->marks || !array_reserve(alloc, &s->pieces, parts->v->piece_count)) return FROE_E_MEMORY;
     for (uint32_t i = 0; i < n; i++) {
         const uint32_t patch = parts->nodes.data[order[i]].patch, style = styles ? styles[patch] : 0;
         run += style != last || (breaks && breaks[i]);
@@ -42,10 +46,12 @@ void view_seams_free(view_seams *s) {
     const froe_allocator *alloc = &s->parts->v->alloc;
     support_free(alloc, s->place, (s->parts->nodes.count + 1) * sizeof *s->place);
     support_free(alloc, s->run, (s->parts->nodes.count + 1) * sizeof *s->run);
+    support_free(alloc, s->marks, (s->parts->nodes.count + 1) * sizeof *s->marks);
     view_grid_free(alloc, &s->grid);
     array_free(alloc, &s->points);
     array_free(alloc, &s->pieces);
     array_free(alloc, &s->near);
+    array_free(alloc, &s->own);
     array_free(alloc, &s->inside);
     array_free(alloc, &s->beyond);
     array_free(alloc, &s->order);
@@ -104,32 +110,29 @@ static bool list_near(view_seams *s, view_grid_walk walk) {
     return true;
 }
 
-/* Drops pieces that lie wholly beside what is looked at along ab: `left` of it to `right` of it. */
-static void drop_far(view_seams *s, print_point a, print_point b, double left, double right) {
-    const double dx = b.x - a.x, dy = b.y - a.y, slack = 1 + 1e-6, length = sqrt(dx * dx + dy * dy) * slack;
-    size_t kept = 0;
-    for (size_t i = 0; i < s->near.count; i++) {
-        const seam_span span = s->pieces.data[s->near.data[i]];
-        double lo = INFINITY, hi = -INFINITY; /* to the right: y points down */
-        for (size_t k = span.first; k < span.first + span.count; k++) {
-            const double at = dx * (s->points.data[k].y - a.y) - dy * (s->points.data[k].x - a.x);
-            lo = at < lo ? at : lo, hi = at > hi ? at : hi;
-        }
-        if (lo <= right * length && hi >= -left * length) s->near.data[kept++] = s->near.data[i];
-    }
-    s->near.count = kept;
+/* Lists what is visible of a node: all of it where that is little, else what a walk finds. */
+static bool list_own(view_seams *s, uint32_t node, view_grid_walk walk) {
+    enum { FEW = 32 };
+    const froe_visibility *v = s->parts->v;
+    const uint32_t patch = s->parts->nodes.data[node].patch, first = v->patch_starts[patch],
+                   end = v->patch_starts[patch + 1];
+    const bool few = end - first <= FEW;
+    s->own.count = 0;
+    for (uint32_t i = first, at = first; few ? at < end : view_grid_next(&walk, &i); i = few ? ++at : i)
+        if (s->parts->node_of[i] == node && !array_push(&v->alloc, &s->own, i)) return false;
+    return true;
 }
 
 static bool ring_meets_visible(const view_seams *s, uint32_t visible, const print_point *ring, size_t count) {
     const seam_span span = s->pieces.data[visible];
-    return span.count > 2 && print_overlap(s->points.data + span.first, span.count, ring, count, 0.02 * s->width);
+    return span.count > 2 && print_overlap(s->points.data + span.first, span.count, ring, count, MARGIN * s->width);
 }
 
-static bool any_of_node(const view_seams *s, uint32_t node, const print_point *ring, size_t count) {
-    for (size_t i = 0; i < s->near.count; i++)
-        if (s->parts->node_of[s->near.data[i]] == node && ring_meets_visible(s, s->near.data[i], ring, count))
-            return true;
-    return false;
+/* Does a piece of the list `own` meet a convex ring? */
+static bool own_meets(const view_seams *s, const print_point *ring, size_t count) {
+    bool meets = false;
+    for (size_t i = 0; i < s->own.count && !meets; i++) meets = ring_meets_visible(s, s->own.data[i], ring, count);
+    return meets;
 }
 
 /* Is it painted later than the node, in another path, and opaque? */
@@ -206,18 +209,41 @@ static bool put_strip(view_seams *s, uint32_t node, print_point a, print_point b
     return true;
 }
 
-/* Where the node is visible inside ab and something later beyond it. */
+/* Drops near pieces that do not cover the node, or lie wholly beside the strip beyond ab. */
+static void drop_far(view_seams *s, uint32_t node, print_point a, print_point b) {
+    const double dx = b.x - a.x, dy = b.y - a.y, slack = 1 + 1e-6, length = sqrt(dx * dx + dy * dy) * slack;
+    size_t kept = 0;
+    for (size_t i = 0; i < s->near.count; i++) {
+        const seam_span span = s->pieces.data[s->near.data[i]];
+        double lo = INFINITY, hi = -INFINITY; /* to the right: y points down */
+        for (size_t k = span.first; k < span.first + span.count; k++) {
+            const double at = dx * (s->points.data[k].y - a.y) - dy * (s->points.data[k].x - a.x);
+            lo = at < lo ? at : lo, hi = at > hi ? at : hi;
+        }
+        const bool beyond = lo <= s->width * length && hi >= 0;
+        if (beyond && covers(s, s->near.data[i], node)) s->near.data[kept++] = s->near.data[i];
+    }
+    s->near.count = kept;
+}
+
+/* Where the node is visible inside ab, by the list `own`, and something later beyond it. */
 static bool put_strips(view_seams *s, uint32_t node, print_point a, print_point b) {
     print_point inner[4], outer[4];
     s->inside.count = s->beyond.count = 0;
     make_strip(a, b, -0.1 * s->width, inner);
     make_strip(a, b, 0.1 * s->width, outer);
-    for (size_t i = 0; i < s->near.count; i++) {
-        const uint32_t visible = s->near.data[i];
-        if (s->parts->node_of[visible] == node && !add_range(s, &s->inside, visible, inner, a, b)) return false;
-        if (covers(s, visible, node) && !add_range(s, &s->beyond, visible, outer, a, b)) return false;
-    }
-    if (!s->beyond.count || !join_ranges(s, &s->inside) || !join_ranges(s, &s->beyond)) return s->beyond.count == 0;
+    for (size_t i = 0; i < s->own.count; i++)
+        if (!add_range(s, &s->inside, s->own.data[i], inner, a, b)) return false;
+    if (!s->inside.count) return true;
+    if (!join_ranges(s, &s->inside)) return false;
+    const double dx = b.x - a.x, dy = b.y - a.y, first = s->inside.data[0].from,
+                 last = s->inside.data[s->inside.count - 1].to;
+    const print_point u = {a.x + first * dx, a.y + first * dy}, v = {a.x + last * dx, a.y + last * dy};
+    if (!list_near(s, view_grid_along(&s->grid, u, v, s->width))) return false;
+    drop_far(s, node, a, b);
+    for (size_t i = 0; i < s->near.count; i++)
+        if (!add_range(s, &s->beyond, s->near.data[i], outer, a, b)) return false;
+    if (!join_ranges(s, &s->beyond)) return false;
     for (size_t i = 0, j = 0; i < s->inside.count && j < s->beyond.count;) {
         const seam_range p = s->inside.data[i], q = s->beyond.data[j];
         const double from = fmax(p.from, q.from), to = fmin(p.to, q.to);
@@ -230,28 +256,89 @@ static bool put_strips(view_seams *s, uint32_t node, print_point a, print_point 
     return true;
 }
 
-bool view_seams_look(view_seams *s, uint32_t node, print_point a, print_point b, bool *bare) {
-    print_point inner[4], outer[4];
-    *bare = false;
+bool view_seams_look(view_seams *s, uint32_t node, print_point a, print_point b, bool *beside) {
+    print_point inner[4];
+    *beside = false;
     if (a.x == b.x && a.y == b.y) return true;
     make_strip(a, b, -0.5 * s->width, inner);
-    make_strip(a, b, s->width, outer);
-    if (!list_near(s, view_grid_along(&s->grid, a, b, s->width))) return false;
-    drop_far(s, a, b, 0.5 * s->width, s->width);
-    if (any_of_node(s, node, inner, 4)) return put_strips(s, node, a, b);
+    if (!list_own(s, node, view_grid_along(&s->grid, a, b, s->width))) return false;
+    *beside = own_meets(s, inner, 4);
+    return !*beside || put_strips(s, node, a, b);
+}
+
+/* ----------------------------------------------------------------------- trims -- */
+
+/* Does a ring meet a strip? A corner deep within the strip, or none on its side, decides most; else print_overlap(). */
+enum { MEETS_NOT, MEETS_MAYBE, MEETS };
+
+/* Of the strips inside and beyond ab. */
+typedef struct seam_place {
+    int inside, beyond;
+} seam_place;
+
+static seam_place place_beside(const view_seams *s, uint32_t visible, print_point a, print_point b) {
+    const seam_span span = s->pieces.data[visible];
+    const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy, length = sqrt(square),
+                 wide = 0.5 * s->width * length, deep = MARGIN * s->width * length * (1 + 1e-6),
+                 little = MARGIN * s->width * length * (1 - 1e-6);
+    double lo = INFINITY, hi = -INFINITY, first = INFINITY, last = -INFINITY;
+    seam_place out = {MEETS_MAYBE, MEETS_MAYBE};
+    if (span.count < 3) return (seam_place){MEETS_NOT, MEETS_NOT};
+    for (size_t k = span.first; k < span.first + span.count; k++) {
+        const double x = s->points.data[k].x - a.x, y = s->points.data[k].y - a.y, along = dx * x + dy * y,
+                     right = dx * y - dy * x; /* y points down */
+        lo = right < lo ? right : lo, hi = right > hi ? right : hi;
+        first = along < first ? along : first, last = along > last ? along : last;
+        if (along <= deep || along >= square - deep) continue;
+        if (right < -deep && right > deep - wide) out.inside = MEETS;
+        if (right > deep && right < wide - deep) out.beyond = MEETS;
+    }
+    const bool aside = last < little || first > square - little;
+    if (aside || lo > -little || hi < little - wide) out.inside = MEETS_NOT;
+    if (aside || hi < little || lo > wide - little) out.beyond = MEETS_NOT;
+    return out;
+}
+
+static bool meets_strip(const view_seams *s, uint32_t visible, int meets, const print_point strip[4]) {
+    return meets == MEETS_MAYBE ? ring_meets_visible(s, visible, strip, 4) : meets == MEETS;
+}
+
+/* A number that no mark of a node has yet. */
+static uint32_t begin_marks(view_seams *s) {
+    if (!++s->marked) { /* after 2^32 of them */
+        memset(s->marks, 0, s->parts->nodes.count * sizeof *s->marks);
+        s->marked = 1;
+    }
+    return s->marked;
+}
+
+bool view_seams_end(view_seams *s, uint32_t node, print_point a, print_point b, bool *ends) {
+    print_point inner[4], outer[4];
+    size_t inside = 0; /* so many near pieces may be visible inside */
+    *ends = false;
+    if (a.x == b.x && a.y == b.y) return true;
+    make_strip(a, b, -0.5 * s->width, inner);
     make_strip(a, b, 0.5 * s->width, outer);
-    /* Does something that is painted later end at the side: visible inside, but not beyond? */
-    for (size_t i = 0; i < s->near.count && !*bare; i++) {
+    if (!list_near(s, view_grid_along(&s->grid, a, b, 0.5 * s->width))) return false;
+    const uint32_t mark = begin_marks(s); /* of nodes that are visible beyond */
+    for (size_t i = 0; i < s->near.count; i++) {
+        const uint32_t visible = s->near.data[i], other = s->parts->node_of[visible];
+        const seam_place at = place_beside(s, visible, a, b);
+        if (at.beyond && s->marks[other] != mark && meets_strip(s, visible, at.beyond, outer))
+            s->marks[other] = mark;
+        if (at.inside && s->marks[other] != mark) s->near.data[inside++] = visible;
+    }
+    for (size_t i = 0; i < inside && !*ends; i++) {
         const uint32_t visible = s->near.data[i];
-        *bare = covers(s, visible, node) && ring_meets_visible(s, visible, inner, 4) &&
-                !any_of_node(s, s->parts->node_of[visible], outer, 4);
+        *ends = s->marks[s->parts->node_of[visible]] != mark && covers(s, visible, node) &&
+                ring_meets_visible(s, visible, inner, 4);
     }
     return true;
 }
 
 bool view_seams_hidden(view_seams *s, uint32_t node, const print_point *ring, size_t count, bool *hidden) {
-    if (!list_near(s, view_grid_begin(&s->grid, view_grid_cells(&s->grid, ring, count, 0)))) return false;
-    *hidden = !any_of_node(s, node, ring, count);
+    if (!list_own(s, node, view_grid_begin(&s->grid, view_grid_cells(&s->grid, ring, count, 0)))) return false;
+    *hidden = !own_meets(s, ring, count);
     return true;
 }
 

@@ -39,7 +39,9 @@ typedef struct view_seams {
     print_ring points;          /**< of all visible pieces */
     ARRAY(seam_span) pieces;    /**< per visible piece */
     view_grid grid;             /**< of them */
+    uint32_t *marks, marked;    /**< per node; the last number that is one */
     ARRAY(uint32_t) near;       /**< pieces near a side */
+    ARRAY(uint32_t) own;        /**< pieces of its node */
     seam_ranges inside, beyond; /**< of the side: where its node is visible inside; where something later is beyond */
     ARRAY(uint32_t) order;      /**< for sorting those */
     print_ring extra;           /**< strips of the shape in the making */
@@ -52,9 +54,11 @@ typedef struct view_seams {
 froe_status view_seams_new(view_seams *seams, view_parts *parts, const uint32_t *order, const uint8_t *breaks,
                            const uint32_t *styles, const uint8_t *clear, double width);
 void view_seams_free(view_seams *seams);
-/** Looks along a side of a node's shape, which lies on its left as the eye sees it. Where the node is visible beside
- * it, strips are added; *bare: it is not, and what is visible there ends at the side as well. False without memory. */
-bool view_seams_look(view_seams *seams, uint32_t node, print_point a, print_point b, bool *bare);
+/** Looks along a side of a node's shape, which lies on its left as the eye sees it. *beside: the node is visible inside;
+ * then strips are added. False without memory. */
+bool view_seams_look(view_seams *seams, uint32_t node, print_point a, print_point b, bool *beside);
+/** *ends: what is visible inside a side and painted later than the node ends there as well. False without memory. */
+bool view_seams_end(view_seams *seams, uint32_t node, print_point a, print_point b, bool *ends);
 /** *hidden: nothing is visible of a node in a convex ring, turning left. False without memory. */
 bool view_seams_hidden(view_seams *seams, uint32_t node, const print_point *ring, size_t count, bool *hidden);
 /** Appends the strips found since, as rings. False without memory. */
