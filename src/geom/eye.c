@@ -2,6 +2,7 @@
 #include "geom/eye.h"
 #include "geom/formulas.h"
 #include "geom/predicates.h"
+#include "num/pair.h"
 #include <string.h>
 
 #include "num/ball_terms.inc"
@@ -163,8 +164,30 @@ void geom_meeting_round(num_context *context, const geom_eye *eye, const geom_li
     (void)round_vector(arena, ray, out);
 }
 
+/* The share where an EDGE through p and q, seen from a point, meets uv, if pairs of doubles can tell how it is to be
+ * rounded. With sizes as sums of coordinates, a product of three vectors is off by less than 2^-96 of theirs. */
+static bool round_share(const geom_eye *eye, const geom_line *line, const double *u, const double *v, double *out) {
+    num_pair ray[4][3], n[3];
+    const double *const points[4] = {line->u, line->v, u, v};
+    double size[4];
+    if (eye->parallel || line->kind != GEOM_SIGHT_EDGE) return false;
+    for (int i = 0; i < 4; i++) {
+        size[i] = num_pair_between(points[i], eye->at, ray[i]);
+        if (!(size[i] > 0x1p-100 && size[i] < 0x1p200)) return false;
+    }
+    num_pair_cross(ray[0], ray[1], n);
+    const num_pair top = num_pair_dot(n, ray[2]), bottom = num_pair_sub(top, num_pair_dot(n, ray[3])),
+                   t = num_pair_div(top, bottom);
+    const double low = fabs(bottom.hi);
+    const double error = 0x1p-94 * size[0] * size[1] * (size[2] + size[3]) / low + 0x1p-96 * t.hi;
+    *out = t.hi + (t.lo - error);
+    return *out == t.hi + (t.lo + error) && t.hi > 0x1p-200 && t.hi < 2 && low > 0x1p-600;
+}
+
 double geom_share_round(num_context *context, const geom_eye *eye, const geom_line *line, const double *u,
                         const double *v) {
+    double rounded;
+    if (context->first < NUM_EXACT && round_share(eye, line, u, v, &rounded)) return rounded;
     num_arena *arena = num_fresh(context);
     num_dyadic at_u = line_at_point_dyadic(arena, eye, line, u), at_v = line_at_point_dyadic(arena, eye, line, v);
     return num_dyadic_quotient(arena, at_u, num_dyadic_sub(arena, at_u, at_v));

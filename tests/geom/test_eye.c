@@ -5,6 +5,7 @@
 #include "geom/eye.h"
 #include "geom/sides.h"
 #include <stdlib.h>
+#include <string.h>
 
 enum { TRIALS = 60 };
 
@@ -365,6 +366,21 @@ static void try_lines(fixture *f, int kind) {
     free_lines(&l);
 }
 
+/* The share at which a line meets a segment is the same, to the last bit, from pairs of doubles as from exact numbers.
+ */
+static void try_share(fixture *f, int kind) {
+    const double *u = point(f, 8), *v = point(f, 10);
+    const geom_line line = {.u = point(f, 4), .v = point(f, 6)};
+    f->context.first = NUM_EXACT;
+    if (geom_line_side_point(&f->context, &f->eye, &line, u) * geom_line_side_point(&f->context, &f->eye, &line, v) >=
+        0)
+        return;
+    const double exact = geom_share_round(&f->context, &f->eye, &line, u, v);
+    f->context.first = NUM_FILTER;
+    const double quick = geom_share_round(&f->context, &f->eye, &line, u, v);
+    expect(f, 0, memcmp(&exact, &quick, sizeof exact), "a share", kind);
+}
+
 static void run(fixture *f, bool parallel) {
     for (int kind = 0; kind < FUZZ_CLASSES; kind++) {
         fuzz_source r = {(uint64_t)(2 * kind + parallel)};
@@ -375,6 +391,7 @@ static void run(fixture *f, bool parallel) {
             try_meeting(f, kind, i % 16);
             try_stop(f, kind);
             try_lines(f, kind);
+            try_share(f, kind);
         }
     }
 }

@@ -3,9 +3,6 @@
 #include "base/sort.h"
 #include "support/clip.h"
 #include <math.h>
-#include <string.h>
-
-#define MARGIN 0.02 /* widths: rings that overlap by less only touch */
 
 /* ----------------------------------------------------------------- begin, end -- */
 
@@ -24,7 +21,8 @@ froe_status view_seams_new(view_seams *s, view_parts *parts, const uint32_t *ord
     s->place = support_calloc(alloc, n + 1, sizeof *s->place);
     s->run = support_calloc(alloc, n + 1, sizeof *s->run);
     s->marks = support_calloc(alloc, n + 1, sizeof *s->marks);
-    if (!s->place || !s->run || !s->marks || !array_reserve(alloc, &s->pieces, parts->v->piece_count)) return FROE_E_MEMORY;
+    if (!s->place || !s->run || !s->marks || !array_reserve(alloc, &s->pieces, parts->v->piece_count))
+        return FROE_E_MEMORY;
     for (uint32_t i = 0; i < n; i++) {
         const uint32_t patch = parts->nodes.data[order[i]].patch, style = styles ? styles[patch] : 0;
         run += style != last || (breaks && breaks[i]);
@@ -91,8 +89,7 @@ static bool clip_piece(view_seams *s, uint32_t visible, const print_point ring[4
 
 /* -------------------------------------------------------------------- looking -- */
 
-/* A strip of some width on the right of ab (on its left: negative), turning left. */
-static void make_strip(print_point a, print_point b, double width, print_point out[4]) {
+void view_make_strip(print_point a, print_point b, double width, print_point out[4]) {
     const double dx = b.x - a.x, dy = b.y - a.y, length = sqrt(dx * dx + dy * dy);
     const double x = -dy / length * width, y = dx / length * width; /* to the right: y points down */
     const bool right = width > 0;
@@ -102,16 +99,14 @@ static void make_strip(print_point a, print_point b, double width, print_point o
     out[3] = (print_point){out[0].x + x, out[0].y + y};
 }
 
-/* Pieces that a walk finds. */
-static bool list_near(view_seams *s, view_grid_walk walk) {
+bool view_seams_near(view_seams *s, view_grid_walk walk) {
     s->near.count = 0;
     for (uint32_t i; view_grid_next(&walk, &i);)
         if (!array_push(&s->parts->v->alloc, &s->near, i)) return false;
     return true;
 }
 
-/* Lists what is visible of a node: all of it where that is little, else what a walk finds. */
-static bool list_own(view_seams *s, uint32_t node, view_grid_walk walk) {
+bool view_seams_own(view_seams *s, uint32_t node, view_grid_walk walk) {
     enum { FEW = 32 };
     const froe_visibility *v = s->parts->v;
     const uint32_t patch = s->parts->nodes.data[node].patch, first = v->patch_starts[patch],
@@ -123,20 +118,19 @@ static bool list_own(view_seams *s, uint32_t node, view_grid_walk walk) {
     return true;
 }
 
-static bool ring_meets_visible(const view_seams *s, uint32_t visible, const print_point *ring, size_t count) {
+bool view_seam_meets(const view_seams *s, uint32_t visible, const print_point *ring, size_t count) {
     const seam_span span = s->pieces.data[visible];
-    return span.count > 2 && print_overlap(s->points.data + span.first, span.count, ring, count, MARGIN * s->width);
+    return span.count > 2 &&
+           print_overlap(s->points.data + span.first, span.count, ring, count, SEAM_MARGIN * s->width);
 }
 
-/* Does a piece of the list `own` meet a convex ring? */
-static bool own_meets(const view_seams *s, const print_point *ring, size_t count) {
+bool view_own_meets(const view_seams *s, const print_point *ring, size_t count) {
     bool meets = false;
-    for (size_t i = 0; i < s->own.count && !meets; i++) meets = ring_meets_visible(s, s->own.data[i], ring, count);
+    for (size_t i = 0; i < s->own.count && !meets; i++) meets = view_seam_meets(s, s->own.data[i], ring, count);
     return meets;
 }
 
-/* Is it painted later than the node, in another path, and opaque? */
-static bool covers(const view_seams *s, uint32_t visible, uint32_t node) {
+bool view_seam_covers(const view_seams *s, uint32_t visible, uint32_t node) {
     const uint32_t other = s->parts->node_of[visible];
     return s->place[other] > s->place[node] && s->run[other] != s->run[node] &&
            !(s->clear && s->clear[s->parts->v->pieces[visible].patch]);
@@ -196,7 +190,7 @@ static bool put_strip(view_seams *s, uint32_t node, print_point a, print_point b
             v, u, {u.x - y + 0.4 * x, u.y + x + 0.4 * y}, {v.x - y - 0.4 * x, v.y + x - 0.4 * y}};
         double covered = 0; /* by pieces that are painted later, which do not overlap */
         for (size_t i = 0; i < s->near.count; i++) {
-            if (!covers(s, s->near.data[i], node)) continue;
+            if (!view_seam_covers(s, s->near.data[i], node)) continue;
             if (!clip_piece(s, s->near.data[i], strip)) return false;
             covered += s->clip[0].count < 3 ? 0 : print_area(s->clip[0].data, s->clip[0].count);
         }
@@ -221,7 +215,7 @@ static void drop_far(view_seams *s, uint32_t node, print_point a, print_point b)
             lo = at < lo ? at : lo, hi = at > hi ? at : hi;
         }
         const bool beyond = lo <= s->width * length && hi >= 0;
-        if (beyond && covers(s, s->near.data[i], node)) s->near.data[kept++] = s->near.data[i];
+        if (beyond && view_seam_covers(s, s->near.data[i], node)) s->near.data[kept++] = s->near.data[i];
     }
     s->near.count = kept;
 }
@@ -230,8 +224,8 @@ static void drop_far(view_seams *s, uint32_t node, print_point a, print_point b)
 static bool put_strips(view_seams *s, uint32_t node, print_point a, print_point b) {
     print_point inner[4], outer[4];
     s->inside.count = s->beyond.count = 0;
-    make_strip(a, b, -0.1 * s->width, inner);
-    make_strip(a, b, 0.1 * s->width, outer);
+    view_make_strip(a, b, -0.1 * s->width, inner);
+    view_make_strip(a, b, 0.1 * s->width, outer);
     for (size_t i = 0; i < s->own.count; i++)
         if (!add_range(s, &s->inside, s->own.data[i], inner, a, b)) return false;
     if (!s->inside.count) return true;
@@ -239,7 +233,7 @@ static bool put_strips(view_seams *s, uint32_t node, print_point a, print_point 
     const double dx = b.x - a.x, dy = b.y - a.y, first = s->inside.data[0].from,
                  last = s->inside.data[s->inside.count - 1].to;
     const print_point u = {a.x + first * dx, a.y + first * dy}, v = {a.x + last * dx, a.y + last * dy};
-    if (!list_near(s, view_grid_along(&s->grid, u, v, s->width))) return false;
+    if (!view_seams_near(s, view_grid_along(&s->grid, u, v, s->width))) return false;
     drop_far(s, node, a, b);
     for (size_t i = 0; i < s->near.count; i++)
         if (!add_range(s, &s->beyond, s->near.data[i], outer, a, b)) return false;
@@ -260,86 +254,10 @@ bool view_seams_look(view_seams *s, uint32_t node, print_point a, print_point b,
     print_point inner[4];
     *beside = false;
     if (a.x == b.x && a.y == b.y) return true;
-    make_strip(a, b, -0.5 * s->width, inner);
-    if (!list_own(s, node, view_grid_along(&s->grid, a, b, s->width))) return false;
-    *beside = own_meets(s, inner, 4);
+    view_make_strip(a, b, -0.5 * s->width, inner);
+    if (!view_seams_own(s, node, view_grid_along(&s->grid, a, b, s->width))) return false;
+    *beside = view_own_meets(s, inner, 4);
     return !*beside || put_strips(s, node, a, b);
-}
-
-/* ----------------------------------------------------------------------- trims -- */
-
-/* Does a ring meet a strip? A corner deep within the strip, or none on its side, decides most; else print_overlap(). */
-enum { MEETS_NOT, MEETS_MAYBE, MEETS };
-
-/* Of the strips inside and beyond ab. */
-typedef struct seam_place {
-    int inside, beyond;
-} seam_place;
-
-static seam_place place_beside(const view_seams *s, uint32_t visible, print_point a, print_point b) {
-    const seam_span span = s->pieces.data[visible];
-    const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy, length = sqrt(square),
-                 wide = 0.5 * s->width * length, deep = MARGIN * s->width * length * (1 + 1e-6),
-                 little = MARGIN * s->width * length * (1 - 1e-6);
-    double lo = INFINITY, hi = -INFINITY, first = INFINITY, last = -INFINITY;
-    seam_place out = {MEETS_MAYBE, MEETS_MAYBE};
-    if (span.count < 3) return (seam_place){MEETS_NOT, MEETS_NOT};
-    for (size_t k = span.first; k < span.first + span.count; k++) {
-        const double x = s->points.data[k].x - a.x, y = s->points.data[k].y - a.y, along = dx * x + dy * y,
-                     right = dx * y - dy * x; /* y points down */
-        lo = right < lo ? right : lo, hi = right > hi ? right : hi;
-        first = along < first ? along : first, last = along > last ? along : last;
-        if (along <= deep || along >= square - deep) continue;
-        if (right < -deep && right > deep - wide) out.inside = MEETS;
-        if (right > deep && right < wide - deep) out.beyond = MEETS;
-    }
-    const bool aside = last < little || first > square - little;
-    if (aside || lo > -little || hi < little - wide) out.inside = MEETS_NOT;
-    if (aside || hi < little || lo > wide - little) out.beyond = MEETS_NOT;
-    return out;
-}
-
-static bool meets_strip(const view_seams *s, uint32_t visible, int meets, const print_point strip[4]) {
-    return meets == MEETS_MAYBE ? ring_meets_visible(s, visible, strip, 4) : meets == MEETS;
-}
-
-/* A number that no mark of a node has yet. */
-static uint32_t begin_marks(view_seams *s) {
-    if (!++s->marked) { /* after 2^32 of them */
-        memset(s->marks, 0, s->parts->nodes.count * sizeof *s->marks);
-        s->marked = 1;
-    }
-    return s->marked;
-}
-
-bool view_seams_end(view_seams *s, uint32_t node, print_point a, print_point b, bool *ends) {
-    print_point inner[4], outer[4];
-    size_t inside = 0; /* so many near pieces may be visible inside */
-    *ends = false;
-    if (a.x == b.x && a.y == b.y) return true;
-    make_strip(a, b, -0.5 * s->width, inner);
-    make_strip(a, b, 0.5 * s->width, outer);
-    if (!list_near(s, view_grid_along(&s->grid, a, b, 0.5 * s->width))) return false;
-    const uint32_t mark = begin_marks(s); /* of nodes that are visible beyond */
-    for (size_t i = 0; i < s->near.count; i++) {
-        const uint32_t visible = s->near.data[i], other = s->parts->node_of[visible];
-        const seam_place at = place_beside(s, visible, a, b);
-        if (at.beyond && s->marks[other] != mark && meets_strip(s, visible, at.beyond, outer))
-            s->marks[other] = mark;
-        if (at.inside && s->marks[other] != mark) s->near.data[inside++] = visible;
-    }
-    for (size_t i = 0; i < inside && !*ends; i++) {
-        const uint32_t visible = s->near.data[i];
-        *ends = s->marks[s->parts->node_of[visible]] != mark && covers(s, visible, node) &&
-                ring_meets_visible(s, visible, inner, 4);
-    }
-    return true;
-}
-
-bool view_seams_hidden(view_seams *s, uint32_t node, const print_point *ring, size_t count, bool *hidden) {
-    if (!list_own(s, node, view_grid_begin(&s->grid, view_grid_cells(&s->grid, ring, count, 0)))) return false;
-    *hidden = !own_meets(s, ring, count);
-    return true;
 }
 
 bool view_seams_flush(view_seams *s, print_ring *points, print_ends *ends) {

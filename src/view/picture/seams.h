@@ -14,6 +14,8 @@
  *
  *        |::::: A, hidden by B     trim: the dotted part is left out
  *        |::::: B
+ *
+ * It speaks for seams.c (strips) and trims.c.
  */
 #ifndef FROE_VIEW_PICTURE_SEAMS_H
 #define FROE_VIEW_PICTURE_SEAMS_H
@@ -54,8 +56,8 @@ typedef struct view_seams {
 froe_status view_seams_new(view_seams *seams, view_parts *parts, const uint32_t *order, const uint8_t *breaks,
                            const uint32_t *styles, const uint8_t *clear, double width);
 void view_seams_free(view_seams *seams);
-/** Looks along a side of a node's shape, which lies on its left as the eye sees it. *beside: the node is visible inside;
- * then strips are added. False without memory. */
+/** Looks along a side of a node's shape, which lies on its left as the eye sees it. *beside: the node is visible
+ * inside; then strips are added. False without memory. */
 bool view_seams_look(view_seams *seams, uint32_t node, print_point a, print_point b, bool *beside);
 /** *ends: what is visible inside a side and painted later than the node ends there as well. False without memory. */
 bool view_seams_end(view_seams *seams, uint32_t node, print_point a, print_point b, bool *ends);
@@ -63,4 +65,20 @@ bool view_seams_end(view_seams *seams, uint32_t node, print_point a, print_point
 bool view_seams_hidden(view_seams *seams, uint32_t node, const print_point *ring, size_t count, bool *hidden);
 /** Appends the strips found since, as rings. False without memory. */
 bool view_seams_flush(view_seams *seams, print_ring *points, print_ends *ends);
+
+/* What strips and trims have in common. */
+
+#define SEAM_MARGIN 0.02 /**< widths: rings that overlap by less only touch */
+/** Lists, in `near`, the pieces that a walk finds. False without memory. */
+bool view_seams_near(view_seams *seams, view_grid_walk walk);
+/** Lists, in `own`, what is visible of a node: all of it where that is little, else what a walk finds. False without
+ * memory. */
+bool view_seams_own(view_seams *seams, uint32_t node, view_grid_walk walk);
+/** Does a visible piece, or any of the list `own`, overlap a convex ring? */
+bool view_seam_meets(const view_seams *seams, uint32_t visible, const print_point *ring, size_t count);
+bool view_own_meets(const view_seams *seams, const print_point *ring, size_t count);
+/** Is a visible piece painted later than the node, in another path, and opaque? */
+bool view_seam_covers(const view_seams *seams, uint32_t visible, uint32_t node);
+/** A strip of some width on the right of ab (on its left: negative), turning left. */
+void view_make_strip(print_point a, print_point b, double width, print_point out[4]);
 #endif

@@ -126,6 +126,8 @@ froe_status view_make_segments(view_painter *p, const uint8_t *kinds) {
     if (!status)
         status =
             view_overlay(p->sights, o->view, &p->items, &p->chains, o->halo > 0 || o->interleave > 0, &p->segments);
+    array_free(&p->picture->alloc, &p->items); /* all are in segments now, */
+    view_drop_intervals(p->v);                 /* and nothing else asks for these */
     if (!status && !number_crossings(p)) status = FROE_E_MEMORY;
     if (!status) status = view_cut_segments(&p->picture->alloc, o->view, o->halo, &p->segments);
     if (!status && o->lines & FROE_LINE_POINT && !add_points(p)) status = FROE_E_MEMORY;

@@ -152,3 +152,13 @@ froe_status view_join_intervals(froe_visibility *v, const view_runs *stretches) 
     array_free(alloc, &j.order);
     return ok ? FROE_OK : FROE_E_MEMORY;
 }
+
+void view_drop_intervals(froe_visibility *v) {
+    support_free(&v->alloc, v->intervals, v->interval_room * sizeof *v->intervals);
+    support_free(&v->alloc, v->interval_marks, 2 * v->interval_room * sizeof *v->interval_marks);
+    support_free(&v->alloc, v->edge_starts, (surface_line_count(v->surface) + 1) * sizeof *v->edge_starts);
+    v->intervals = NULL;
+    v->interval_marks = NULL;
+    v->edge_starts = NULL;
+    v->interval_room = v->interval_count = 0;
+}

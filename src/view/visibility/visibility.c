@@ -269,11 +269,9 @@ void froe_visibility_free(froe_visibility *v) {
     if (v->pieces) support_free(&alloc, v->pieces, ((size_t)v->piece_count + 1) * sizeof *v->pieces);
     array_free(&alloc, &v->corners);
     support_free(&alloc, v->patch_starts, ((size_t)v->surface->patch_count + 1) * sizeof *v->patch_starts);
-    support_free(&alloc, v->intervals, v->interval_room * sizeof *v->intervals);
-    support_free(&alloc, v->interval_marks, 2 * v->interval_room * sizeof *v->interval_marks);
+    view_drop_intervals(v);
     array_free(&alloc, &v->crossings);
     array_free(&alloc, &v->crossing_runs);
-    support_free(&alloc, v->edge_starts, (surface_line_count(v->surface) + 1) * sizeof *v->edge_starts);
     support_free(&alloc, v->points_seen, (size_t)v->surface->point_count + 1);
     support_free(&alloc, v, sizeof *v);
 }

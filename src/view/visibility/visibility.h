@@ -67,6 +67,8 @@ void view_tally(froe_visibility *v, bool cull_back);
 froe_status view_rest_of_edge(froe_visibility *v, uint32_t edge, view_stretch *out, bool *there);
 /** Joins the visible stretches of each edge and wire to intervals. FROE_E_MEMORY, FROE_E_LIMIT. */
 froe_status view_join_intervals(froe_visibility *v, const view_runs *stretches);
+/** Frees the intervals of a visibility that nobody is going to ask for them. */
+void view_drop_intervals(froe_visibility *v);
 /** The end of a stretch of a line at a mark. */
 view_end view_end_at(view_sightlines *sights, uint32_t line, view_mark mark);
 /** Compares two meetings, or a vertex with a meeting, along a line of sight: -1 the first comes first. Exact. */
