@@ -17,19 +17,37 @@ static void list(const graph_arc *arcs, size_t count, uint32_t nodes, bool by_fr
     starts[nodes] = (uint32_t)count;
 }
 
+/* Copies arcs in the order of one end, stably. `starts`: nodes + 1 zeros, which it leaves changed. */
+static void deal_arcs(const graph_arc *arcs, size_t count, uint32_t nodes, bool by_from, uint32_t *starts,
+                      graph_arc *out) {
+    for (size_t i = 0; i < count; i++) starts[by_from ? arcs[i].from : arcs[i].to]++;
+    for (uint32_t v = 0; v < nodes; v++) starts[v + 1] += starts[v]; /* ends, which filling lowers */
+    for (size_t i = count; i-- > 0;) out[--starts[by_from ? arcs[i].from : arcs[i].to]] = arcs[i];
+}
+
+/* Sorts arcs by where they come from, then by where they lead. */
+static bool sort_arcs(const froe_allocator *alloc, graph_arc *arcs, size_t count, uint32_t nodes) {
+    const size_t room = (size_t)nodes + 1;
+    graph_arc *spare = support_calloc(alloc, count + 1, sizeof *spare);
+    uint32_t *starts = support_calloc(alloc, 2 * room, sizeof *starts);
+    const bool ok = spare && starts;
+    if (ok) {
+        deal_arcs(arcs, count, nodes, false, starts, spare);
+        deal_arcs(spare, count, nodes, true, starts + room, arcs);
+    }
+    support_free(alloc, spare, (count + 1) * sizeof *spare);
+    support_free(alloc, starts, 2 * room * sizeof *starts);
+    return ok;
+}
+
 froe_status view_graph_new(const froe_allocator *alloc, uint32_t nodes, graph_arc *arcs, size_t arc_count,
                            view_graph *out) {
     *out = (view_graph){.count = nodes};
     if (arc_count > INT32_MAX) return FROE_E_LIMIT;
-    base_pair *pairs = support_calloc(alloc, 2 * arc_count + 1, sizeof *pairs);
-    if (!pairs) return FROE_E_MEMORY;
     size_t kept = 0; /* arcs sorted by (from, to), without repetitions */
-    for (size_t i = 0; i < arc_count; i++) pairs[i] = (base_pair){(uint64_t)arcs[i].from << 32 | arcs[i].to, 0};
-    base_radix_sort(pairs, pairs + arc_count, arc_count);
+    if (!sort_arcs(alloc, arcs, arc_count, nodes)) return FROE_E_MEMORY;
     for (size_t i = 0; i < arc_count; i++)
-        if (i == 0 || pairs[i].key != pairs[i - 1].key)
-            arcs[kept++] = (graph_arc){(uint32_t)(pairs[i].key >> 32), (uint32_t)pairs[i].key};
-    support_free(alloc, pairs, (2 * arc_count + 1) * sizeof *pairs);
+        if (i == 0 || arcs[i].from != arcs[i - 1].from || arcs[i].to != arcs[i - 1].to) arcs[kept++] = arcs[i];
     out->arc_count = (uint32_t)kept;
     out->out_starts = support_calloc(alloc, (size_t)nodes + 2, sizeof *out->out_starts);
     out->in_starts = support_calloc(alloc, (size_t)nodes + 2, sizeof *out->in_starts);

@@ -66,25 +66,31 @@ static bool is_clear(const view_painter *p, uint32_t patch) {
     return p->options->clear && p->options->clear[patch];
 }
 
-/* `node` paints it; FROE_NONE: by itself. */
-static bool put_region(view_painter *p, uint32_t patch, uint32_t node) {
-    froe_picture *picture = p->picture;
+/* Appends the visible region of a patch as rings; those of less than three points are dropped. */
+static bool append_region(view_painter *p, uint32_t patch, print_ring *points, print_ends *ends) {
+    const froe_allocator *alloc = &p->picture->alloc;
     const view_region *r = &p->region;
     const view_sightlines *s = p->sights;
-    const bool strips = node != FROE_NONE && !is_clear(p, patch);
-    if (view_region_make(&p->region, p->v, p->sights, patch) || !view_begin_shape(picture, patch, false)) return false;
+    if (view_region_make(&p->region, p->v, p->sights, patch)) return false;
     for (size_t i = 0; i + 1 < r->starts.count; i++) {
-        const size_t first = picture->points.count;
-        if (!array_reserve(&picture->alloc, &picture->points, r->starts.data[i + 1] - r->starts.data[i])) return false;
-        for (uint32_t c = r->starts.data[i]; c < r->starts.data[i + 1]; c++) {
-            double page[2];
-            view_camera_ray(p->options->view, s->eye.origin, s->eye.axis, p->v->corners.data[r->corners.data[c]].ray,
-                            page);
-            picture->points.data[picture->points.count++] = (print_point){page[0], page[1]};
+        const uint32_t first = r->starts.data[i], end = r->starts.data[i + 1];
+        if (end - first < 3) continue;
+        if (!array_reserve(alloc, points, end - first)) return false;
+        for (uint32_t c = first; c < end; c++) {
+            double page[2], ray[3];
+            view_ray_at(p->v, r->corners.data[c], ray);
+            view_camera_ray(p->options->view, s->eye.origin, s->eye.axis, ray, page);
+            points->data[points->count++] = (print_point){page[0], page[1]};
         }
-        if (!end_ring(picture, first) || (strips && !look_along(p, node, first))) return false;
+        if (!array_push(alloc, ends, (uint32_t)points->count)) return false;
     }
-    if (strips && !put_strips(p)) return false;
+    return true;
+}
+
+static bool put_region(view_painter *p, uint32_t patch) {
+    froe_picture *picture = p->picture;
+    if (!view_begin_shape(picture, patch, false) || !append_region(p, patch, &picture->points, &picture->ring_ends))
+        return false;
     view_end_shape(picture);
     return true;
 }
@@ -113,6 +119,42 @@ static bool put_parts_of_piece(view_painter *p, uint32_t number) {
 /* Are the visible parts of a patch all that is painted of it? */
 static bool is_clipped(const view_painter *p, uint32_t node) {
     return p->graph.late[node] || p->parts.split[p->parts.nodes.data[node].patch] == PARTS_REGION;
+}
+
+/* Makes the rings of all clipped nodes. What they are made from is then freed, unless pieces are nodes. */
+static bool make_regions(view_painter *p) {
+    const froe_allocator *alloc = &p->picture->alloc;
+    bool pieces = false;
+    for (uint32_t i = 0; i < p->graph.count; i++) {
+        const uint32_t v = p->order[i];
+        const paint_node *node = p->parts.nodes.data + v;
+        pieces = pieces || node->piece != FROE_NONE;
+        if (node->piece != FROE_NONE || !is_clipped(p, v)) continue;
+        if (!array_push(alloc, &p->region_starts, (uint32_t)p->region_ends.count)) return false;
+        if (!is_left_out(p, node->patch) && !append_region(p, node->patch, &p->region_points, &p->region_ends))
+            return false;
+    }
+    view_region_free(alloc, &p->region);
+    p->region = (view_region){.corners = {0}};
+    p->keep = pieces;
+    return array_push(alloc, &p->region_starts, (uint32_t)p->region_ends.count);
+}
+
+/* The next one of these. */
+static bool put_clipped(view_painter *p, uint32_t patch, uint32_t node, uint32_t number) {
+    froe_picture *picture = p->picture;
+    const bool strips = !is_clear(p, patch);
+    if (!view_begin_shape(picture, patch, false)) return false;
+    for (uint32_t ring = p->region_starts.data[number]; ring < p->region_starts.data[number + 1]; ring++) {
+        const uint32_t begin = ring ? p->region_ends.data[ring - 1] : 0, end = p->region_ends.data[ring];
+        const size_t first = picture->points.count;
+        if (!array_append(&picture->alloc, &picture->points, p->region_points.data + begin, end - begin) ||
+            !end_ring(picture, first) || (strips && !look_along(p, node, first)))
+            return false;
+    }
+    if (strips && !put_strips(p)) return false;
+    view_end_shape(picture);
+    return true;
 }
 
 static bool put_whole_patch(view_painter *p, uint32_t patch, uint32_t node) {
@@ -145,16 +187,23 @@ froe_status view_paint_whole(view_painter *p) {
     }
     p->outliner.underlap = o->underlap;
     p->outliner.runs = p->runs;
-    if (o->underlap > 0 && view_seams_new(&p->seams, &p->parts, p->order, p->breaks, o->styles, o->clear, o->underlap))
-        return FROE_E_MEMORY;
-    for (uint32_t i = 0; i < p->graph.count; i++) {
+    if (!make_regions(p)) return FROE_E_MEMORY;
+    const froe_status status =
+        o->underlap > 0 ? view_seams_new(&p->seams, &p->parts, p->order, p->breaks, o->styles, o->clear, o->underlap)
+                        : FROE_OK;
+    if (status) return status;
+    if (!p->keep) view_drop_corners(p->v); /* visible pieces are on the page now */
+    for (uint32_t i = 0, clipped = 0; i < p->graph.count; i++) {
         const uint32_t v = p->order[i];
         const paint_node *node = p->parts.nodes.data + v;
+        const bool piece = node->piece != FROE_NONE, region = !piece && is_clipped(p, v),
+                   left_out = is_left_out(p, node->patch);
         p->painted[i] = (uint32_t)p->picture->shapes.count;
-        const bool ok = is_left_out(p, node->patch) ? true
-                        : node->piece != FROE_NONE  ? put_parts_of_piece(p, v)
-                        : is_clipped(p, v)          ? put_region(p, node->patch, v)
-                                                    : put_whole_patch(p, node->patch, v);
+        const bool ok = left_out ? true
+                        : piece  ? put_parts_of_piece(p, v)
+                        : region ? put_clipped(p, node->patch, v, clipped)
+                                 : put_whole_patch(p, node->patch, v);
+        clipped += region;
         if (!ok) return FROE_E_MEMORY;
         if (p->picture->points.count > INT32_MAX) return FROE_E_LIMIT;
     }
@@ -174,7 +223,7 @@ froe_status view_paint_regions(view_painter *p) {
         if (v->patch_starts[i] < v->patch_starts[i + 1] && !is_left_out(p, i))
             pairs[count++] = (base_pair){p->options->styles ? p->options->styles[i] : 0, i};
     if (ok) base_radix_sort(pairs, pairs + count, count);
-    for (size_t i = 0; ok && i < count; i++) ok = put_region(p, pairs[i].value, FROE_NONE);
+    for (size_t i = 0; ok && i < count; i++) ok = put_region(p, pairs[i].value);
     support_free(&p->picture->alloc, pairs, (2 * (size_t)patches + 1) * sizeof *pairs);
     return ok ? FROE_OK : FROE_E_MEMORY;
 }

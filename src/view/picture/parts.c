@@ -40,8 +40,11 @@ bool view_print_visible(view_parts *p, uint32_t visible, print_ring *out) {
     const geom_plane plane = view_plane_of(&p->v->sights, piece->patch);
     bool cut, ok = true;
     print_begin(&p->press);
-    for (uint32_t i = 0; ok && i < piece->count; i++)
-        ok = add_point_on(p, &plane, p->v->corners.data[piece->first + i].ray);
+    for (uint32_t i = 0; ok && i < piece->count; i++) {
+        double ray[3];
+        view_ray_at(p->v, view_turn_at(p->v, piece, i), ray);
+        ok = add_point_on(p, &plane, ray);
+    }
     return ok && print_end(&p->press, out, &cut);
 }
 

@@ -51,6 +51,9 @@ typedef struct view_painter {
     view_outliner outliner;
     view_seams seams;
     view_region region;
+    print_ring region_points; /**< the rings of clipped nodes, in the order of painting */
+    print_ends region_ends, region_starts;
+    bool keep;              /**< visible pieces are asked for while nodes are painted */
     uint32_t *order;        /**< of the nodes */
     uint32_t *painted;      /**< per place in `order`: shapes there are before it is painted; NULL: not painted whole */
     uint8_t *breaks;        /**< per place in `order`: lines come before it; NULL: all lines are on top */

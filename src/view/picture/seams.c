@@ -8,8 +8,8 @@
 
 static const print_point *seam_points(const void *user, size_t i, size_t *points) {
     const view_seams *s = user;
-    *points = s->pieces.data[i].count;
-    return s->points.data + s->pieces.data[i].first;
+    *points = s->starts.data[i + 1] - s->starts.data[i];
+    return s->points.data + s->starts.data[i];
 }
 
 froe_status view_seams_new(view_seams *s, view_parts *parts, const uint32_t *order, const uint8_t *breaks,
@@ -21,7 +21,7 @@ froe_status view_seams_new(view_seams *s, view_parts *parts, const uint32_t *ord
     s->place = support_calloc(alloc, n + 1, sizeof *s->place);
     s->run = support_calloc(alloc, n + 1, sizeof *s->run);
     s->marks = support_calloc(alloc, n + 1, sizeof *s->marks);
-    if (!s->place || !s->run || !s->marks || !array_reserve(alloc, &s->pieces, parts->v->piece_count))
+    if (!s->place || !s->run || !s->marks || !array_reserve(alloc, &s->starts, (size_t)parts->v->piece_count + 1))
         return FROE_E_MEMORY;
     for (uint32_t i = 0; i < n; i++) {
         const uint32_t patch = parts->nodes.data[order[i]].patch, style = styles ? styles[patch] : 0;
@@ -31,12 +31,12 @@ froe_status view_seams_new(view_seams *s, view_parts *parts, const uint32_t *ord
         s->run[order[i]] = run;
     }
     for (uint32_t i = 0; i < parts->v->piece_count; i++) {
-        seam_span span = {.first = s->points.count};
+        s->starts.data[s->starts.count++] = (uint32_t)s->points.count;
         if (!view_print_visible(parts, i, &s->points)) return FROE_E_MEMORY;
-        span.count = s->points.count - span.first;
-        s->pieces.data[s->pieces.count++] = span;
+        if (s->points.count > INT32_MAX) return FROE_E_LIMIT;
     }
-    return view_grid_new(alloc, parts->view, s->pieces.count, seam_points, s, &s->grid);
+    s->starts.data[s->starts.count++] = (uint32_t)s->points.count;
+    return view_grid_new(alloc, parts->view, parts->v->piece_count, seam_points, s, &s->grid);
 }
 
 void view_seams_free(view_seams *s) {
@@ -47,7 +47,7 @@ void view_seams_free(view_seams *s) {
     support_free(alloc, s->marks, (s->parts->nodes.count + 1) * sizeof *s->marks);
     view_grid_free(alloc, &s->grid);
     array_free(alloc, &s->points);
-    array_free(alloc, &s->pieces);
+    array_free(alloc, &s->starts);
     array_free(alloc, &s->near);
     array_free(alloc, &s->own);
     array_free(alloc, &s->inside);
@@ -64,7 +64,7 @@ void view_seams_free(view_seams *s) {
 /* The common part of a visible piece and a convex ring of four corners, into clip[0]: cut side by side. */
 static bool clip_piece(view_seams *s, uint32_t visible, const print_point ring[4]) {
     const froe_allocator *alloc = &s->parts->v->alloc;
-    const seam_span span = s->pieces.data[visible];
+    const seam_span span = view_seam_span(s, visible);
     s->clip[0].count = 0;
     if (!array_reserve(alloc, &s->clip[0], span.count)) return false;
     for (size_t i = 0; i < span.count; i++) s->clip[0].data[s->clip[0].count++] = s->points.data[span.first + i];
@@ -119,7 +119,7 @@ bool view_seams_own(view_seams *s, uint32_t node, view_grid_walk walk) {
 }
 
 bool view_seam_meets(const view_seams *s, uint32_t visible, const print_point *ring, size_t count) {
-    const seam_span span = s->pieces.data[visible];
+    const seam_span span = view_seam_span(s, visible);
     return span.count > 2 &&
            print_overlap(s->points.data + span.first, span.count, ring, count, SEAM_MARGIN * s->width);
 }
@@ -208,7 +208,7 @@ static void drop_far(view_seams *s, uint32_t node, print_point a, print_point b)
     const double dx = b.x - a.x, dy = b.y - a.y, slack = 1 + 1e-6, length = sqrt(dx * dx + dy * dy) * slack;
     size_t kept = 0;
     for (size_t i = 0; i < s->near.count; i++) {
-        const seam_span span = s->pieces.data[s->near.data[i]];
+        const seam_span span = view_seam_span(s, s->near.data[i]);
         double lo = INFINITY, hi = -INFINITY; /* to the right: y points down */
         for (size_t k = span.first; k < span.first + span.count; k++) {
             const double at = dx * (s->points.data[k].y - a.y) - dy * (s->points.data[k].x - a.x);

@@ -22,8 +22,9 @@
 #include "view/picture/grid.h"
 #include "view/picture/parts.h"
 
+/** The points of a visible piece, in those of all. */
 typedef struct seam_span {
-    size_t first, count;
+    uint32_t first, count;
 } seam_span;
 
 /** A stretch of a side, in shares of its length. */
@@ -39,7 +40,7 @@ typedef struct view_seams {
     uint32_t *place;            /**< per node: when it is painted */
     uint32_t *run;              /**< per node: nodes of one run share a path */
     print_ring points;          /**< of all visible pieces */
-    ARRAY(seam_span) pieces;    /**< per visible piece */
+    ARRAY(uint32_t) starts;     /**< of each, and their end */
     view_grid grid;             /**< of them */
     uint32_t *marks, marked;    /**< per node; the last number that is one */
     ARRAY(uint32_t) near;       /**< pieces near a side */
@@ -67,6 +68,10 @@ bool view_seams_hidden(view_seams *seams, uint32_t node, const print_point *ring
 bool view_seams_flush(view_seams *seams, print_ring *points, print_ends *ends);
 
 /* What strips and trims have in common. */
+
+static inline seam_span view_seam_span(const view_seams *s, uint32_t visible) {
+    return (seam_span){s->starts.data[visible], s->starts.data[visible + 1] - s->starts.data[visible]};
+}
 
 #define SEAM_MARGIN 0.02 /**< widths: rings that overlap by less only touch */
 /** Lists, in `near`, the pieces that a walk finds. False without memory. */

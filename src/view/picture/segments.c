@@ -123,11 +123,11 @@ froe_status view_make_segments(view_painter *p, const uint8_t *kinds) {
         item.object = surface_first(p->sights->surface, x[i].patch);
         if (o->lines & kind && !add_view_item(p, &item, x[i].from, x[i].to, 0, 1)) status = FROE_E_MEMORY;
     }
+    view_drop_intervals(p->v); /* all are in items now */
     if (!status)
         status =
             view_overlay(p->sights, o->view, &p->items, &p->chains, o->halo > 0 || o->interleave > 0, &p->segments);
-    array_free(&p->picture->alloc, &p->items); /* all are in segments now, */
-    view_drop_intervals(p->v);                 /* and nothing else asks for these */
+    array_free(&p->picture->alloc, &p->items); /* and now in segments */
     if (!status && !number_crossings(p)) status = FROE_E_MEMORY;
     if (!status) status = view_cut_segments(&p->picture->alloc, o->view, o->halo, &p->segments);
     if (!status && o->lines & FROE_LINE_POINT && !add_points(p)) status = FROE_E_MEMORY;

@@ -12,7 +12,7 @@ typedef struct seam_place {
 } seam_place;
 
 static seam_place place_beside(const view_seams *s, uint32_t visible, print_point a, print_point b) {
-    const seam_span span = s->pieces.data[visible];
+    const seam_span span = view_seam_span(s, visible);
     const double dx = b.x - a.x, dy = b.y - a.y, square = dx * dx + dy * dy, length = sqrt(square),
                  wide = 0.5 * s->width * length, deep = SEAM_MARGIN * s->width * length * (1 + 1e-6),
                  little = SEAM_MARGIN * s->width * length * (1 - 1e-6);

@@ -30,10 +30,6 @@ static view_way own_way(view_sightlines *s, uint32_t object, uint32_t side, int 
     return line == FROE_NONE ? FROE_NONE : 2 * line + (ascends != (facing > 0));
 }
 
-static int side_on_line(view_sightlines *s, uint32_t line, uint32_t vertex) {
-    return view_side(s, line, &s->rays[vertex], vertex, 0, 0);
-}
-
 /* Is the cut of a node a wall of the method `cylindrical`, which leans by an infinitely small eps? */
 static bool leans(const view_sightlines *s, uint32_t node) {
     const geom_plane plane = tree_plane_at(s->tree, node);
@@ -47,11 +43,12 @@ static view_way snap_to_edge(view_sightlines *s, uint32_t object, view_way way, 
     const uint32_t n = scene_corners(scene, object);
     for (uint32_t i = 0; i < n; i++) {
         const uint32_t next = i + 1 < n ? i + 1 : 0;
-        if (side_on_line(s, way >> 1, scene_corner(scene, object, i)) ||
-            side_on_line(s, way >> 1, scene_corner(scene, object, next)))
+        if (view_side_of_vertex(s, way >> 1, scene_corner(scene, object, i)) ||
+            view_side_of_vertex(s, way >> 1, scene_corner(scene, object, next)))
             continue;
         int inside = 0; /* on which side of the wall is the polygon? */
-        for (uint32_t k = 0; k < n && !inside; k++) inside = side_on_line(s, way >> 1, scene_corner(scene, object, k));
+        for (uint32_t k = 0; k < n && !inside; k++)
+            inside = view_side_of_vertex(s, way >> 1, scene_corner(scene, object, k));
         const view_way own = own_way(s, object, i, facing);
         return own == FROE_NONE ? own : own ^ ((inside < 0) != (way & 1));
     }
@@ -136,7 +133,7 @@ static void drop_flat(view_sightlines *s, view_ring *ring) {
         view_corner *k = ring->data + i;
         const view_way before = ring->data[i ? i - 1 : ring->count - 1].way;
         if (k->vertex == FROE_NONE) k->vertex = shared_vertex(s, before, k->way);
-        k->ray = k->vertex != FROE_NONE ? s->rays[k->vertex] : view_meeting(s, before, k->way);
+        k->ray = k->vertex != FROE_NONE ? view_ray(s, k->vertex) : view_meeting(s, before, k->way);
     }
 }
 
@@ -160,7 +157,7 @@ static bool make_ring(view_sightlines *s, uint32_t piece, const piece_ring *o, v
     for (size_t i = 0; i < ring->count; i++) {
         view_corner *k = ring->data + i;
         const view_way before = ring->data[i ? i - 1 : ring->count - 1].way;
-        k->ray = k->vertex != FROE_NONE ? s->rays[k->vertex] : view_meeting(s, before, k->way);
+        k->ray = k->vertex != FROE_NONE ? view_ray(s, k->vertex) : view_meeting(s, before, k->way);
     }
     if (leaning) drop_flat(s, ring);
     return true;
@@ -192,12 +189,12 @@ bool view_stretch_of(view_sightlines *s, uint32_t object, uint32_t side, const v
     if (own == FROE_NONE) *status = FROE_E_MEMORY;
     if (own == FROE_NONE) return false;
     size_t along = 0;
-    while (along < ring->count &&
-           (side_on_line(s, ring->data[along].way >> 1, v[0]) || side_on_line(s, ring->data[along].way >> 1, v[1])))
+    while (along < ring->count && (view_side_of_vertex(s, ring->data[along].way >> 1, v[0]) ||
+                                   view_side_of_vertex(s, ring->data[along].way >> 1, v[1])))
         along++;
     bool left = along < ring->count;
     *out = (view_stretch){.edge = edge};
-    for (int k = 0; k < 2; k++) out->end[k] = (view_end){.ray = s->rays[v[k]], .vertex = v[k]};
+    for (int k = 0; k < 2; k++) out->end[k] = (view_end){.ray = view_ray(s, v[k]), .vertex = v[k]};
     for (size_t i = 0; i < ring->count && left; i++)
         left = i == along || view_cut_stretch(s, own, ring->data[i].way, out);
     return left;

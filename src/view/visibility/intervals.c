@@ -20,7 +20,7 @@ int view_compare_ends(view_sightlines *s, uint32_t line, const view_end *a, cons
 }
 
 view_end view_end_at(view_sightlines *s, uint32_t line, view_mark mark) {
-    if (mark.vertex != FROE_NONE) return (view_end){.ray = s->rays[mark.vertex], .vertex = mark.vertex};
+    if (mark.vertex != FROE_NONE) return (view_end){.ray = view_ray(s, mark.vertex), .vertex = mark.vertex};
     return (view_end){view_meeting(s, 2 * line, mark.way), FROE_NONE, mark.way};
 }
 
@@ -52,7 +52,8 @@ double view_share_of(view_sightlines *s, uint32_t edge, view_mark mark) {
     const uint32_t *v = s->surface->vertices + 2 * (size_t)edge;
     if (mark.vertex != FROE_NONE) return mark.vertex == v[1];
     const filter_vector *h = &s->lines.data[mark.way >> 1].image;
-    const num_ball at_u = filter_dot(h, &s->rays[v[0]]), at_v = filter_dot(h, &s->rays[v[1]]);
+    const filter_vector u_ray = view_ray(s, v[0]), v_ray = view_ray(s, v[1]);
+    const num_ball at_u = filter_dot(h, &u_ray), at_v = filter_dot(h, &v_ray);
     const num_ball t = filter_div(at_u, filter_sub(at_u, at_v));
     const double x = t.e <= 0x1p-40 ? t.x : view_share_round(s, mark.way >> 1, v[0], v[1]);
     return x < 0 ? 0 : x > 1 ? 1 : x;
@@ -64,7 +65,7 @@ double view_share_of(view_sightlines *s, uint32_t edge, view_mark mark) {
  * through vertices, and lines are chained at these. */
 static view_mark mark_on_edge(view_sightlines *s, uint32_t edge, uint32_t line, const view_end *end, int side) {
     const uint32_t vertex = s->surface->vertices[2 * (size_t)edge + (uint32_t)side];
-    const view_end own = {.ray = s->rays[vertex], .vertex = vertex};
+    const view_end own = {.ray = view_ray(s, vertex), .vertex = vertex};
     const bool same = end->vertex == FROE_NONE && view_compare_along(s, line, &own, end) == 0;
     return view_mark_of(same ? &own : end);
 }

@@ -50,7 +50,7 @@ static bool list_sides(region_maker *m, uint32_t patch) {
         for (uint32_t i = 0; i < piece->count; i++) {
             const uint32_t n = number + i;
             r->sides.data[r->sides.count++] = side_of_ring(v->corners.data + piece->first, piece->count, i, number);
-            r->corner_of.data[r->corner_of.count++] = piece->first + i;
+            r->corner_of.data[r->corner_of.count++] = view_turn_at(v, piece, i);
             r->point.data[r->point.count++] = n;
             r->first_border.data[r->first_border.count++] = FROE_NONE;
             r->by_line.data[n] = (base_pair){r->sides.data[n].line, n};
@@ -67,12 +67,13 @@ static int compare_ends(void *user, uint32_t a, uint32_t b) {
     const region_side *s = m->r->sides.data + (a >> 1), *t = m->r->sides.data + (b >> 1);
     const uint32_t p = s->end[a & 1], q = t->end[b & 1];
     if (find_point_root(m->r->point.data, p) == find_point_root(m->r->point.data, q)) return 0;
-    const view_spot *x = m->v->corners.data + m->r->corner_of.data[p];
-    const view_spot *y = m->v->corners.data + m->r->corner_of.data[q];
-    if (x->vertex != FROE_NONE && x->vertex == y->vertex) return 0;
+    const view_spot *x = m->v->corners.data + m->r->corner_of.data[p].corner;
+    const view_spot *y = m->v->corners.data + m->r->corner_of.data[q].corner;
+    const uint32_t vertex = view_vertex_of(x);
+    if (vertex != FROE_NONE && vertex == y->vertex) return 0;
     const view_way n = t->across[b & 1];
-    const view_end end = view_end_at(m->sights, s->line, (view_mark){x->vertex, s->across[a & 1]});
-    const int side = view_side(m->sights, n >> 1, &end.ray, x->vertex, 2 * s->line, s->across[a & 1]);
+    const view_end end = view_end_at(m->sights, s->line, (view_mark){vertex, s->across[a & 1]});
+    const int side = view_side(m->sights, n >> 1, &end.ray, vertex, 2 * s->line, s->across[a & 1]);
     return n & 1 ? side : -side;
 }
 

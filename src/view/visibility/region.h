@@ -27,11 +27,11 @@ typedef struct region_border {
 
 /** Rings of one patch at a time, and the arrays to make them. All zero at first. */
 typedef struct view_region {
-    ARRAY(uint32_t) corners; /**< of all rings: numbers in visibility->corners */
-    ARRAY(uint32_t) starts;  /**< ring i: corners[starts[i] .. starts[i+1]) */
+    ARRAY(view_turn) corners; /**< of all rings */
+    ARRAY(uint32_t) starts;   /**< ring i: corners[starts[i] .. starts[i+1]) */
     /* in the making */
-    ARRAY(region_side) sides;  /**< of all pieces; side i leaves corner i of the patch */
-    ARRAY(uint32_t) corner_of; /**< per corner of the patch: its number in visibility->corners */
+    ARRAY(region_side) sides;   /**< of all pieces; side i leaves corner i of the patch */
+    ARRAY(view_turn) corner_of; /**< per corner of the patch */
     ARRAY(base_pair) by_line;
     ARRAY(uint32_t) ends;  /**< of the sides on one line: 2 * side + end */
     ARRAY(uint32_t) point; /**< per corner: the representative of its point (union-find) */

@@ -28,8 +28,11 @@ froe_status froe_visibility_regions(const froe_visibility *v, uint32_t first, ui
         if (!ok) break;
         const geom_plane plane = view_plane_of(&v->sights, p);
         for (size_t i = 0; i < r->starts.count; i++) g.starts.data[i] = r->starts.data[i];
-        for (size_t i = 0; i < r->corners.count; i++)
-            view_point_on(&v->sights, &plane, v->corners.data[r->corners.data[i]].ray, g.coords.data + 3 * i);
+        for (size_t i = 0; i < r->corners.count; i++) {
+            double ray[3];
+            view_ray_at(v, r->corners.data[i], ray);
+            view_point_on(&v->sights, &plane, ray, g.coords.data + 3 * i);
+        }
         go_on = base_callback(fn(user, p, g.coords.data, g.starts.data, r->starts.count - 1));
     }
     view_region_free(&v->alloc, &g.region);

@@ -44,8 +44,8 @@ static uint32_t put_node(view_screen *s, uint32_t slot, view_way way, uint32_t i
 /* The covector of a side of the window, 0 on it and 1 at the corner `opposite`. */
 static void scale_side(view_screen *s, uint32_t side, uint32_t opposite, double out[3]) {
     const filter_vector h = view_way_image(s->sights, s->sights->window_ways[side]);
-    const double *ray = s->sights->rays[s->sights->tree->scene->vertex_count + opposite].x;
-    const double at = h.x[0] * ray[0] + h.x[1] * ray[1] + h.x[2] * ray[2];
+    const filter_vector ray = view_ray(s->sights, s->sights->tree->scene->vertex_count + opposite);
+    const double at = h.x[0] * ray.x[0] + h.x[1] * ray.x[1] + h.x[2] * ray.x[2];
     for (int k = 0; k < 3; k++) out[k] = h.x[k] / at;
 }
 
@@ -75,7 +75,7 @@ froe_status view_screen_new(view_screen *s, view_sightlines *sights) {
     for (uint32_t i = 0; i < n; i++)
         for (uint32_t j = 2; j < n; j++) {
             const uint32_t v = first + (i + j) % n;
-            const int side = view_side(sights, lines[i], &sights->rays[v], v, 0, 0);
+            const int side = view_side_of_vertex(sights, lines[i], v);
             if (side == 0 || (turn && side != turn)) return FROE_E_INPUT;
             turn = side;
         }

@@ -12,10 +12,6 @@
 
 /* ------------------------------------------------------------------ begin, end -- */
 
-static uint32_t sightline_point_count(const view_sightlines *s) {
-    return s->tree->scene->vertex_count + s->point_count;
-}
-
 /* The number of an end of a line across the window, among the points. */
 static uint32_t end_across(const view_sightlines *s, int axis, uint32_t i, uint32_t end) {
     return s->window_count + 2 * ((uint32_t)axis * (s->tiles - 1) + i - 1) + end;
@@ -57,24 +53,26 @@ froe_status view_sightlines_new(view_sightlines *s, const froe_tree *tree, const
     froe_status status = geom_context_new(alloc, &s->context);
     if (status) return status;
     if (!make_points(s, window, window_count)) return FROE_E_MEMORY;
-    const uint32_t objects = tree->scene->object_count, points = sightline_point_count(s);
-    s->rays = support_calloc(alloc, (size_t)points + 1, sizeof *s->rays);
+    const uint32_t objects = tree->scene->object_count;
     s->eye_sides = support_calloc(alloc, (size_t)objects + 1, sizeof *s->eye_sides);
     s->of_edge = support_calloc(alloc, surface_line_count(surface) + 1, sizeof *s->of_edge);
-    if (!s->rays || !s->eye_sides || !s->of_edge) return FROE_E_MEMORY;
+    if (!s->eye_sides || !s->of_edge) return FROE_E_MEMORY;
     memset(s->eye_sides, 2, objects);
-    for (uint32_t i = 0; i < points; i++) s->rays[i] = geom_ray_image(eye, view_vertex(s, i));
     return FROE_OK;
 }
 
 void view_sightlines_free(view_sightlines *s) {
-    if (s->rays) support_free(&s->alloc, s->rays, ((size_t)sightline_point_count(s) + 1) * sizeof *s->rays);
     if (s->points) support_free(&s->alloc, s->points, (3 * (size_t)s->point_count + 1) * sizeof *s->points);
     if (s->eye_sides) support_free(&s->alloc, s->eye_sides, (size_t)s->tree->scene->object_count + 1);
+    view_sightlines_drop(s);
+    num_context_free(&s->context);
+}
+
+void view_sightlines_drop(view_sightlines *s) {
     if (s->of_edge) support_free(&s->alloc, s->of_edge, (surface_line_count(s->surface) + 1) * sizeof *s->of_edge);
+    s->of_edge = NULL;
     array_free(&s->alloc, &s->lines);
     scene_table_free(&s->alloc, &s->made);
-    num_context_free(&s->context);
 }
 
 int view_facing(view_sightlines *s, uint32_t object) {
@@ -126,6 +124,12 @@ static geom_line resolve(view_sightlines *s, uint32_t line, geom_plane planes[2]
     return (geom_line){.kind = GEOM_SIGHT_CUT, .s = &planes[0], .a = &planes[1]};
 }
 
+/* The line through two vertices. */
+static filter_vector view_cross(const view_sightlines *s, uint32_t u, uint32_t v) {
+    const filter_vector at_u = view_ray(s, u), at_v = view_ray(s, v);
+    return filter_cross(&at_u, &at_v);
+}
+
 static uint32_t add_sight_line(view_sightlines *s, uint32_t kind, uint32_t a, uint32_t b, uint32_t c) {
     const uint32_t line = (uint32_t)s->lines.count;
     geom_plane planes[2];
@@ -137,7 +141,7 @@ static uint32_t add_sight_line(view_sightlines *s, uint32_t kind, uint32_t a, ui
      * in models. */
     filter_vector image = {.e = INFINITY};
     const bool filtered = s->context.first == NUM_FILTER;
-    if (filtered && kind == VIEW_EDGE) image = filter_cross(&s->rays[a], &s->rays[b]);
+    if (filtered && kind == VIEW_EDGE) image = view_cross(s, a, b);
     if (filtered && !filter_is_fine(&image, FINE)) image = geom_line_image(&s->eye, &exact);
     if (filtered && !filter_is_fine(&image, COARSE)) {
         geom_line_round(&s->context, &s->eye, &exact, image.x);
@@ -181,7 +185,7 @@ uint32_t view_line_of_cut(view_sightlines *s, uint32_t patch, uint32_t node) {
 
 bool view_is_point(view_sightlines *s, uint32_t edge) {
     const uint32_t *v = s->surface->vertices + 2 * (size_t)edge;
-    const filter_vector image = filter_cross(&s->rays[v[0]], &s->rays[v[1]]);
+    const filter_vector image = view_cross(s, v[0], v[1]);
     double out[3];
     if (image.most > image.e) return false;
     const geom_line exact = {.kind = GEOM_SIGHT_EDGE, .u = view_vertex(s, v[0]), .v = view_vertex(s, v[1])};
@@ -295,7 +299,7 @@ int view_side_exactly(view_sightlines *s, uint32_t line, uint32_t vertex, view_w
 
 int view_compare_vertices(view_sightlines *s, uint32_t line, uint32_t u, uint32_t v) {
     if (u == v) return 0;
-    const filter_vector through = filter_cross(&s->rays[u], &s->rays[v]);
+    const filter_vector through = view_cross(s, u, v);
     const int sure = geom_line_image_side(&s->lines.data[line].image, &through);
     s->context.stats.filtered += sure != NUM_UNSURE;
     if (sure != NUM_UNSURE) return -sure;

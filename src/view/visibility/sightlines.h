@@ -42,7 +42,6 @@ typedef struct view_sightlines {
     uint32_t point_count, window_count;
     uint32_t tiles; /**< a power of two: lines divide the window, one of four corners, into tiles x tiles; 1: none do */
     view_way window_ways[FROE_WINDOW_MOST]; /**< along its sides, the inside on their positive sides */
-    filter_vector *rays;                    /**< per vertex */
     int8_t *eye_sides;                      /**< per object: side of its plane the eye is on; 2: not known yet */
     uint32_t *of_edge;                      /**< per edge and wire: its line + 1; 0: not made yet */
     ARRAY(view_line) lines;
@@ -53,10 +52,16 @@ froe_status view_sightlines_new(view_sightlines *sights, const froe_tree *tree, 
                                 const geom_eye *eye, const double *window, uint32_t window_count,
                                 const froe_allocator *alloc);
 void view_sightlines_free(view_sightlines *sights);
+/** Frees the lines, where only points and sides of objects are still asked for. */
+void view_sightlines_drop(view_sightlines *sights);
 
 static inline const double *view_vertex(const view_sightlines *s, uint32_t vertex) {
     const uint32_t own = s->tree->scene->vertex_count;
     return vertex < own ? scene_vertex(s->tree->scene, vertex) : s->points + 3 * (size_t)(vertex - own);
+}
+/** The image of its ray. It is made where it is needed: to keep those of all vertices takes 40 bytes each. */
+static inline filter_vector view_ray(const view_sightlines *s, uint32_t vertex) {
+    return geom_ray_image(&s->eye, view_vertex(s, vertex));
 }
 /** Side of an object's plane on which the eye is; exact. */
 int view_facing(view_sightlines *sights, uint32_t object);
@@ -104,6 +109,11 @@ static inline int view_side(view_sightlines *s, uint32_t line, const filter_vect
     const int sure = geom_line_image_side(&s->lines.data[line].image, ray);
     s->context.stats.filtered += sure != NUM_UNSURE;
     return sure != NUM_UNSURE ? sure : view_side_exactly(s, line, vertex, a, b);
+}
+
+static inline int view_side_of_vertex(view_sightlines *s, uint32_t line, uint32_t vertex) {
+    const filter_vector ray = view_ray(s, vertex);
+    return view_side(s, line, &ray, vertex, 0, 0);
 }
 
 /** Compares two vertices on a line: -1 the first comes first. Exact. */

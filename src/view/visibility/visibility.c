@@ -41,6 +41,49 @@ static bool keep_side(void *user, const view_stretch *side) {
     return keep_stretch(k, &part);
 }
 
+/* The ray of a corner as images tell it. */
+static void ray_by_images(const view_sightlines *s, uint32_t vertex, view_way before, view_way way, double out[3]) {
+    filter_vector ray;
+    if (vertex == FROE_NONE) {
+        const filter_vector a = view_way_image(s, before), b = view_way_image(s, way);
+        ray = filter_cross(&a, &b);
+    } else {
+        ray = view_ray(s, vertex);
+    }
+    memcpy(out, ray.x, sizeof ray.x);
+}
+
+/* Appends a corner; there is room. */
+static bool keep_corner(froe_visibility *v, const view_corner *corner, view_way before) {
+    view_spot spot = {corner->way, corner->vertex};
+    view_kept_ray kept = {.corner = (uint32_t)v->corners.count};
+    ray_by_images(&v->sights, corner->vertex, before, corner->way, kept.x);
+    if (corner->vertex == FROE_NONE && memcmp(kept.x, corner->ray.x, sizeof kept.x) != 0) {
+        spot.vertex = VIEW_KEPT;
+        memcpy(kept.x, corner->ray.x, sizeof kept.x);
+        if (!array_push(&v->alloc, &v->kept_rays, kept)) return false;
+    }
+    v->corners.data[v->corners.count++] = spot;
+    return true;
+}
+
+void view_ray_at(const froe_visibility *v, view_turn at, double out[3]) {
+    const view_spot *spot = v->corners.data + at.corner;
+    if (spot->vertex != VIEW_KEPT) {
+        ray_by_images(&v->sights, spot->vertex, at.before, spot->way, out);
+        return;
+    }
+    size_t lo = 0, hi = v->kept_rays.count - 1; /* it is there */
+    while (lo < hi) {
+        const size_t middle = lo + (hi - lo) / 2;
+        if (v->kept_rays.data[middle].corner < at.corner)
+            lo = middle + 1;
+        else
+            hi = middle;
+    }
+    memcpy(out, v->kept_rays.data[lo].x, sizeof v->kept_rays.data[lo].x);
+}
+
 /* Keeps what was found open of the current piece. */
 static froe_status keep_pieces(visibility_search *k) {
     froe_visibility *v = k->v;
@@ -50,11 +93,10 @@ static froe_status keep_pieces(visibility_search *k) {
         if (!array_reserve(&v->alloc, &v->corners, part->count)) return FROE_E_MEMORY;
         k->now.first = (uint32_t)v->corners.count;
         k->now.count = part->count;
+        const view_corner *ring = s->ring.data + part->first;
         for (uint32_t i = 0; i < part->count; i++) {
-            const view_corner *corner = s->ring.data + part->first + i;
-            view_spot *spot = v->corners.data + v->corners.count++;
-            *spot = (view_spot){.way = corner->way, .vertex = corner->vertex};
-            memcpy(spot->ray, corner->ray.x, sizeof spot->ray);
+            const view_way before = ring[i ? i - 1 : part->count - 1].way;
+            if (!keep_corner(v, ring + i, before)) return FROE_E_MEMORY;
         }
         if (v->corners.count > INT32_MAX || !array_push(&v->alloc, &k->pieces, k->now)) return FROE_E_MEMORY;
     }
@@ -67,8 +109,9 @@ bool view_ring_of_visible(const froe_visibility *v, view_sightlines *s, uint32_t
     out->count = 0;
     if (!array_reserve(&v->alloc, out, p->count)) return false;
     for (uint32_t i = 0; i < p->count; i++) {
-        view_corner k = {.way = spots[i].way, .vertex = spots[i].vertex};
-        k.ray = k.vertex != FROE_NONE ? s->rays[k.vertex] : view_meeting(s, spots[i ? i - 1 : p->count - 1].way, k.way);
+        view_corner k = {.way = spots[i].way, .vertex = view_vertex_of(spots + i)};
+        k.ray =
+            k.vertex != FROE_NONE ? view_ray(s, k.vertex) : view_meeting(s, spots[i ? i - 1 : p->count - 1].way, k.way);
         out->data[out->count++] = k;
     }
     return true;
@@ -262,12 +305,19 @@ froe_status froe_visibility_new(const froe_tree *tree, const froe_surface *surfa
     }
 }
 
+void view_drop_corners(froe_visibility *v) {
+    view_sightlines_drop(&v->sights);
+    array_free(&v->alloc, &v->corners);
+    array_free(&v->alloc, &v->kept_rays);
+}
+
 void froe_visibility_free(froe_visibility *v) {
     if (!v) return;
     const froe_allocator alloc = v->alloc;
     if (v->sights.surface) view_sightlines_free(&v->sights);
     if (v->pieces) support_free(&alloc, v->pieces, ((size_t)v->piece_count + 1) * sizeof *v->pieces);
     array_free(&alloc, &v->corners);
+    array_free(&alloc, &v->kept_rays);
     support_free(&alloc, v->patch_starts, ((size_t)v->surface->patch_count + 1) * sizeof *v->patch_starts);
     view_drop_intervals(v);
     array_free(&alloc, &v->crossings);
@@ -299,8 +349,11 @@ size_t froe_visibility_corners(const froe_visibility *v, size_t i, double *coord
     if (i >= v->piece_count) return 0;
     const view_piece *p = v->pieces + i;
     const geom_plane plane = view_plane_of(&v->sights, p->patch);
-    for (uint32_t c = 0; c < p->count && c < capacity; c++)
-        view_point_on(&v->sights, &plane, v->corners.data[p->first + c].ray, coords + 3 * (size_t)c);
+    for (uint32_t c = 0; c < p->count && c < capacity; c++) {
+        double ray[3];
+        view_ray_at(v, view_turn_at(v, p, c), ray);
+        view_point_on(&v->sights, &plane, ray, coords + 3 * (size_t)c);
+    }
     return p->count;
 }
 

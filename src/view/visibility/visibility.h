@@ -13,12 +13,25 @@ typedef struct view_piece {
     uint32_t first, count; /**< its ring in `corners` */
 } view_piece;
 
-/** A corner of a visible piece: a view_corner, of which the bounds of the ray can be had again. */
+/** A corner of a visible piece: a view_corner, of which the ray can be had again (view_ray_at). */
 typedef struct view_spot {
-    double ray[3];
     view_way way;
-    uint32_t vertex;
+    uint32_t vertex; /**< or VIEW_KEPT */
 } view_spot;
+
+/** No vertex: a meeting whose ray is kept, as the filter finds another one, or none that is fine. */
+#define VIEW_KEPT (FROE_NONE - 1)
+
+typedef struct view_kept_ray {
+    uint32_t corner;
+    double x[3];
+} view_kept_ray;
+
+/** A corner by its number, and the way of the side before it. */
+typedef struct view_turn {
+    uint32_t corner;
+    view_way before;
+} view_turn;
 
 /** A part of a line, from mark to mark in its direction. */
 typedef struct view_run {
@@ -35,7 +48,8 @@ struct froe_visibility {
     view_piece *pieces; /**< ordered by patch, then place */
     uint32_t piece_count;
     ARRAY(view_spot) corners;
-    uint32_t *patch_starts; /**< patch_count + 1, into pieces */
+    ARRAY(view_kept_ray) kept_rays; /**< ascending */
+    uint32_t *patch_starts;         /**< patch_count + 1, into pieces */
     froe_interval *intervals;
     view_mark *interval_marks; /**< two per interval: where it ends exactly, on the line of its edge */
     uint32_t interval_count;
@@ -51,6 +65,15 @@ typedef ARRAY(view_stretch) view_stretches;
 /** Stretches of edges and wires, with the number of these for a line. */
 typedef ARRAY(view_run) view_runs;
 
+static inline uint32_t view_vertex_of(const view_spot *spot) {
+    return spot->vertex == VIEW_KEPT ? FROE_NONE : spot->vertex;
+}
+/** Corner i of a visible piece. */
+static inline view_turn view_turn_at(const froe_visibility *v, const view_piece *p, uint32_t i) {
+    return (view_turn){p->first + i, v->corners.data[p->first + (i ? i : p->count) - 1].way};
+}
+/** The ray of a corner, as it was found. */
+void view_ray_at(const froe_visibility *v, view_turn at, double out[3]);
 /** The ring of a visible piece. False without memory. */
 bool view_ring_of_visible(const froe_visibility *v, view_sightlines *sights, uint32_t visible, view_ring *out);
 
@@ -67,7 +90,9 @@ void view_tally(froe_visibility *v, bool cull_back);
 froe_status view_rest_of_edge(froe_visibility *v, uint32_t edge, view_stretch *out, bool *there);
 /** Joins the visible stretches of each edge and wire to intervals. FROE_E_MEMORY, FROE_E_LIMIT. */
 froe_status view_join_intervals(froe_visibility *v, const view_runs *stretches);
-/** Frees the intervals of a visibility that nobody is going to ask for them. */
+/** Frees the corners of visible pieces, and the lines, of a visibility that nobody is going to ask for them. */
+void view_drop_corners(froe_visibility *v);
+/** The same for its intervals. */
 void view_drop_intervals(froe_visibility *v);
 /** The end of a stretch of a line at a mark. */
 view_end view_end_at(view_sightlines *sights, uint32_t line, view_mark mark);

@@ -51,7 +51,7 @@ static froe_status cut_to_front(wire_tracer *t, uint32_t object, uint32_t own, v
     const froe_status status = view_stop_edge(s, part->edge, object, own, &stop);
     if (status) return status;
     const uint32_t line = stop.way >> 1, front = v[side[0] < 0];
-    const bool positive = view_side(s, line, &s->rays[front], front, 0, 0) > 0;
+    const bool positive = view_side_of_vertex(s, line, front) > 0;
     *left = view_cut_stretch(s, own, 2 * line + !positive, part);
     bool used = false;
     for (int e = 0; e < 2; e++) used = used || (part->end[e].vertex == FROE_NONE && part->end[e].way >> 1 == line);
@@ -157,7 +157,7 @@ static froe_status look_at_point(wire_tracer *t, uint32_t point) {
         uint32_t node = t->nodes.data[--t->nodes.count];
         while (node < VIEW_OPEN) { /* on a line: to both sides */
             const view_screen_node *n = t->screen->nodes.data + node;
-            const int side = view_side(s, n->line, &s->rays[vertex], vertex, 0, 0);
+            const int side = view_side_of_vertex(s, n->line, vertex);
             if (!side && !array_push(&s->alloc, &t->nodes, n->child[0])) return FROE_E_MEMORY;
             node = n->child[side >= 0];
         }
@@ -175,7 +175,7 @@ static froe_status part_batch(wire_tracer *t, uint32_t line, point_batch *b, uin
     uint32_t *points = t->points.data + b->first, lo = 0, hi = b->count;
     while (lo < hi) {
         const uint32_t point = points[lo], vertex = vertex_of(t, point);
-        const int side = view_side(t->sights, line, &t->sights->rays[vertex], vertex, 0, 0);
+        const int side = view_side_of_vertex(t->sights, line, vertex);
         if (side < 0) {
             lo++;
             continue;
