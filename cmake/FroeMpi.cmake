@@ -5,7 +5,7 @@ find_package(MPI REQUIRED COMPONENTS C)
 get_filename_component(mpi_kind "${MPI_C_COMPILER}" LAST_EXT) # .mpich, where several are installed
 find_program(FROE_MPIRUN NAMES mpirun${mpi_kind} ${MPIEXEC_EXECUTABLE})
 froe_sources(mpi_sources mpi)
-set(mpi_program_sources mpi/program.c mpi/ask.c mpi/query.c)
+set(mpi_program_sources mpi/program.c mpi/ask.c mpi/output.c mpi/query.c)
 list(REMOVE_ITEM mpi_sources ${mpi_program_sources})
 set(FROE_MPI_CORE "" CACHE FILEPATH "a libfroe.so that is built already, for froe-mpi to be linked to, with bin/froe beside it")
 set(mpi_core froe)

@@ -2,12 +2,13 @@
  *
  *     part       0        1        2     |    3        4        5     |   ...
  *     rank       0        1        2     |    0        1        2     |
- *                reads, and asks with the others; then rank 0 writes the answers of all, in the order of the ranks
+ *                reads, asks with the others, and prints; then all write, or rank 0 does, in the order of the ranks
  *
  * So answers come out in the order of the questions, and each rank holds those of one part. A bad question or row ends
  * the run: what stands in front of it is answered. */
 #include "ask.h"
 #include "cli/exit.h"
+#include "output.h"
 #include "rows.h"
 #include "support/array.h"
 #include "support/fail.h"
@@ -35,6 +36,8 @@ typedef struct step {
     char sentence[sizeof((froe_diagnostic *)0)->message];
     uint64_t rows_read, lines_read;
     mpi_answers answers;
+    mpi_output output;
+    cli_stage stage; /* of what may fail now */
     char *text; /* of the answers */
     size_t text_length;
     froe_mpi_cost reading, answering, writing, wait, together;
@@ -78,13 +81,6 @@ static froe_status read_part(step *s, uint64_t part, uint64_t parts, froe_diagno
     }
     free(text);
     return status;
-}
-
-/* The sum of what the ranks before this one have. */
-static uint64_t sum_before(const mpi_ranks *ranks, uint64_t mine) {
-    uint64_t sum = 0;
-    MPI_Exscan(&mine, &sum, 1, MPI_UINT64_T, MPI_SUM, ranks->comm);
-    return ranks->rank ? sum : 0; /* which MPI leaves undefined */
 }
 
 /* ---------------------------------------------------------------- answering -- */
@@ -141,34 +137,6 @@ static froe_status print_part(step *s, bool header, uint64_t first, froe_diagnos
     return whole && closed ? FROE_OK : support_fail_memory(diag);
 }
 
-/* ------------------------------------------------------------------ writing -- */
-
-/* Rank 0 writes the texts of all, a piece at a time. */
-static froe_status write_texts(const step *s, froe_diagnostic *diag) {
-    enum { PIECE = 1 << 16 };
-    char piece[PIECE]; /* rank 0 cannot fail before it has received what the others send */
-    uint64_t count = s->text_length;
-    froe_status status = FROE_OK;
-    if (s->ranks->rank) {
-        MPI_Send(&count, 1, MPI_UINT64_T, 0, 0, s->ranks->comm);
-        for (uint64_t at = 0; at < count; at += PIECE)
-            MPI_Send(s->text + at, (int)(count - at < PIECE ? count - at : PIECE), MPI_CHAR, 0, 0, s->ranks->comm);
-        return FROE_OK;
-    }
-    bool ok = fwrite(s->text, 1, count, stdout) == count;
-    for (int r = 1; r < s->ranks->count; r++) {
-        MPI_Recv(&count, 1, MPI_UINT64_T, r, 0, s->ranks->comm, MPI_STATUS_IGNORE);
-        for (uint64_t at = 0; at < count; at += PIECE) {
-            const size_t size = count - at < PIECE ? (size_t)(count - at) : PIECE;
-            MPI_Recv(piece, (int)size, MPI_CHAR, r, 0, s->ranks->comm, MPI_STATUS_IGNORE);
-            ok = ok && fwrite(piece, 1, size, stdout) == size;
-        }
-    }
-    ok = !fflush(stdout) && ok;
-    if (!ok) status = support_fail(diag, FROE_E_LIMIT, "Standard output cannot be written.");
-    return status;
-}
-
 /* -------------------------------------------------------------------- steps -- */
 
 /* Rank `stop` says what is bad, if there is something. */
@@ -186,8 +154,8 @@ static froe_status go_step(step *s, uint64_t part, uint64_t parts, int *code, fr
     froe_status status = read_part(s, part, parts, diag);
     mpi_count(s->ranks, &s->reading, then);
     if ((status = mpi_agree(s->ranks, status, diag))) return status;
-    const uint64_t first = s->row + sum_before(s->ranks, s->rows_read);
-    const uint64_t line = s->line + sum_before(s->ranks, s->lines_read);
+    const uint64_t first = s->row + mpi_sum_before(s->ranks, s->rows_read);
+    const uint64_t line = s->line + mpi_sum_before(s->ranks, s->lines_read);
     s->row += mpi_sum(s->ranks, s->rows_read), s->line += mpi_sum(s->ranks, s->lines_read);
     then = mpi_now(s->ranks);
     const froe_mpi_spent before = froe_mpi_spent_on(s->folder);
@@ -199,7 +167,8 @@ static froe_status go_step(step *s, uint64_t part, uint64_t parts, int *code, fr
         after.exchange.processor + after.wait.processor - before.exchange.processor - before.wait.processor;
     then = mpi_now(s->ranks);
     if (!status) status = mpi_agree(s->ranks, print_part(s, !part, first, diag), diag);
-    if (!status) status = mpi_agree(s->ranks, write_texts(s, diag), diag);
+    if (!status) s->stage = CLI_WRITING, status = mpi_output_put(&s->output, s->text, s->text_length, diag);
+    if (!status) s->stage = CLI_WORKING;
     mpi_count(s->ranks, &s->writing, then);
     mpi_answers_free(&s->answers);
     free(s->text);
@@ -262,8 +231,27 @@ static int fail(const mpi_ranks *ranks, cli_stage stage, const froe_diagnostic *
     return code;
 }
 
+/* Collective: reads, asks and writes all parts. *code: why a bad row or question ended that, or 0. */
+static froe_status go_all(step *s, int *code, froe_diagnostic *diag) {
+    const mpi_ranks *ranks = s->ranks;
+    uint64_t parts = mpi_rows_parts(ranks, s->asking->input, PART);
+    MPI_Bcast(&parts, 1, MPI_UINT64_T, 0, ranks->comm);
+    s->stage = CLI_WRITING;
+    froe_status status = mpi_output_open(ranks, s->asking->output, &s->output, diag);
+    if (status) return status;
+    s->stage = CLI_WORKING;
+    for (uint64_t first = 0; first < parts && !status && !*code; first += (uint64_t)ranks->count)
+        status = go_step(s, first + (uint64_t)ranks->rank, parts, code, diag);
+    if (!status) s->stage = CLI_WRITING;
+    const froe_mpi_cost then = mpi_now(ranks);
+    const froe_status ended = *code ? FROE_E_INPUT : status;
+    const froe_status closed = mpi_output_close(&s->output, ended, diag);
+    mpi_count(ranks, &s->writing, then);
+    return *code ? FROE_OK : closed;
+}
+
 int mpi_ask(const mpi_ranks *given, const mpi_asking *asking) {
-    step s = {.asking = asking, .alloc = support_allocator(NULL), .line = 0};
+    step s = {.asking = asking, .alloc = support_allocator(NULL), .line = 0, .stage = CLI_WORKING};
     mpi_ranks ranks = *given;
     froe_diagnostic diag = {0};
     const froe_mpi_cost began = mpi_now(given); /* which does not leave out waiting */
@@ -274,11 +262,8 @@ int mpi_ask(const mpi_ranks *given, const mpi_asking *asking) {
     s.dim = froe_shards_about(froe_mpi_shards(s.folder)).dim;
     status = refuse_groups(&s, &diag);
     int code = status ? 0 : check_header(&s);
-    uint64_t parts = mpi_rows_parts(&ranks, asking->input, PART);
-    MPI_Bcast(&parts, 1, MPI_UINT64_T, 0, ranks.comm);
-    for (uint64_t first = 0; first < parts && !status && !code; first += (uint64_t)ranks.count)
-        status = go_step(&s, first + (uint64_t)ranks.rank, parts, &code, &diag);
-    if (status) code = fail(&ranks, CLI_WORKING, &diag);
+    if (!status && !code) status = go_all(&s, &code, &diag);
+    if (status) code = fail(&ranks, s.stage, &diag);
     mpi_count(given, &s.together, began);
     if (!code) print_costs(&s);
     array_free(&s.alloc, &s.numbers);

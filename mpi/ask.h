@@ -5,10 +5,11 @@
 
 typedef struct mpi_asking {
     const char *folder, *input;
+    const char *output; /**< NULL: standard output */
     mpi_query query;
 } mpi_asking;
 
-/** Collective. Writes on rank 0's standard output what a single process writes. Returns an exit code of cli/exit.h
- * after saying why. */
+/** Collective. Writes what a single process writes, into a file or on rank 0's standard output. Returns an exit code of
+ * cli/exit.h after saying why. */
 int mpi_ask(const mpi_ranks *ranks, const mpi_asking *asking);
 #endif

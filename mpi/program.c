@@ -159,10 +159,10 @@ static const struct option options[] = {
     {"below", no_argument, NULL, 'b'},         {"neighbours", required_argument, NULL, 'k'},
     {"within", required_argument, NULL, 'w'},  {"all", no_argument, NULL, 'A'},
     {"t-max", required_argument, NULL, 'T'},   {NULL, 0, NULL, 0}};
-static const char *const known[] = {[MPI_RANGE] = "tqcs",
-                                    [MPI_LOCATE] = "tqcab",
-                                    [MPI_NEAR] = "tqckw",
-                                    [MPI_RAY] = "tqcAT",
+static const char *const known[] = {[MPI_RANGE] = "toqcs",
+                                    [MPI_LOCATE] = "toqcab",
+                                    [MPI_NEAR] = "toqckw",
+                                    [MPI_RAY] = "toqcAT",
                                     [MPI_NO_COMMAND] = "toSMW"};
 
 static bool read_option(int letter, job *j) {
@@ -227,7 +227,8 @@ static int run(const mpi_ranks *ranks, int argc, char **argv) {
     const bool builds = !strcmp(command, "build");
     const bool good = (builds || j.query.command != MPI_NO_COMMAND) && read_options(argc - 1, argv + 1, &j);
     if (good && builds) return build(ranks, &j);
-    if (good) return mpi_ask(ranks, &(mpi_asking){.folder = j.operand, .input = j.queries, .query = j.query});
+    const mpi_asking asking = {.folder = j.operand, .input = j.queries, .output = j.output, .query = j.query};
+    if (good) return mpi_ask(ranks, &asking);
     if (!ranks->rank) fputs(help, asked ? stdout : stderr);
     return asked ? 0 : USE;
 }

@@ -53,10 +53,15 @@ static bool is_first(const mpi_query *q) {
     return q->above || q->below || (q->command == MPI_RAY && !q->all);
 }
 
+/* Boxes are rows of their corners as they are. */
+static bool takes_rows(const mpi_query *q) {
+    return q->command == MPI_RANGE && q->shape == FROE_SHAPE_BOX && !q->count;
+}
+
 /* False: no memory. */
 static bool lay_arguments(const mpi_query *q, const double *rows, size_t width, size_t count, arguments *a) {
     const size_t dim = width / 2, room = count + 1;
-    if (q->command == MPI_RANGE && !(a->ranges = calloc(room, sizeof *a->ranges))) return false;
+    if (q->command == MPI_RANGE && !takes_rows(q) && !(a->ranges = calloc(room, sizeof *a->ranges))) return false;
     if (q->command == MPI_RAY && !((a->origins = calloc(room * dim, sizeof *a->origins)) &&
                                    (a->directions = calloc(room * dim, sizeof *a->directions))))
         return false;
@@ -78,7 +83,9 @@ static froe_status ask(const mpi_query *q, froe_shards *shards, const double *ro
                        mpi_answers *out, froe_diagnostic *diag) {
     switch (q->command) {
     case MPI_RANGE:
-        return froe_shards_range(shards, a->ranges, count, &q->batch, &out->lists, diag);
+        if (takes_rows(q)) return froe_shards_boxes(shards, rows, count, &q->batch, &out->lists, diag);
+        return q->count ? froe_shards_count(shards, a->ranges, count, &q->batch, out->counts, diag)
+                        : froe_shards_range(shards, a->ranges, count, &q->batch, &out->lists, diag);
     case MPI_RAY:
         return q->all
                    ? froe_shards_ray_all(shards, a->origins, a->directions, count, q->t_max, &q->batch, &out->lists,
@@ -97,6 +104,8 @@ froe_status mpi_query_ask(const mpi_ranks *ranks, const mpi_query *q, froe_shard
     arguments a = {0};
     *out = (mpi_answers){0};
     bool room = lay_arguments(q, rows, width, count, &a);
+    if (q->command == MPI_RANGE && q->count)
+        room = (out->counts = calloc(count + 1, sizeof *out->counts)) && room;
     if (is_first(q)) room = (out->firsts = calloc(count + 1, sizeof *out->firsts)) && room;
     froe_status status = mpi_agree(ranks, room ? FROE_OK : support_fail_memory(diag), diag);
     if (!status) status = ask(q, shards, rows, &a, count, out, diag);
@@ -105,7 +114,7 @@ froe_status mpi_query_ask(const mpi_ranks *ranks, const mpi_query *q, froe_shard
 }
 
 void mpi_answers_free(mpi_answers *a) {
-    free(a->firsts);
+    free(a->counts), free(a->firsts);
     froe_finds_free(&a->lists);
     *a = (mpi_answers){0};
 }
@@ -129,7 +138,8 @@ static void put_count(uint64_t query, uint64_t count, cli_answers *out) {
 }
 
 void mpi_query_put(const mpi_query *q, const mpi_answers *a, size_t count, uint64_t first, cli_answers *out) {
-    for (size_t i = 0; i < count; i++) {
+    for (size_t i = 0; i < count && a->counts; i++) put_count(first + i, a->counts[i], out);
+    for (size_t i = 0; i < count && !a->counts; i++) {
         const bool found = a->firsts && a->firsts[i].object != FROE_NONE;
         const size_t begin = a->firsts ? 0 : a->lists.starts[i], end = a->firsts ? found : a->lists.starts[i + 1];
         const froe_find *finds = a->firsts ? a->firsts + i : a->lists.items;

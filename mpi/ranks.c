@@ -70,3 +70,9 @@ uint64_t mpi_sum(const mpi_ranks *ranks, uint64_t mine) {
     MPI_Allreduce(&mine, &sum, 1, MPI_UINT64_T, MPI_SUM, ranks->comm);
     return sum;
 }
+
+uint64_t mpi_sum_before(const mpi_ranks *ranks, uint64_t mine) {
+    uint64_t sum = 0;
+    MPI_Exscan(&mine, &sum, 1, MPI_UINT64_T, MPI_SUM, ranks->comm);
+    return ranks->rank ? sum : 0; /* which MPI leaves undefined */
+}

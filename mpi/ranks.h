@@ -26,4 +26,6 @@ froe_mpi_cost mpi_slowest(const mpi_ranks *ranks, froe_mpi_cost mine);
 void mpi_print_cost(const char *what, froe_mpi_cost cost);
 /** Collective: the sum of all ranks. */
 uint64_t mpi_sum(const mpi_ranks *ranks, uint64_t mine);
+/** Collective: the sum of the ranks before this one. */
+uint64_t mpi_sum_before(const mpi_ranks *ranks, uint64_t mine);
 #endif

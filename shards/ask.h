@@ -53,6 +53,7 @@ struct shards_question {
     size_t k;                          /**< how many answers are wanted, of rounds */
     double most;                       /**< largest value */
     bool any;                          /**< one answer is as good as another */
+    bool counted;                      /**< only how many there are: a shard tells it as the tag of one answer */
     int way;                           /**< up or down */
     bool groups;                       /**< answers are groups */
     froe_relation relation;

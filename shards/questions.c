@@ -319,9 +319,8 @@ froe_status froe_shards_boxes(froe_shards *s, const double *boxes, size_t count,
     return find_all(s, &q, options, out, diag);
 }
 
-static bool count_find(void *counts, size_t i, const froe_find *find) {
-    (void)find;
-    ((uint64_t *)counts)[i]++;
+static bool count_finds(void *counts, size_t i, const froe_find *find) {
+    ((uint64_t *)counts)[i] += find->tag;
     return true;
 }
 
@@ -332,8 +331,9 @@ froe_status froe_shards_count(froe_shards *s, const froe_range *ranges, size_t c
     shards_question q = question_of(s, count, ask_ranges);
     q.box = box_of_range;
     q.ranges = ranges;
+    q.counted = true;
     memset(counts, 0, count * sizeof *counts);
-    return shards_reach(s, &q, options, count_find, counts, diag);
+    return shards_reach(s, &q, options, count_finds, counts, diag);
 }
 
 /* Any answer does: the shards that a range may meet have bound 0. */

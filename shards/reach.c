@@ -123,28 +123,33 @@ static bool is_first(const shards_call *call, size_t i, uint32_t shard, const do
     return true;
 }
 
+/* Does the shard report an object that it has found for question i, or another shard? */
+static bool reports(const shards_call *call, uint32_t shard, size_t i, bool alone, uint32_t object) {
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    if (alone || call->q->any || call->q->groups) return true;
+    shards_scene_box(froe_tree_scene(call->s->slots[shard].tree), object, lo, hi);
+    return is_first(call, i, shard, lo, hi);
+}
+
 /* Hands over what a shard found, but for what another one reports. */
 static froe_status take_answers(shards_call *call, uint32_t shard, const size_t *which, const bool *alone,
                                 const froe_answers *answers, froe_diagnostic *diag) {
     const froe_scene *scene = froe_tree_scene(call->s->slots[shard].tree);
-    for (size_t j = 0; j < answers->queries; j++)
+    for (size_t j = 0; j < answers->queries; j++) {
+        froe_find all = {.shard = shard, .object = FROE_NONE};
         for (size_t at = answers->starts[j]; at < answers->starts[j + 1]; at++) {
-            double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
             froe_find find = {
                 .shard = shard, .object = answers->ids[at], .value = answers->values ? answers->values[at] : 0};
-            if (call->q->groups) {
-                find.tag = find.object;
-                find.object = FROE_NONE;
-                if (!call->take(call->take_user, which[j], &find)) return support_fail_memory(diag);
-                continue;
-            }
-            if (!alone[j] && !call->q->any) {
-                shards_scene_box(scene, find.object, lo, hi);
-                if (!is_first(call, which[j], shard, lo, hi)) continue;
-            }
-            find.tag = froe_scene_object(scene, find.object).tag;
+            if (!reports(call, shard, which[j], alone[j], find.object)) continue;
+            all.tag++;
+            if (call->q->counted) continue;
+            find.tag = call->q->groups ? find.object : froe_scene_object(scene, find.object).tag;
+            if (call->q->groups) find.object = FROE_NONE;
             if (!call->take(call->take_user, which[j], &find)) return support_fail_memory(diag);
         }
+        if (call->q->counted && all.tag && !call->take(call->take_user, which[j], &all))
+            return support_fail_memory(diag);
+    }
     return FROE_OK;
 }
 

@@ -6,7 +6,9 @@
  *                                rows of doubles; directions; or of each range its parts
  *     words of answers       of each shard, in the same order: how many; the number of the first bad question, or that
  *                            of all, and its diagnostic if there is one
- *                                of each: number of the question, tag, object, value */
+ *                                of each question: how many, 4 bytes
+ *                                of each answer its tag; then of each its object, 4 bytes; then, where answers have
+ *                                values, of each its value; where they are only counted, none of these */
 #include "share.h"
 #include "support/fail.h"
 #include "support/floats.h"
@@ -111,7 +113,7 @@ static froe_status fail_cut(froe_diagnostic *diag) {
 
 /* ---------------------------------------------------------------- questions -- */
 
-enum { RANGE_WORDS = 5 };
+enum { RANGE_WORDS = 4 };
 
 /* How many doubles the points of a range are. */
 static size_t points_of_range(const froe_range *r, size_t dim) {
@@ -126,17 +128,21 @@ static size_t points_of_range(const froe_range *r, size_t dim) {
     return r->points && (unsigned)r->shape < FROE_SHAPE_COUNT ? dim * rows[r->shape] : 0;
 }
 
+/* How many doubles the offsets of a range are. */
+static size_t offsets_of_range(const froe_range *r) {
+    return r->points && r->shape == FROE_SHAPE_HALFSPACES && r->offsets ? r->count : 0;
+}
+
 static bool put_range(shards_share *share, size_t *count, const froe_range *r, size_t dim) {
-    const bool halfspaces = r->shape == FROE_SHAPE_HALFSPACES && r->offsets;
-    const size_t points = points_of_range(r, dim), offsets = halfspaces && points ? r->count : 0;
-    uint64_t words[RANGE_WORDS] = {points, offsets, r->points != NULL, r->offsets != NULL, r->size};
+    const size_t points = points_of_range(r, dim), offsets = offsets_of_range(r);
+    uint64_t words[RANGE_WORDS] = {points, offsets, r->points != NULL, r->offsets != NULL};
     return shards_share_put(share, count, words, sizeof words) && shards_share_put(share, count, r, sizeof *r) &&
            shards_share_put(share, count, r->points, points * sizeof(double)) &&
            shards_share_put(share, count, r->offsets, offsets * sizeof(double));
 }
 
-/* A range as it was sent; its arrays lie in the words. */
-static bool take_range(letter *c, froe_range *r) {
+/* A range as it was sent; its arrays lie in the words, as many as it says that it has. */
+static bool take_range(letter *c, froe_range *r, size_t dim) {
     uint64_t words[RANGE_WORDS];
     const void *range = take_words(c, words, RANGE_WORDS) ? take(c, sizeof *r) : NULL;
     if (!range || words[0] > c->left / WORD || words[1] > c->left / WORD) return false;
@@ -144,7 +150,8 @@ static bool take_range(letter *c, froe_range *r) {
     const double *points = take(c, words[0] * sizeof *points), *offsets = take(c, words[1] * sizeof *offsets);
     r->points = words[2] ? points : NULL;
     r->offsets = words[3] ? offsets : NULL;
-    return points && offsets;
+    return points && offsets && r->count <= SIZE_MAX / dim && points_of_range(r, dim) == words[0] &&
+           offsets_of_range(r) == words[1];
 }
 
 /* The questions that are listed for a shard. */
@@ -185,7 +192,7 @@ static froe_status take_questions(letter *c, const shards_call *call, block *b, 
     b->q.ranges = b->ranges = support_calloc(&call->s->alloc, count, sizeof *b->ranges);
     if (!b->ranges) return support_fail_memory(diag);
     for (size_t i = 0; i < count; i++)
-        if (!take_range(c, b->ranges + i)) return fail_cut(diag);
+        if (!take_range(c, b->ranges + i, (size_t)call->q->dim)) return fail_cut(diag);
     return FROE_OK;
 }
 
@@ -208,40 +215,53 @@ static froe_status put_lists(shards_call *call, const size_t *starts, const size
 
 /* ------------------------------------------------------------------ answers -- */
 
-typedef struct answer {
-    uint64_t question, tag, object;
-    double value;
-} answer;
-
-typedef ARRAY(answer) answer_array;
+/* What was found for a block of questions, in their order. */
 typedef struct answer_list {
-    answer_array list;
+    uint32_t *counts; /* of each question */
+    ARRAY(uint64_t) tags;
+    ARRAY(uint32_t) objects;
+    ARRAY(double) values;
+    bool counted, valued;
     froe_allocator alloc;
 } answer_list;
 
 static bool note_answer(void *user, size_t i, const froe_find *find) {
     answer_list *a = user;
-    return array_push(&a->alloc, &a->list, (answer){i, find->tag, find->object, find->value});
+    a->counts[i] += a->counted ? (uint32_t)find->tag : 1;
+    return a->counted ||
+           (array_push(&a->alloc, &a->tags, find->tag) && array_push(&a->alloc, &a->objects, find->object) &&
+            (!a->valued || array_push(&a->alloc, &a->values, find->value)));
+}
+
+static bool put_answers(shards_share *share, size_t *count, const answer_list *a, size_t questions) {
+    return shards_share_put(share, count, a->counts, questions * sizeof *a->counts) &&
+           shards_share_put(share, count, a->tags.data, a->tags.count * sizeof *a->tags.data) &&
+           shards_share_put(share, count, a->objects.data, a->objects.count * sizeof *a->objects.data) &&
+           shards_share_put(share, count, a->values.data, a->values.count * sizeof *a->values.data);
 }
 
 /* Answers a block of another process's questions. */
 static froe_status answer_block(const shards_call *call, const block *b, size_t *count, froe_diagnostic *diag) {
     froe_shards *s = call->s;
-    answer_list found = {.alloc = s->alloc};
+    const size_t questions = b->q.count;
+    answer_list found = {.counted = b->q.counted, .valued = b->q.bound != NULL, .alloc = s->alloc};
     shards_call own = *call;
-    size_t *which = support_calloc(&s->alloc, b->q.count, sizeof *which);
-    if (!which) return support_fail_memory(diag);
-    for (size_t i = 0; i < b->q.count; i++) which[i] = i;
-    own.q = &b->q, own.limit = b->q.count, own.take = note_answer, own.take_user = &found;
-    froe_status status = shards_call_shard(&own, (uint32_t)b->head[0], which, b->alone, b->q.count, diag);
-    const uint64_t head[2] = {found.list.count, own.limit};
+    size_t *which = support_calloc(&s->alloc, questions, sizeof *which);
+    found.counts = support_calloc(&s->alloc, questions, sizeof *found.counts);
+    froe_status status = which && found.counts ? FROE_OK : support_fail_memory(diag);
+    for (size_t i = 0; i < questions && !status; i++) which[i] = i;
+    own.q = &b->q, own.limit = questions, own.take = note_answer, own.take_user = &found;
+    if (!status) status = shards_call_shard(&own, (uint32_t)b->head[0], which, b->alone, questions, diag);
+    const uint64_t head[2] = {found.tags.count, own.limit};
     bool ok = status || shards_share_put(s->share, count, head, sizeof head);
-    if (ok && own.limit < b->q.count) ok = shards_share_put(s->share, count, &own.bad, sizeof own.bad);
-    if (ok && !status)
-        ok = shards_share_put(s->share, count, found.list.data, found.list.count * sizeof *found.list.data);
+    if (ok && own.limit < questions) ok = shards_share_put(s->share, count, &own.bad, sizeof own.bad);
+    if (ok && !status) ok = put_answers(s->share, count, &found, questions);
     if (!ok) status = support_fail_memory(diag);
-    array_free(&s->alloc, &found.list);
-    support_free(&s->alloc, which, b->q.count * sizeof *which);
+    array_free(&s->alloc, &found.tags);
+    array_free(&s->alloc, &found.objects);
+    array_free(&s->alloc, &found.values);
+    if (found.counts) support_free(&s->alloc, found.counts, questions * sizeof *found.counts);
+    if (which) support_free(&s->alloc, which, questions * sizeof *which);
     return status;
 }
 
@@ -267,6 +287,30 @@ static froe_status answer_others(const shards_call *call, bool *more, froe_diagn
     return FROE_OK;
 }
 
+/* Takes `all` answers that another process has found in a shard. */
+static froe_status take_answers(shards_call *call, letter *c, uint32_t shard, const size_t *which, size_t questions,
+                                size_t all, froe_diagnostic *diag) {
+    const bool valued = call->q->bound != NULL;
+    const uint32_t *counts = take(c, questions * sizeof *counts);
+    const uint64_t *tags = counts ? take(c, all * sizeof *tags) : NULL;
+    const uint32_t *objects = tags ? take(c, all * sizeof *objects) : NULL;
+    const double *values = objects && valued ? take(c, all * sizeof *values) : NULL;
+    if (!objects || (valued && !values)) return fail_cut(diag);
+    size_t at = 0;
+    for (size_t i = 0; i < questions; i++) {
+        froe_find find = {.tag = counts[i], .shard = shard, .object = FROE_NONE};
+        if (call->q->counted && counts[i] && !call->take(call->take_user, which[i], &find))
+            return support_fail_memory(diag);
+        if (call->q->counted) continue;
+        if (counts[i] > all - at) return fail_cut(diag);
+        for (const size_t end = at + counts[i]; at < end; at++) {
+            find = (froe_find){tags[at], shard, objects[at], values ? values[at] : 0};
+            if (!call->take(call->take_user, which[i], &find)) return support_fail_memory(diag);
+        }
+    }
+    return at == all ? FROE_OK : fail_cut(diag);
+}
+
 /* Takes what another process has found for the questions that were sent to it. */
 static froe_status take_block(shards_call *call, letter *c, uint32_t shard, const size_t *which, size_t questions,
                               froe_diagnostic *diag) {
@@ -281,15 +325,7 @@ static froe_status take_block(shards_call *call, letter *c, uint32_t shard, cons
             call->bad.object = (uint32_t)call->limit;
         }
     }
-    const answer *found = take(c, head[0] * sizeof *found);
-    if (!found) return fail_cut(diag);
-    for (size_t i = 0; i < head[0]; i++) {
-        const froe_find find = {
-            .tag = found[i].tag, .shard = shard, .object = (uint32_t)found[i].object, .value = found[i].value};
-        if (found[i].question >= questions) return fail_cut(diag);
-        if (!call->take(call->take_user, which[found[i].question], &find)) return support_fail_memory(diag);
-    }
-    return FROE_OK;
+    return take_answers(call, c, shard, which, questions, head[0], diag);
 }
 
 static froe_status take_all(shards_call *call, const size_t *starts, const size_t *which, froe_diagnostic *diag) {

@@ -1,5 +1,5 @@
 /* writer.c: links, names, bytes and the order of the system calls, which is what makes a file appear as a whole. */
-#define _DEFAULT_SOURCE 1 /* getentropy */
+#define _DEFAULT_SOURCE 1 /* getentropy, flock */
 #include "support/writer.h"
 #include "support/alloc.h"
 #include "support/fail.h"
@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
@@ -135,6 +136,34 @@ static int create_beside(struct support_writer_room *room, mode_t mode) {
     return file;
 }
 
+/* Is this file still the one of that name? */
+static bool is_at(int file, const char *path) {
+    struct stat one, other;
+    return !fstat(file, &one) && !lstat(path, &other) && one.st_dev == other.st_dev && one.st_ino == other.st_ino;
+}
+
+/* A file beside the target that other processes find, empty and locked. Returns its descriptor, or -1 and errno;
+ * EWOULDBLOCK: another program writes it. */
+static int create_shared(struct support_writer_room *room, mode_t mode) {
+    const size_t length = folder_length(room->target);
+    snprintf(room->temporary, sizeof room->temporary, "%.*s.%s.writing", (int)length, room->target,
+             room->target + length);
+    while (true) {
+        const int file = open(room->temporary, O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC, mode);
+        if (file >= 0 && !flock(file, LOCK_EX | LOCK_NB)) {
+            if (is_at(file, room->temporary) && !ftruncate(file, 0)) return file;
+            close(file); /* another program has just brought it to its place, or removed it */
+            continue;
+        }
+        const int error = errno;
+        if (file >= 0) close(file);
+        if (file < 0 && error == EINTR) continue;
+        room->temporary[0] = '\0';
+        errno = error;
+        return -1;
+    }
+}
+
 /* ------------------------------------------------------------------- files -- */
 
 /* Gives a new file the mode of the old one, and its owner and group where that is allowed. A group that
@@ -168,37 +197,56 @@ static int open_file(support_writer *w) {
     if (exists && S_ISDIR(old.st_mode)) return EISDIR;
     const bool replaced = named < 0 && (!exists || S_ISREG(old.st_mode));
     if (replaced) /* the new file is never open to more readers than the old one was */
-        w->file = create_beside(w->room, exists ? old.st_mode & 0777 : 0666);
+        w->file = (w->shared ? create_shared : create_beside)(w->room, exists ? old.st_mode & 0777 : 0666);
     else
         w->file = exists ? open(w->path, O_WRONLY | O_NOCTTY | O_CLOEXEC) : fcntl(named, F_DUPFD_CLOEXEC, 0);
     if (w->file < 0) return errno;
     error = replaced && exists ? keep_access(w->file, &old) : 0;
     if (error) {
-        close(w->file);
         unlink(w->room->temporary);
+        close(w->file);
     }
     return error;
 }
 
-froe_status support_writer_open(support_writer *w, const char *path, const froe_allocator *alloc,
-                                froe_diagnostic *diag) {
-    *w = (support_writer){.path = path, .alloc = support_allocator(alloc), .diag = diag, .file = -1};
+static froe_status open_writer(support_writer *w, const char *path, const froe_allocator *alloc, bool shared,
+                               froe_diagnostic *diag) {
+    *w = (support_writer){
+        .path = path, .alloc = support_allocator(alloc), .diag = diag, .file = -1, .shared = shared};
     w->room = support_realloc(&w->alloc, NULL, 0, sizeof *w->room);
     if (!w->room) return support_fail_memory(diag);
     int error = open_file(w);
     if (!error) return FROE_OK;
     support_free(&w->alloc, w->room, sizeof *w->room);
-    return support_fail_file(diag, "written", path, error);
+    return error == EWOULDBLOCK
+               ? support_fail(diag, FROE_E_IO, "%s: Another program is writing this file.", support_short(path))
+               : support_fail_file(diag, "written", path, error);
+}
+
+froe_status support_writer_open(support_writer *w, const char *path, const froe_allocator *alloc,
+                                froe_diagnostic *diag) {
+    return open_writer(w, path, alloc, false, diag);
+}
+
+froe_status support_writer_open_shared(support_writer *w, const char *path, const froe_allocator *alloc,
+                                       froe_diagnostic *diag) {
+    return open_writer(w, path, alloc, true, diag);
+}
+
+const char *support_writer_draft(const support_writer *w) {
+    return *w->room->temporary ? w->room->temporary : NULL;
 }
 
 froe_status support_writer_close(support_writer *w, froe_status status) {
     char *temporary = w->room->temporary, *target = w->room->target;
     if (!status && !w->error && flush(w)) w->error = sync_file(w->file);
-    /* An interrupted close() has closed the file, whose bytes are on the disk. */
-    if (close(w->file) && errno != EINTR && !w->error) w->error = errno;
+    /* An interrupted close() has closed the file, whose bytes are on the disk. A shared file is closed, which ends its
+     * lock, when nobody can take it for one that was left any more. */
+    if (!w->shared && close(w->file) && errno != EINTR && !w->error) w->error = errno;
     if (!status && !w->error && *temporary && rename(temporary, target)) w->error = errno;
     if (!status && w->error) status = support_fail_file(w->diag, "written", w->path, w->error);
     if (*temporary && status) unlink(temporary);
+    if (w->shared) close(w->file);
     if (*temporary && !status) sync_folder(target);
     support_free(&w->alloc, w->room, sizeof *w->room);
     return status;
