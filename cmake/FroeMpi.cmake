@@ -36,10 +36,10 @@ if(FROE_TESTS)
   set_target_properties(froe_mpi_alone PROPERTIES OUTPUT_NAME froe-alone RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
   target_link_libraries(froe_mpi_alone PRIVATE ${mpi_core})
   file(GLOB transcripts CONFIGURE_DEPENDS tests/mpi/*.test)
-  foreach(transcript ${transcripts})
+  foreach(transcript ${transcripts}) # ranks that wait leave their core to others, also on a machine that is busy
     get_filename_component(name ${transcript} NAME_WE)
     froe_test(mpi ${name} ${PROJECT_SOURCE_DIR}/scripts/transcript ${transcript})
     set_tests_properties(mpi/${name} PROPERTIES ENVIRONMENT # Open MPI starts more ranks than cores, and as root, if told to
-      "FROE_BIN=${mpi_bin};MPIRUN=${FROE_MPIRUN};OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_rmaps_base_oversubscribe=1")
+      "FROE_BIN=${mpi_bin};MPIRUN=${FROE_MPIRUN};OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_rmaps_base_oversubscribe=1;OMPI_MCA_mpi_yield_when_idle=1")
   endforeach()
 endif()

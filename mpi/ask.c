@@ -38,7 +38,7 @@ typedef struct step {
     mpi_answers answers;
     mpi_output output;
     cli_stage stage; /* of what may fail now */
-    char *text; /* of the answers */
+    char *text;      /* of the answers */
     size_t text_length;
     froe_mpi_cost reading, answering, writing, wait, together;
 } step;

@@ -24,6 +24,16 @@ struct froe_mpi_builder {
     froe_diagnostic diag;
 };
 
+/* Collective. Brings the folder to its place, and removes the old one. */
+static froe_status place_folder(froe_mpi_builder *b) {
+    bool replaced = false;
+    froe_status status = b->draft ? froe_shard_draft_place(b->draft, &replaced, &b->diag) : FROE_OK;
+    if ((status = mpi_agree(&b->ranks, status, &b->diag))) return status;
+    MPI_Bcast(&replaced, sizeof replaced, MPI_BYTE, 0, b->ranks.comm);
+    if (replaced) froe_shard_draft_clear(b->folder, (uint32_t)b->ranks.rank, (uint32_t)b->ranks.count);
+    return mpi_agree(&b->ranks, FROE_OK, &b->diag);
+}
+
 /* Collective. Brings the folder to its place, or leaves everything as it was, and frees the builder. */
 static froe_status end_builder(froe_mpi_builder *b, froe_status status, froe_diagnostic *diag) {
     const froe_allocator alloc = b->alloc;
@@ -31,6 +41,7 @@ static froe_status end_builder(froe_mpi_builder *b, froe_status status, froe_dia
     b->diag.status = status;
     froe_shard_buckets_free(b->spool);
     froe_shard_buckets_free(b->buckets);
+    if (!status) status = place_folder(b);
     if (b->draft) status = froe_shard_draft_end(b->draft, status, &b->diag);
     status = mpi_agree(&ranks, status, &b->diag);
     if (status && diag) *diag = b->diag;
@@ -86,6 +97,10 @@ froe_status froe_mpi_begin(MPI_Comm comm, const char *path, int dim, const froe_
     if (status) return end_builder(b, status, diag);
     *out = b;
     return FROE_OK;
+}
+
+const char *froe_mpi_draft(const froe_mpi_builder *b) {
+    return b->folder;
 }
 
 void froe_mpi_fail(froe_mpi_builder *b, const froe_diagnostic *why) {

@@ -80,8 +80,7 @@ static froe_status put_in_turn(mpi_output *o, const char *text, size_t size, fro
 }
 
 froe_status mpi_output_put(mpi_output *o, const char *text, size_t count, froe_diagnostic *diag) {
-    const froe_status status =
-        o->file < 0 ? put_in_turn(o, text, count, diag) : put_at_places(o, text, count, diag);
+    const froe_status status = o->file < 0 ? put_in_turn(o, text, count, diag) : put_at_places(o, text, count, diag);
     return mpi_agree(o->ranks, status, diag);
 }
 

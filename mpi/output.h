@@ -1,4 +1,4 @@
-/* output.h: where the answers of all ranks go: into a file, each rank at its own place, or to standard output, by rank 0.
+/* output.h: where the answers of all ranks go: a file, each rank at its own place, or standard output, by rank 0.
  *
  *     rank 0        |  rank 1      |  rank 2   |  rank 0       |  ...      the file
  *     one call of mpi_output_put() ............|  the next one

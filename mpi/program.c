@@ -2,7 +2,6 @@
 #include "ask.h"
 #include "rows.h"
 #include "support/fail.h"
-#include <froe/arrays.h>
 #include <getopt.h>
 #include <math.h>
 #include <stdio.h>
@@ -12,10 +11,11 @@
 static const char help[] =
     "usage: mpirun -n RANKS froe-mpi build FILE.csv -o FOLDER [--shards N] [--memory BYTES[K|M|G]] [--threads N]\n"
     "                                      [--method NAME]\n"
-    "       mpirun -n RANKS froe-mpi range  FOLDER --queries FILE.csv [--shape SHAPE] [--count] [--threads N]\n"
-    "       mpirun -n RANKS froe-mpi locate FOLDER --queries FILE.csv [--above | --below] [--count] [--threads N]\n"
-    "       mpirun -n RANKS froe-mpi near   FOLDER --queries FILE.csv [-k K] [--within D] [--count] [--threads N]\n"
-    "       mpirun -n RANKS froe-mpi ray    FOLDER --queries FILE.csv [--all] [--t-max T] [--count] [--threads N]\n"
+    "       mpirun -n RANKS froe-mpi range  FOLDER --queries FILE.csv [--shape SHAPE] [OPTION]...\n"
+    "       mpirun -n RANKS froe-mpi locate FOLDER --queries FILE.csv [--above | --below] [OPTION]...\n"
+    "       mpirun -n RANKS froe-mpi near   FOLDER --queries FILE.csv [-k K] [--within D] [OPTION]...\n"
+    "       mpirun -n RANKS froe-mpi ray    FOLDER --queries FILE.csv [--all] [--t-max T] [OPTION]...\n"
+    "       OPTION: [-o ANSWERS.csv] [--count] [--threads N]\n"
     "\n"
     "build makes the folder of shards that one process makes, byte for byte, with any number of ranks: each\n"
     "reads a part of the file, sends objects to the ranks that own their shards, and builds its own shards.\n"
@@ -25,7 +25,9 @@ static const char help[] =
     "rank\n"
     "opens its own shards, reads a part of the questions, and sends them to the ranks whose shards they reach. SHAPE "
     "is\n"
-    "box (default), ball, capsule, segment or ray.\n"
+    "box (default), ball, capsule, segment or ray. With -o all ranks write the file of answers, each its own part, "
+    "which\n"
+    "takes less time than standard output, where rank 0 writes all.\n"
     "\n"
     "Costs are printed on standard error: seconds of the slowest rank, by the clock and of processors, and those of "
     "the\n"
@@ -64,43 +66,9 @@ typedef struct build_job {
     froe_diagnostic *diag;
 } build_job;
 
-/* How many corners objects of a kind have; 0: each as many as it has. */
-static size_t corners_of(froe_kind kind) {
-    return kind == FROE_SEGMENT || kind == FROE_BOX ? 2 : kind == FROE_POLYGON || kind == FROE_HULL ? 0 : 1;
-}
-
-/* Objects without length have fewer corners; the last one stands for those that are left out. NULL: no memory. */
-static uint32_t *all_corners(const froe_scene_arrays *a, size_t each) {
-    uint32_t *corners = malloc((a->object_count * each + 1) * sizeof *corners);
-    for (size_t i = 0; i < a->object_count && corners; i++)
-        for (size_t c = 0, last = a->starts[i + 1] - a->starts[i] - 1; c < each; c++)
-            corners[i * each + c] = a->corners[a->starts[i] + (c < last ? c : last)];
-    return corners;
-}
-
-/* The objects of one kind of a scene, which a CSV has, as a batch. */
-static bool add_rows(void *user, const froe_scene *scene, uint64_t first, bool tagged) {
-    build_job *b = user;
-    froe_scene_arrays a;
-    if (froe_scene_group_count(scene)) {
-        support_fail(b->diag, FROE_E_UNSUPPORTED, "Rows with names are not built by several processes.");
-        return false;
-    }
-    if (froe_arrays_of_scene(scene, NULL, &a, b->diag)) return false;
-    froe_objects batch = froe_objects_defaults();
-    batch.kind = a.object_count ? (froe_kind)a.kinds[0] : FROE_POINT;
-    batch.count = a.object_count, batch.point_count = a.vertex_count;
-    const size_t each = corners_of(batch.kind);
-    uint32_t *corners = each ? all_corners(&a, each) : NULL;
-    batch.coords = a.coords, batch.indices = each ? corners : a.corners;
-    batch.starts = each ? NULL : a.starts;
-    batch.radii = batch.kind == FROE_BALL ? a.radii : NULL;
-    batch.tags = tagged ? a.tags : NULL;
-    const froe_status status =
-        each && !corners ? support_fail_memory(b->diag) : froe_mpi_add(b->builder, &batch, first, b->diag);
-    free(corners);
-    froe_scene_arrays_free(&a);
-    return !status;
+static bool add_rows(void *user, const froe_objects *batch, uint64_t first) {
+    const build_job *b = user;
+    return !froe_mpi_add(b->builder, batch, first, b->diag);
 }
 
 static int build(const mpi_ranks *ranks, const job *j) {
@@ -111,10 +79,11 @@ static int build(const mpi_ranks *ranks, const job *j) {
     int dim = 2;
     froe_mpi_cost together = {0};
     const froe_mpi_cost began = mpi_now(ranks);
-    froe_status status = mpi_agree(ranks, mpi_rows_dim(j->operand, &dim, &diag), &diag);
+    froe_status status = mpi_rows_dim(ranks, j->operand, &dim, &diag);
     if (!status) status = froe_mpi_begin(ranks->comm, j->output, dim, &j->shards, &b.builder, &diag);
     if (status) return fail(ranks, &diag);
-    if (mpi_rows_read(ranks, j->operand, add_rows, &b, &diag)) froe_mpi_fail(b.builder, &diag);
+    if (mpi_rows_read(ranks, j->operand, froe_mpi_draft(b.builder), add_rows, &b, &diag))
+        froe_mpi_fail(b.builder, &diag);
     status = froe_mpi_finish(b.builder, &report, &costs, &diag);
     if (status) return fail(ranks, &diag);
     mpi_count(ranks, &together, began);
@@ -142,11 +111,11 @@ static bool read_size(const char *text, uint64_t most, uint64_t *out) {
     return true;
 }
 
-/* A number that is not below 0. */
+/* A finite number that is not below 0. */
 static bool read_real(const char *text, double *out) {
     char *end;
     *out = strtod(text, &end);
-    return end != text && !*end && *out >= 0;
+    return end != text && !*end && *out >= 0 && isfinite(*out);
 }
 
 /* One letter for each option; those of `build` are in capitals, but for -o. Its letter must be among those that the
@@ -183,7 +152,7 @@ static bool read_option(int letter, job *j) {
         good = read_size(optarg, FROE_SHARDS_MOST, &number) && number, j->shards.shards = (uint32_t)number;
         return good;
     case 'M':
-        return read_size(optarg, UINT64_MAX, &j->shards.memory);
+        return read_size(optarg, UINT64_MAX, &j->shards.memory) && j->shards.memory;
     case 't':
         good = read_size(optarg, 1024, &number), j->shards.threads = q->batch.threads = (unsigned)number;
         return good;
@@ -203,10 +172,38 @@ static bool read_option(int letter, job *j) {
     }
 }
 
+static const char *name_of(int letter) {
+    const struct option *o = options;
+    while (o->name && o->val != letter) o++;
+    return o->name;
+}
+
+/* What the value of an option has to be. */
+static const char *expected(int letter) {
+    switch (letter) {
+    case 'S':
+        return "a number from 1 to 4096";
+    case 'M':
+        return "a size, as 500M or 4G";
+    case 't':
+        return "a number from 0 to 1024";
+    case 's':
+        return "box, ball, capsule, segment or ray";
+    case 'k':
+        return "a number from 0 to 2147483646";
+    default:
+        return "a finite number from 0 on";
+    }
+}
+
 static bool read_options(int argc, char **argv, job *j) {
     bool good = true;
-    for (int c; good && (c = getopt_long(argc, argv, "o:k:", options, NULL)) != -1;)
-        good = strchr(known[j->query.command], c) && read_option(c, j);
+    for (int c; good && (c = getopt_long(argc, argv, "o:k:", options, NULL)) != -1;) {
+        good = strchr(known[j->query.command], c);
+        if (!good || read_option(c, j)) continue;
+        good = false;
+        if (opterr) fprintf(stderr, "froe-mpi: --%s: '%s' is not %s.\n", name_of(c), optarg, expected(c));
+    }
     if (!good || optind + 1 != argc || (j->query.above && j->query.below)) return false;
     j->operand = argv[optind];
     return j->query.command == MPI_NO_COMMAND ? j->output != NULL : j->queries != NULL;

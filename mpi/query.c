@@ -104,8 +104,7 @@ froe_status mpi_query_ask(const mpi_ranks *ranks, const mpi_query *q, froe_shard
     arguments a = {0};
     *out = (mpi_answers){0};
     bool room = lay_arguments(q, rows, width, count, &a);
-    if (q->command == MPI_RANGE && q->count)
-        room = (out->counts = calloc(count + 1, sizeof *out->counts)) && room;
+    if (q->command == MPI_RANGE && q->count) room = (out->counts = calloc(count + 1, sizeof *out->counts)) && room;
     if (is_first(q)) room = (out->firsts = calloc(count + 1, sizeof *out->firsts)) && room;
     froe_status status = mpi_agree(ranks, room ? FROE_OK : support_fail_memory(diag), diag);
     if (!status) status = ask(q, shards, rows, &a, count, out, diag);

@@ -1,6 +1,7 @@
 /* ranks.c: see ranks.h. */
 #include "ranks.h"
 #include <stdio.h>
+#include <string.h>
 #include <sys/resource.h>
 
 mpi_ranks mpi_ranks_of(MPI_Comm comm) {
@@ -75,4 +76,36 @@ uint64_t mpi_sum_before(const mpi_ranks *ranks, uint64_t mine) {
     uint64_t sum = 0;
     MPI_Exscan(&mine, &sum, 1, MPI_UINT64_T, MPI_SUM, ranks->comm);
     return ranks->rank ? sum : 0; /* which MPI leaves undefined */
+}
+
+/* -------------------------------------------------------------------- words -- */
+
+void mpi_tell_counts(const mpi_ranks *ranks, const uint64_t *words, uint64_t *there) {
+    MPI_Alltoall(words, 1, MPI_UINT64_T, there, 1, MPI_UINT64_T, ranks->comm);
+}
+
+/* Sends words to a rank while it receives words from another one, in pieces that an int counts. */
+static void swap_two(const mpi_ranks *ranks, int to, const uint64_t *out, uint64_t words, int from, uint64_t *in,
+                     uint64_t there) {
+    const uint64_t most = UINT64_C(1) << 30;
+    for (uint64_t at = 0; at < words || at < there; at += most) {
+        const uint64_t going = at < words ? words - at : 0, coming = at < there ? there - at : 0;
+        MPI_Sendrecv(going ? out + at : NULL, (int)(going < most ? going : most), MPI_UINT64_T,
+                     going ? to : MPI_PROC_NULL, 0, coming ? in + at : NULL, (int)(coming < most ? coming : most),
+                     MPI_UINT64_T, coming ? from : MPI_PROC_NULL, 0, ranks->comm, MPI_STATUS_IGNORE);
+    }
+}
+
+void mpi_swap(const mpi_ranks *ranks, const uint64_t *const *out, const uint64_t *words, uint64_t *in,
+              const uint64_t *there) {
+    const int count = ranks->count, rank = ranks->rank;
+    for (int step = 0; step < count; step++) {
+        const int to = (rank + step) % count, from = (rank - step + count) % count;
+        uint64_t *place = in;
+        for (int r = 0; r < from; r++) place += there[r];
+        if (step)
+            swap_two(ranks, to, out[to], words[to], from, place, there[from]);
+        else if (words[to])
+            memcpy(place, out[to], words[to] * sizeof *place);
+    }
 }

@@ -26,6 +26,12 @@ froe_mpi_cost mpi_slowest(const mpi_ranks *ranks, froe_mpi_cost mine);
 void mpi_print_cost(const char *what, froe_mpi_cost cost);
 /** Collective: the sum of all ranks. */
 uint64_t mpi_sum(const mpi_ranks *ranks, uint64_t mine);
+/** Collective: words[r] goes to rank r, and there[r] comes from it. */
+void mpi_tell_counts(const mpi_ranks *ranks, const uint64_t *words, uint64_t *there);
+/** Collective: sends words[r] words to rank r, which begin at out[r], and receives there[r] words from it, in the order
+ * of the ranks. More words than an int counts may go. Memory that MPI has seen must not grow: see support/pages.c. */
+void mpi_swap(const mpi_ranks *ranks, const uint64_t *const *out, const uint64_t *words, uint64_t *in,
+              const uint64_t *there);
 /** Collective: the sum of the ranks before this one. */
 uint64_t mpi_sum_before(const mpi_ranks *ranks, uint64_t mine);
 #endif

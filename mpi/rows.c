@@ -1,16 +1,17 @@
 /* rows.c: see rows.h. A file is cut at the line ends behind equal shares of its bytes. Each rank counts the lines of
  * its share first, so that rows have their numbers in the whole file. A part becomes a file of its own, with the
- * header, which froe_read_own() reads. */
+ * header, which froe_read_batches() reads; its ending tells the reader what it is where the header is long. */
+#define _DEFAULT_SOURCE 1 /* mkstemps */
 #include "rows.h"
 #include "support/fail.h"
 #include "support/path.h"
 #include "support/text/csv.h"
 #include <errno.h>
 #include <froe/formats.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <strings.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -62,45 +63,36 @@ static froe_status fail_quoted(const row_file *f) {
                         support_short(f->path));
 }
 
-/* How many rows begin there; blank lines are none. */
-static froe_status count_rows(row_file *f, uint64_t *rows) {
+/* How many rows begin in a block; blank lines are none. *blank: so far, in the line that it ends in. */
+static uint64_t count_rows(const unsigned char *block, size_t count, bool *blank) {
+    uint64_t rows = 0;
+    for (size_t at = 0; at < count;) {
+        while (*blank && at < count && block[at] <= ' ') at++;
+        if (at == count) break;
+        rows += *blank;
+        const unsigned char *end = memchr(block + at, '\n', count - at);
+        *blank = end != NULL;
+        at = end ? (size_t)(end - block) + 1 : count;
+    }
+    return rows;
+}
+
+/* Reads what lies between two places, counts its rows, and copies it, if `to` is a file. */
+static froe_status pass_lines(row_file *f, off_t begin, off_t end, FILE *to, uint64_t *rows) {
     unsigned char block[1 << 16];
-    bool blank = true; /* so far, in this line */
+    bool blank = true;
     *rows = 0;
-    for (off_t left = f->end - f->begin; left > 0;) {
+    if (fseeko(f->file, begin, SEEK_SET)) return fail_file(f, "read");
+    for (off_t left = end - begin; left > 0;) {
         const size_t most = left < (off_t)sizeof block ? (size_t)left : sizeof block;
         const size_t count = fread(block, 1, most, f->file);
         if (!count) return fail_file(f, "read");
         if (memchr(block, '"', count)) return fail_quoted(f);
-        for (size_t at = 0; at < count;) {
-            while (blank && at < count && block[at] <= ' ') at++;
-            if (at == count) break;
-            *rows += blank;
-            const unsigned char *end = memchr(block + at, '\n', count - at);
-            blank = end != NULL;
-            at = end ? (size_t)(end - block) + 1 : count;
-        }
+        if (to && fwrite(block, 1, count, to) != count) return fail_file(f, "copied");
+        *rows += count_rows(block, count, &blank);
         left -= (off_t)count;
     }
-    return fseeko(f->file, f->begin, SEEK_SET) ? fail_file(f, "read") : FROE_OK;
-}
-
-/* Copies lines to a file of its own, until it is large enough. *at: where the next part begins. */
-static froe_status copy_part(row_file *f, FILE *part, off_t *at, uint64_t *rows) {
-    char *line = NULL;
-    size_t room = 0;
-    froe_status status = fputs(f->header, part) < 0 ? fail_file(f, "copied") : FROE_OK;
-    const off_t begun = *at;
-    for (*rows = 0; !status && *at < f->end && *at - begun < PART;) {
-        const ssize_t count = getline(&line, &room, f->file);
-        if (count <= 0 || fwrite(line, 1, (size_t)count, part) != (size_t)count)
-            status = fail_file(f, "copied");
-        else
-            *rows += strspn(line, " \t\r\n") < (size_t)count, *at += count;
-    }
-    free(line);
-    if (!status && fflush(part)) status = fail_file(f, "copied");
-    return status;
+    return FROE_OK;
 }
 
 /* Have the rows tags? Refuses a header whose rows cannot be cut anywhere: corners of a hull belong together, and a name
@@ -125,21 +117,38 @@ static froe_status read_names(const row_file *f, bool *tagged) {
                  : FROE_OK;
 }
 
-/* The next part as a scene; none where all its lines are blank. */
-static froe_status read_part(row_file *f, off_t *at, uint64_t first, froe_scene **out, uint64_t *rows) {
-    char name[1024], told[512];
-    const char *folder = getenv("TMPDIR");
-    snprintf(name, sizeof name, "%.1000s/froe-mpi-XXXXXX", folder ? folder : "/tmp");
-    const int handle = mkstemp(name);
-    FILE *part = handle < 0 ? NULL : fdopen(handle, "wb");
-    if (!part) return support_fail_file(f->diag, "made", name, errno);
+/* A part as a file, for the reader. */
+typedef struct part_file {
+    char name[PATH_MAX + 32];
+    FILE *file; /* NULL: there is none */
+    uint64_t rows;
+} part_file;
+
+static froe_status begin_part(const row_file *f, const char *folder, part_file *part) {
+    static const char ending[] = ".csv";
+    *part = (part_file){.file = NULL};
+    snprintf(part->name, sizeof part->name, "%.*s/.froe-XXXXXX%s", PATH_MAX, folder, ending);
+    const int handle = mkstemps(part->name, (int)strlen(ending));
+    part->file = handle < 0 ? NULL : fdopen(handle, "wb");
+    return part->file ? FROE_OK : support_fail_file(f->diag, "made", part->name, errno);
+}
+
+/* Copies lines between two places behind the header, and lets fn have their objects. */
+static froe_status read_part(row_file *f, off_t begin, off_t end, const char *folder, froe_objects_fn *fn, void *user,
+                             uint64_t first, uint64_t *rows) {
+    part_file part;
+    char told[512];
     froe_read_options o = froe_read_defaults();
     snprintf(told, sizeof told, "%.400s: behind row %llu", support_short(f->path), (unsigned long long)first);
     o.name = told;
-    froe_status status = copy_part(f, part, at, rows);
-    fclose(part);
-    if (!status && *rows) status = froe_read_own(name, &o, out, NULL, f->diag);
-    unlink(name);
+    froe_status status = begin_part(f, folder, &part);
+    if (status) return status;
+    if (fputs(f->header, part.file) < 0) status = fail_file(f, "copied");
+    if (!status) status = pass_lines(f, begin, end, part.file, &part.rows);
+    if (fclose(part.file) && !status) status = fail_file(f, "copied");
+    if (!status && part.rows) status = froe_read_batches(part.name, &o, fn, user, NULL, f->diag);
+    unlink(part.name);
+    *rows = part.rows;
     return status;
 }
 
@@ -167,41 +176,70 @@ froe_status mpi_rows_text(const char *path, uint64_t part, uint64_t parts, char 
     return status;
 }
 
-froe_status mpi_rows_dim(const char *path, int *dim, froe_diagnostic *diag) {
+/* A froe_objects_fn that stops at once. */
+static froe_status take_dim(void *user, int dim, const froe_objects *batch, froe_diagnostic *diag) {
+    (void)batch, (void)diag;
+    *(int *)user = dim;
+    return FROE_OK;
+}
+
+static froe_status find_dim(const char *path, int *dim, froe_diagnostic *diag) {
     row_file f = {.path = path, .diag = diag};
-    froe_scene *scene = NULL;
-    uint64_t rows = 0;
+    const char *folder = getenv("TMPDIR");
     bool tagged;
+    *dim = 0;
     froe_status status = open_rows(&f, 0, 1);
     if (!status) status = read_names(&f, &tagged);
-    const off_t size = f.end;
-    for (off_t at = f.begin; !status && !scene && at < size;) {
-        f.end = at + 1; /* one line */
-        status = read_part(&f, &at, 0, &scene, &rows);
+    for (off_t at = f.begin, end; !status && !*dim && at < f.end; at = end) { /* one line */
+        uint64_t rows;
+        end = next_line(&f, at + 1, at, f.end);
+        status =
+            end < 0 ? fail_file(&f, "read") : read_part(&f, at, end, folder ? folder : "/tmp", take_dim, dim, 0, &rows);
     }
-    if (!status && !scene) status = support_fail(diag, FROE_E_INPUT, "%s: There are no objects.", support_short(path));
-    if (scene) *dim = froe_scene_dim(scene);
-    froe_scene_free(scene);
+    if (!status && !*dim) status = support_fail(diag, FROE_E_INPUT, "%s: There are no objects.", support_short(path));
     if (f.file) fclose(f.file);
     free(f.header);
     return status;
 }
 
-froe_status mpi_rows_read(const mpi_ranks *ranks, const char *path, mpi_rows_fn *fn, void *user,
+froe_status mpi_rows_dim(const mpi_ranks *ranks, const char *path, int *dim, froe_diagnostic *diag) {
+    const froe_status status = mpi_agree(ranks, ranks->rank ? FROE_OK : find_dim(path, dim, diag), diag);
+    MPI_Bcast(dim, 1, MPI_INT, 0, ranks->comm);
+    return status;
+}
+
+/* Who has the objects of a part. */
+typedef struct receiver {
+    mpi_rows_fn *fn;
+    void *user;
+    uint64_t first;
+    bool tagged;
+} receiver;
+
+/* A froe_objects_fn. Without a column of tags the reader has numbered the objects of the part alone. */
+static froe_status hand_over(void *user, int dim, const froe_objects *given, froe_diagnostic *diag) {
+    (void)dim, (void)diag;
+    receiver *r = user;
+    froe_objects batch = *given;
+    if (!r->tagged) batch.tags = NULL;
+    const uint64_t first = r->first;
+    r->first += batch.count;
+    return r->fn(r->user, &batch, first) ? FROE_OK : FROE_E_CANCELLED;
+}
+
+froe_status mpi_rows_read(const mpi_ranks *ranks, const char *path, const char *folder, mpi_rows_fn *fn, void *user,
                           froe_diagnostic *diag) {
     row_file f = {.path = path, .diag = diag};
+    receiver r = {.fn = fn, .user = user};
     uint64_t rows = 0, first = 0;
-    bool tagged = false;
     froe_status status = open_rows(&f, (uint64_t)ranks->rank, (uint64_t)ranks->count);
-    if (!status) status = read_names(&f, &tagged);
-    if (!status) status = count_rows(&f, &rows);
-    MPI_Exscan(&rows, &first, 1, MPI_UINT64_T, MPI_SUM, ranks->comm);
-    if (!ranks->rank) first = 0; /* which MPI leaves undefined */
-    for (off_t at = f.begin; !status && at < f.end; first += rows) {
-        froe_scene *scene = NULL;
-        status = read_part(&f, &at, first, &scene, &rows);
-        if (!status && scene && !fn(user, scene, first, tagged)) status = FROE_E_CANCELLED;
-        froe_scene_free(scene);
+    if (!status) status = read_names(&f, &r.tagged);
+    if (!status) status = pass_lines(&f, f.begin, f.end, NULL, &rows);
+    first = mpi_sum_before(ranks, rows);
+    for (off_t at = f.begin, end; !status && at < f.end; at = end, first += rows) {
+        r.first = first;
+        end = f.end - at <= PART ? f.end : next_line(&f, at + PART, at, f.end);
+        status = end < 0 ? fail_file(&f, "read") : read_part(&f, at, end, folder, hand_over, &r, first, &rows);
     }
     if (f.file) fclose(f.file);
     free(f.header);

@@ -5,8 +5,9 @@
  * The draft is locked as long as its program lives. One without a lock was left by a program that was killed, and is
  * emptied and used again. The old folder is locked before it gets the name of the draft, so that nobody takes it for
  * one while it is removed. A lock is of a folder and not of its name: who has got one looks whether the name still
- * means that folder. Where the system cannot exchange two folders, the old one is moved aside before the new one takes
- * its place; a kill between these two steps leaves the old one as .NAME.building. */
+ * means that folder. What has come to its place is locked no more. Where the system cannot exchange two folders, the
+ * old one is moved aside before the new one takes its place; a kill between these two steps leaves the old one as
+ * .NAME.building. */
 #define _GNU_SOURCE 1 /* renameat2, realpath */
 #include "manifest.h"
 #include "support/fail.h"
@@ -19,6 +20,7 @@
 #include <stdlib.h>
 #include <sys/file.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 enum { MORE_NAME = 16 };
@@ -26,7 +28,8 @@ enum { MORE_NAME = 16 };
 struct froe_shard_draft {
     char target[PATH_MAX];             /* where the new folder is to be, behind all links */
     char folder[PATH_MAX + MORE_NAME]; /* the draft */
-    int lock;                          /* a descriptor of it */
+    int lock;                          /* a descriptor of it; -1: it is in its place */
+    int old;                           /* of what was there; -1: there was nothing */
     froe_allocator alloc;
 };
 
@@ -65,6 +68,16 @@ static void empty_folder(const char *path) {
     for (struct dirent *entry; folder && (entry = readdir(folder));)
         if (is_own_name(entry->d_name) || !strncmp(entry->d_name, ".froe-", 6))
             unlinkat(dirfd(folder), entry->d_name, 0);
+    if (folder) closedir(folder);
+}
+
+void froe_shard_draft_clear(const char *path, uint32_t part, uint32_t parts) {
+    DIR *folder = path && parts ? opendir(path) : NULL;
+    for (struct dirent *entry; folder && (entry = readdir(folder));) {
+        unsigned number;
+        if (is_own_name(entry->d_name) && sscanf(entry->d_name, "shard-%u", &number) == 1 && number % parts == part)
+            unlinkat(dirfd(folder), entry->d_name, 0);
+    }
     if (folder) closedir(folder);
 }
 
@@ -152,7 +165,7 @@ froe_status froe_shard_draft_begin(const char *path, const froe_allocator *alloc
     froe_shard_draft *d = support_calloc(&own, 1, sizeof *d);
     if (!d) return support_fail_memory(diag);
     d->alloc = own;
-    d->lock = -1;
+    d->lock = d->old = -1;
     int error = find_target(d, path);
     froe_status status = error ? FROE_OK : check_target(d, path, diag);
     if (!error && !status) error = make_draft(d);
@@ -191,38 +204,77 @@ static int exchange(const froe_shard_draft *d) {
     return error;
 }
 
-/* Brings the draft to its place. What was there is removed under a lock of its own. */
-static froe_status replace(const froe_shard_draft *d, froe_diagnostic *diag) {
+/* The process that holds a lock on a folder, as the system tells it; 0: it does not. */
+static long holder_of(int folder) {
+    struct stat info;
+    FILE *locks = fstat(folder, &info) ? NULL : fopen("/proc/locks", "r");
+    char line[256];
+    long found = 0, process;
+    for (unsigned long long number; locks && !found && fgets(line, sizeof line, locks);)
+        if (sscanf(line, "%*s FLOCK %*s %*s %ld %*x:%*x:%llu", &process, &number) == 2 && number == info.st_ino)
+            found = process;
+    if (locks) fclose(locks);
+    return found;
+}
+
+/* Locks what is at the place of the new folder. Its builder may be about to end, so a short time is waited. */
+static froe_status lock_old(froe_shard_draft *d, froe_diagnostic *diag) {
+    enum { TRIES = 200 };
+    const struct timespec pause = {.tv_nsec = 10000000};
+    d->old = open(d->target, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    for (int i = 0; d->old >= 0 && flock(d->old, LOCK_EX | LOCK_NB); i++) {
+        if (errno != EWOULDBLOCK && errno != EINTR) return FROE_OK; /* a system without locks */
+        if (i < TRIES) {
+            nanosleep(&pause, NULL);
+            continue;
+        }
+        char who[64] = "Another program";
+        const long process = holder_of(d->old);
+        if (process) snprintf(who, sizeof who, "Process %ld", process);
+        close(d->old);
+        d->old = -1;
+        return support_fail(diag, FROE_E_IO, "%s: %s holds a lock on the folder, so that it is not replaced.",
+                            support_short(d->target), who);
+    }
+    return FROE_OK;
+}
+
+froe_status froe_shard_draft_place(froe_shard_draft *d, bool *replaced, froe_diagnostic *diag) {
+    SUPPORT_FLOATS_OWN;
+    if (!d || !replaced) return support_fail_null(diag, __func__);
     froe_status status = check_target(d, d->target, diag); /* another program may have built or put something there */
     if (status) return status;
     sync_folder(d->folder);
-    const int old = open(d->target, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (old >= 0) (void)flock(old, LOCK_EX); /* it can be had: its builder is about to end */
+    if ((status = lock_old(d, diag))) return status;
     const int error = exchange(d);
-    if (error) status = support_fail_file(diag, "written", d->target, error);
-    if (!error && old >= 0) {
-        empty_folder(d->folder);
-        rmdir(d->folder);
+    if (error) {
+        if (d->old >= 0) close(d->old);
+        d->old = -1;
+        return support_fail_file(diag, "written", d->target, error);
     }
-    if (old >= 0) close(old);
-    return status;
+    close(d->lock);
+    d->lock = -1;
+    *replaced = d->old >= 0;
+    return FROE_OK;
 }
 
 froe_status froe_shard_draft_end(froe_shard_draft *d, froe_status status, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
     if (!d) return status;
     const froe_allocator alloc = d->alloc;
-    if (!status) status = replace(d, diag);
-    if (status) {
+    bool replaced;
+    if (!status && d->lock >= 0) status = froe_shard_draft_place(d, &replaced, diag);
+    if (d->lock >= 0 || d->old >= 0) { /* the draft, or what was there before */
         empty_folder(d->folder);
         rmdir(d->folder);
     }
-    if (!status) {
+    if (d->lock < 0) {
         char *slash = strrchr(d->target, '/');
         slash[slash == d->target] = '\0';
         sync_folder(d->target);
     }
-    close(d->lock);
+    if (d->lock >= 0) close(d->lock);
+    if (d->old >= 0) close(d->old);
     support_free(&alloc, d, sizeof *d);
     return status;
 }

@@ -107,6 +107,7 @@ froe_shards_info froe_shards_about(const froe_shards *s) {
     info.objects = all.objects;
     info.copies = all.copies;
     info.bytes = all.bytes;
+    info.check = s->manifest.sum;
     for (uint32_t i = s->first; i < s->count; i++) {
         const froe_shard_entry *e = shards_entry(s, i);
         for (int a = 0; a < s->dim && e->objects; a++) {

@@ -190,7 +190,7 @@ static froe_status take_manifest(const char *text, size_t count, shards_manifest
 froe_status shards_manifest_parse(const char *text, size_t count, const char *path, const froe_allocator *alloc,
                                   shards_manifest *out, froe_diagnostic *diag) {
     static const char any_version[] = "froe shards ";
-    shards_manifest m = {.alloc = *alloc};
+    shards_manifest m = {.sum = shards_manifest_sum(text, count), .alloc = *alloc};
     support_locale locale;
     const char *name = support_short(path);
     if (count < strlen(any_version) || memcmp(text, any_version, strlen(any_version)) != 0)

@@ -8,6 +8,7 @@
 typedef struct shards_manifest {
     froe_shard_plan *plan;
     ARRAY(froe_shard_entry) entries; /**< of each shard of the plan */
+    uint64_t sum;                    /**< shards_manifest_sum() of the whole text */
     froe_allocator alloc;
 } shards_manifest;
 

@@ -211,8 +211,7 @@ static int open_file(support_writer *w) {
 
 static froe_status open_writer(support_writer *w, const char *path, const froe_allocator *alloc, bool shared,
                                froe_diagnostic *diag) {
-    *w = (support_writer){
-        .path = path, .alloc = support_allocator(alloc), .diag = diag, .file = -1, .shared = shared};
+    *w = (support_writer){.path = path, .alloc = support_allocator(alloc), .diag = diag, .file = -1, .shared = shared};
     w->room = support_realloc(&w->alloc, NULL, 0, sizeof *w->room);
     if (!w->room) return support_fail_memory(diag);
     int error = open_file(w);

@@ -29,8 +29,8 @@ typedef struct support_writer {
 froe_status support_writer_open(support_writer *writer, const char *path, const froe_allocator *alloc,
                                 froe_diagnostic *diag);
 /** The same for a file that several processes write at places of their own. It grows as FOLDER/.NAME.writing, which is
- * locked as long as the writer lives. What a killed program left has no lock, and is used again. FROE_E_IO, too: another
- * program writes the file. */
+ * locked as long as the writer lives. What a killed program left has no lock, and is used again. FROE_E_IO, too:
+ * another program writes the file. */
 froe_status support_writer_open_shared(support_writer *writer, const char *path, const froe_allocator *alloc,
                                        froe_diagnostic *diag);
 /** Where the others write it; lives as long as the writer. NULL: it is no regular file, and support_writer_put() alone

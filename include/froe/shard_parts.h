@@ -12,7 +12,9 @@
  *     froe_shard_build()            the owner of a shard its file and its entry
  *     froe_shard_report()           who has all entries  counts of the whole folder
  *     froe_shard_manifest_write()   one process          the text that names all shards
- *     froe_shard_draft_end()        the same             the new folder takes the place of the old one
+ *     froe_shard_draft_place()      the same             the new folder takes the place of the old one
+ *     froe_shard_draft_clear()      each                 part of the old folder goes away
+ *     froe_shard_draft_end()        the first one        the rest of it goes away
  *
  * Nothing depends on the order in which objects come, nor on which process has them. docs/design/shards.md explains
  * why, and docs/format.md the files. Calls on different things may run at the same time. */
@@ -135,8 +137,15 @@ FROE_API froe_status froe_shard_draft_begin(const char *path, const froe_allocat
                                             froe_diagnostic *diag);
 /** Where the files go; lives as long as the draft. */
 FROE_API const char *froe_shard_draft_folder(const froe_shard_draft *draft);
-/** With FROE_OK as status: brings the draft to its place, and removes the folder that was there. Otherwise removes the
- * draft. Frees it either way. Returns `status`, or FROE_E_IO. */
+/** Brings the draft to its place. *replaced: what was there is now at froe_shard_draft_folder(), under a lock, until
+ * froe_shard_draft_end() removes it. FROE_E_IO: everything is as it was. */
+FROE_API froe_status froe_shard_draft_place(froe_shard_draft *draft, bool *replaced, froe_diagnostic *diag);
+/** Removes part `part` of `parts` of the shards in a folder that was replaced, which takes the system some time: any
+ * process may, between froe_shard_draft_place() and froe_shard_draft_end(). */
+FROE_API void froe_shard_draft_clear(const char *folder, uint32_t part, uint32_t parts);
+/** With FROE_OK as status: brings the draft to its place, if froe_shard_draft_place() has not, and removes the folder
+ * that was there. Otherwise removes the draft, if it is not in its place. Frees it either way. Returns `status`, or
+ * FROE_E_IO. */
 FROE_API froe_status froe_shard_draft_end(froe_shard_draft *draft, froe_status status, froe_diagnostic *diag);
 
 /* --------------------------------------------------------------------- ask -- */

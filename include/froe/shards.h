@@ -99,7 +99,8 @@ typedef struct froe_shards_info {
     uint64_t objects, copies;                  /**< objects; objects in all shards together */
     uint64_t bytes;                            /**< of all shards */
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM]; /**< bounds of everything; balls are rounded outwards */
-    uint64_t reserved[4];                      /**< 0 */
+    uint64_t check;                            /**< a checksum of the manifest, which other folders have not */
+    uint64_t reserved[3];                      /**< 0 */
 } froe_shards_info;
 FROE_API froe_shards_info froe_shards_about(const froe_shards *shards);
 /** The tree of a shard, which is opened if it is not yet, and belongs to the folder; NULL where it has no objects.

@@ -44,6 +44,9 @@ typedef struct froe_mpi_builder froe_mpi_builder;
  * and alloc are ignored. */
 froe_status froe_mpi_begin(MPI_Comm comm, const char *path, int dim, const froe_shards_options *options,
                            froe_mpi_builder **out, froe_diagnostic *diag);
+/** The folder in which the new one grows; lives as long as the builder. Files of the names .froe-* may be put there,
+ * and go away with it, also when a killed program left it. */
+const char *froe_mpi_draft(const froe_mpi_builder *builder);
 /** Adds objects of this rank, to a file without name beside the folder. Objects without tags have the tags first,
  * first + 1, ...: let `first` be the number of the first in the whole input. A failure is returned by
  * froe_mpi_finish() on all ranks, too, and further calls return it. Statuses as of froe_shards_add(). */

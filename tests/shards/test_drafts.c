@@ -1,7 +1,10 @@
 /* test_drafts.c: several programs build the same folder. Each gets its own draft or is refused, no file of a draft goes
  * away before its end, and what comes to the place of the folder meanwhile is replaced only if it is one of shards. */
+#define _DEFAULT_SOURCE 1 /* flock */
 #include "shards/folders.h"
+#include <fcntl.h>
 #include <froe/shard_parts.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -42,6 +45,54 @@ static void a_stranger_that_came_meanwhile_stays(void **state) {
     assert_non_null(strstr(diag.message, "The folder is not replaced, because it holds 'notes.txt'."));
     assert_int_equal(access("strange.froes/notes.txt", F_OK), 0);
     assert_int_equal(access(".strange.froes.building", F_OK), -1);
+}
+
+/* Whoever holds a lock on the old folder, which a builder does for a moment only, is not waited for without end. */
+static void a_lock_that_is_kept_on_the_old_folder_is_told(void **state) {
+    (void)state;
+    froe_shard_draft *draft;
+    froe_diagnostic diag;
+    char who[64];
+    snprintf(who, sizeof who, "Process %d holds a lock on the folder", (int)getpid());
+    assert_int_equal(system("rm -rf kept.froes && mkdir kept.froes"), 0);
+    assert_true(put_file("kept.froes", 0));
+    assert_int_equal(froe_shard_draft_begin("kept.froes", NULL, &draft, NULL), FROE_OK);
+    const int old = open("kept.froes", O_RDONLY | O_DIRECTORY);
+    assert_int_equal(flock(old, LOCK_EX), 0);
+    assert_int_equal(froe_shard_draft_end(draft, FROE_OK, &diag), FROE_E_IO);
+    if (!access("/proc/locks", R_OK)) assert_non_null(strstr(diag.message, who));
+    close(old);
+    assert_int_equal(access("kept.froes/shard-0000.froe", F_OK), 0);
+    assert_int_equal(access(".kept.froes.building", F_OK), -1);
+}
+
+/* Several processes remove the folder that was there, each a part; another builder waits until all is done. */
+static void a_folder_that_was_replaced_is_removed_in_parts(void **state) {
+    (void)state;
+    froe_shard_draft *draft, *other;
+    froe_diagnostic diag;
+    bool replaced = false;
+    char path[4096 + 64];
+    assert_int_equal(system("rm -rf parted.froes && mkdir parted.froes"), 0);
+    assert_int_equal(froe_shard_draft_begin("parted.froes", NULL, &draft, NULL), FROE_OK);
+    assert_true(put_file(froe_shard_draft_folder(draft), 1));
+    for (int i = 0; i < FILES; i++) assert_true(put_file("parted.froes", i));
+    assert_int_equal(froe_shard_draft_place(draft, &replaced, NULL), FROE_OK);
+    assert_true(replaced);
+    assert_int_equal(access("parted.froes/shard-0001.froe", F_OK), 0);
+    for (uint32_t part = 0; part < 3; part++) {
+        for (int i = 0; i < FILES; i++) {
+            snprintf(path, sizeof path, "%s/shard-%04d.froe", froe_shard_draft_folder(draft), i);
+            assert_int_equal(access(path, F_OK), (uint32_t)i % 3 < part ? -1 : 0);
+        }
+        froe_shard_draft_clear(froe_shard_draft_folder(draft), part, 3);
+    }
+    assert_int_equal(froe_shard_draft_begin("parted.froes", NULL, &other, &diag), FROE_E_IO);
+    assert_non_null(strstr(diag.message, "Another program is building this folder."));
+    assert_int_equal(froe_shard_draft_end(draft, FROE_OK, NULL), FROE_OK);
+    assert_int_equal(access(".parted.froes.building", F_OK), -1);
+    assert_int_equal(access("parted.froes/shard-0001.froe", F_OK), 0);
+    assert_int_equal(access("parted.froes/shard-0000.froe", F_OK), -1);
 }
 
 /* Files of a draft, which are there as long as it is. */
@@ -107,6 +158,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_folder_that_another_program_built_meanwhile_is_replaced),
         cmocka_unit_test(a_stranger_that_came_meanwhile_stays),
+        cmocka_unit_test(a_lock_that_is_kept_on_the_old_folder_is_told),
+        cmocka_unit_test(a_folder_that_was_replaced_is_removed_in_parts),
         cmocka_unit_test(programs_at_the_same_time_do_not_touch_drafts_of_each_other),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -25,6 +25,7 @@ typedef struct office {
     unsigned rounds;
     post posts[RANKS];
     size_t foreign; /* bytes that went from one to another */
+    bool spoils;    /* ranges that go to thread 0 have more points than were sent */
 } office;
 
 typedef struct member {
@@ -57,6 +58,18 @@ static froe_status agree(const member *m, froe_status status, froe_diagnostic *d
     return status;
 }
 
+/* Lets the only range that has come be one of more corners. Before it stand words of both threads, the shard and the
+ * number of questions, of each whether it is put to this shard alone, and four words of the range; see share.c. */
+static void spoil_range(froe_shard_records *in) {
+    enum { BEFORE = 8 * (1 + 1 + 2 + 1 + 4) };
+    froe_range r;
+    if (in->count < BEFORE + sizeof r) return; /* these are answers */
+    memcpy(&r, in->bytes + BEFORE, sizeof r);
+    assert_int_equal(r.shape, FROE_SHAPE_HULL);
+    r.count = 100000;
+    memcpy(in->bytes + BEFORE, &r, sizeof r);
+}
+
 static froe_status trade(void *user, froe_status status, const froe_shard_records *out, const size_t *counts,
                          froe_shard_records *in, size_t *in_counts, froe_diagnostic *diag) {
     const member *m = user;
@@ -72,6 +85,7 @@ static froe_status trade(void *user, froe_status status, const froe_shard_record
         if (in_counts[r]) status = froe_shard_records_append(in, from->out->bytes + at, in_counts[r], diag);
         if (r != m->rank && m->rank == 0) o->foreign += in_counts[r];
     }
+    if (o->spoils && m->rank == 0 && !status) spoil_range(in);
     return agree(m, status, diag);
 }
 
@@ -240,7 +254,7 @@ static void *work(void *given) {
 /* Lets threads ask questions of these kinds. `workers` have first, count and memory set. */
 static void run_workers(office *o, worker *workers, int ranks, const questions *q, int first_kind, int end_kind) {
     pthread_t threads[RANKS];
-    *o = (office){.ranks = ranks};
+    *o = (office){.ranks = ranks, .spoils = o->spoils};
     pthread_mutex_init(&o->lock, NULL), pthread_cond_init(&o->turn, NULL);
     for (int r = 0; r < ranks; r++) {
         workers[r].member = (member){o, r};
@@ -269,7 +283,7 @@ static void build_shared(int dim, uint32_t shards, uint64_t seed) {
 /* The answers of one alone, then those of 2 to 4, to questions dealt to them in several ways. */
 static void compare_numbers_of_threads(int dim, uint32_t shards, uint64_t seed) {
     questions *q = calloc(1, sizeof *q);
-    office o;
+    office o = {.spoils = false};
     worker alone = {.count = QUESTIONS};
     assert_non_null(q);
     make_questions(q, dim, seed);
@@ -319,7 +333,7 @@ static void threads_get_the_answers_of_one(void **state) {
 static void a_bad_question_is_one_of_its_own_thread(void **state) {
     (void)state;
     questions *q = calloc(1, sizeof *q);
-    office o;
+    office o = {.spoils = false};
     assert_non_null(q);
     make_questions(q, 2, 6);
     build_shared(2, 7, 6);
@@ -345,7 +359,7 @@ static void a_bad_question_is_one_of_its_own_thread(void **state) {
 static void memory_is_refused_to_one(void **state) {
     (void)state;
     questions *q = calloc(1, sizeof *q);
-    office o;
+    office o = {.spoils = false};
     assert_non_null(q);
     make_questions(q, 2, 7);
     build_shared(2, 7, 7);
@@ -373,6 +387,28 @@ static void memory_is_refused_to_one(void **state) {
     free(q);
 }
 
+/* What another process sends is not believed: a range has as many points as have come. */
+static void a_range_of_more_points_than_have_come_is_refused(void **state) {
+    (void)state;
+    questions *q = calloc(1, sizeof *q);
+    assert_non_null(q);
+    make_questions(q, 2, 9);
+    build_shared(2, 2, 9);
+    q->ranges[0].shape = FROE_SHAPE_HULL, q->ranges[0].count = 4;
+    for (int i = 0; i < 8; i++) q->shapes[i] = i / 2 % 2 ? MOST : 0;
+    q->shapes[5] = MOST;
+    for (int spoils = 0; spoils < 2; spoils++) {
+        office o = {.spoils = spoils};
+        worker workers[2] = {{.count = 0}, {.count = 1}};
+        run_workers(&o, workers, 2, q, RANGES, RANGES + 1);
+        for (int r = 0; r < 2; r++) assert_int_equal(workers[r].status, spoils ? FROE_E_FORMAT : FROE_OK);
+        if (spoils)
+            assert_string_equal(workers[1].diag.message, "Words of another process have been cut off on their way.");
+        free_answers(workers, 2);
+    }
+    free(q);
+}
+
 static void what_is_no_process_is_refused(void **state) {
     (void)state;
     froe_shards *shards;
@@ -391,6 +427,7 @@ int main(void) {
         cmocka_unit_test(threads_get_the_answers_of_one),
         cmocka_unit_test(a_bad_question_is_one_of_its_own_thread),
         cmocka_unit_test(memory_is_refused_to_one),
+        cmocka_unit_test(a_range_of_more_points_than_have_come_is_refused),
         cmocka_unit_test(what_is_no_process_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
