@@ -115,7 +115,7 @@ site: build deps-site ## the documents with search, and the functions: build/sit
 dist: deps-dist ## all that a release consists of, with checksums: build/dist
 	@scripts/dist $(BUILD)
 
-release-check: deps-bare dist ## may this commit be released? What was packed, tried on a bare machine; as root
+release-check: deps-bare deps-dist ## may this commit be released? What is packed, tried on a bare machine; as root
 	@scripts/release-check $(BUILD)
 
 single: deps-test deps-single ## froe as one source and one header, tested: build/single/froe.c, froe.h
