@@ -25,7 +25,8 @@ set(split_kinetic/live ordinary augmented)
 set(split_query/range_eps approximate_answers_keep_their_contract at_the_limits_they_keep_it_too
     at_every_scale_they_keep_it_too)
 
-# froe_test(AREA NAME COMMAND...): runs in a scratch folder of its own
+# froe_test(AREA NAME COMMAND...): runs in a scratch folder of its own. AddressSanitizer would map fresh memory for its
+# marks whenever a block of more than 0.5 MB is taken, as each context of predicates does, so it clears old memory.
 function(froe_test area name)
   set(scratch ${PROJECT_BINARY_DIR}/scratch/${area}-${name})
   file(MAKE_DIRECTORY ${scratch})
@@ -45,7 +46,7 @@ function(froe_test area name)
   add_test(NAME ${area}/${name} COMMAND ${ARGN} WORKING_DIRECTORY ${scratch})
   set_tests_properties(${area}/${name} PROPERTIES LABELS ${area} TIMEOUT ${limit} ${first}
     ENVIRONMENT_MODIFICATION
-    "UBSAN_OPTIONS=set:print_stacktrace=1;LSAN_OPTIONS=set:suppressions=${PROJECT_SOURCE_DIR}/cmake/lsan.supp:print_suppressions=0;TSAN_OPTIONS=set:suppressions=${PROJECT_SOURCE_DIR}/cmake/tsan.supp${counts}")
+    "ASAN_OPTIONS=set:clear_shadow_mmap_threshold=1073741824;UBSAN_OPTIONS=set:print_stacktrace=1;LSAN_OPTIONS=set:suppressions=${PROJECT_SOURCE_DIR}/cmake/lsan.supp:print_suppressions=0;TSAN_OPTIONS=set:suppressions=${PROJECT_SOURCE_DIR}/cmake/tsan.supp${counts}")
 endfunction()
 
 # The core and the parts with everything visible, and what tests share: oracles, failing allocators.

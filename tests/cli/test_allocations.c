@@ -6,6 +6,7 @@
  * A sample of the calls, of another seed for each command; with the argument "all" (make faults) each of them, with
  * "all WORDS" only of the command lines that begin with these words. */
 #include "faults/faults.h"
+#include "support/sanitized.h"
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -29,11 +30,7 @@ static bool all;
 static const char *only = ""; /* command lines that begin with this */
 
 /* Calls that are tried of a kind, of most kinds half as many. */
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-enum { SAMPLE = 4 };
-#else
-enum { SAMPLE = 12 };
-#endif
+enum { SAMPLE = SANITIZED ? 4 : 12 };
 
 typedef enum case_kind {
     PLAIN,

@@ -13,13 +13,9 @@
 #include "geom/turn.h"
 #include "oracle/bodies.h"
 #include "support/fuzz.h"
+#include "support/sanitized.h"
 
-/* Sanitizers look for other things than wrong signs, and slow GMP's many small blocks down. */
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-enum { BODIES_SHARE = 8 };
-#else
-enum { BODIES_SHARE = 1 };
-#endif
+enum { BODIES_SHARE = SANITIZED_SHARE(8) };
 
 enum { BODIES_POINTS = 24, BODIES_EACH = 8 };
 

@@ -15,13 +15,9 @@
 #include "geom/meet/meet.h"
 #include "oracle/high.h"
 #include "support/fuzz.h"
+#include "support/sanitized.h"
 
-/* Sanitizers look for other things than wrong signs. */
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-enum { SHARE = 8 };
-#else
-enum { SHARE = 1 };
-#endif
+enum { SHARE = SANITIZED_SHARE(8) };
 
 enum { POINTS = 24, MOST = FROE_MAX_DIM + 4 };
 

@@ -1,13 +1,9 @@
 /* test_sides.c: law A1 of geom/predicates.h: every predicate, started at every stage, against exact rationals. */
 #include "geom/sides.h"
+#include "support/sanitized.h"
 #include <stdlib.h>
 
-/* Sanitizers look for other things than wrong signs, and slow GMP's many small blocks down. */
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-enum { SHARE = 8 };
-#else
-enum { SHARE = 1 };
-#endif
+enum { SHARE = SANITIZED_SHARE(8) };
 
 typedef struct fixture {
     num_context context;

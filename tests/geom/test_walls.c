@@ -1,12 +1,9 @@
 /* test_walls.c: laws V5, X5 and C5 of geom/predicates.h: sides of and on sheared walls, started at every stage, against
  * exact rationals in which the infinitesimal is a number, 2^-65536 (support/rational.h). */
 #include "geom/walls.h"
+#include "support/sanitized.h"
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-enum { SHARE = 8 };
-#else
-enum { SHARE = 1 };
-#endif
+enum { SHARE = SANITIZED_SHARE(8) };
 
 typedef struct fixture {
     num_context context;

@@ -3,13 +3,9 @@
 #define FROE_TESTS_QUERY_EXACT_WORLD_H
 #include "oracle/bodies.h"
 #include "query/worlds.h"
+#include "support/sanitized.h"
 
-/* Sanitizers look for other things, and slow GMP's many small blocks down. */
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-enum { EXACT_SHARE = 8 };
-#else
-enum { EXACT_SHARE = 1 };
-#endif
+enum { EXACT_SHARE = SANITIZED_SHARE(8) };
 
 /** The shift that makes a world whole. */
 static inline int exact_world_shift(const world *w) {

@@ -4,16 +4,12 @@
 #include "query/context.h"
 #include "support/fuzz.h"
 #include "support/memory.h"
+#include "support/sanitized.h"
 #include <stdio.h>
 
 enum { OBJECTS = 16, QUESTIONS = 4 };
 
-/* Sanitizers look for other things than wrong answers. */
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-enum { SEEDS = 1 };
-#else
-enum { SEEDS = 2 };
-#endif
+enum { SEEDS = SANITIZED ? 1 : 2 };
 
 typedef struct trial {
     fuzz_source r;
