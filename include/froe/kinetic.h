@@ -111,8 +111,15 @@ FROE_API size_t froe_motion_vertex_count(const froe_motion *motion);
 FROE_API size_t froe_motion_body_count(const froe_motion *motion);
 /** The body that a vertex belongs to, or FROE_NONE. */
 FROE_API uint32_t froe_motion_vertex_body(const froe_motion *motion, uint32_t vertex);
+/** As much of the window, and of the length of a tick, as a caller has room for, who gives the size that the struct has
+ * in his program. */
+FROE_API void froe_motion_window_into(const froe_motion *motion, froe_motion_options *out, size_t size);
 /** The window, and the length of a tick. */
-FROE_API froe_motion_options froe_motion_window(const froe_motion *motion);
+static inline froe_motion_options froe_motion_window(const froe_motion *motion) {
+    froe_motion_options window;
+    froe_motion_window_into(motion, &window, sizeof window);
+    return window;
+}
 
 /** One object, by value. */
 typedef struct froe_moving_object {

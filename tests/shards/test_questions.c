@@ -1,7 +1,7 @@
 /* test_questions.c: folders of 1, 2, 7 and 64 shards answer every question as a single tree does, also where cuts go
  * through corners of objects and of questions. With a number as argument: so many objects of every kind, in all of
  * these folders, and a row of Markdown for each folder that says what was compared. A pattern of names as a second
- * argument: these tests alone ("*space"). */
+ * argument: these tests alone ("*space"). A kind as a third: its objects alone ("ball"). */
 #include "shards/folders.h"
 #include "shards/plan.h"
 #include <froe/shard_parts.h>
@@ -10,6 +10,7 @@
 enum { USUAL = 400, QUESTIONS = 200, EDGES = 6, CLOSE = 10000 };
 static size_t object_count = USUAL;
 static bool thorough;
+static const char *only; /* a kind, or NULL: all of them */
 
 /* ------------------------------------------------------------------- worlds -- */
 
@@ -507,6 +508,7 @@ static void compare_everything(int dim, froe_kind kind, bool areas) {
     static const int shards[] = {7, -7, -2, -64, 1};
     const size_t folders = thorough || areas || kind == FROE_KIND_COUNT ? 5 : 2;
     const size_t count = object_count;
+    if (only && (kind == FROE_KIND_COUNT || strcmp(only, froe_kind_name(kind)))) return;
     if (areas) object_count -= object_count % EDGES;
     for (size_t i = 0; i < folders; i++) compare_in_folder(dim, kind, areas, shards[i], 1 + i + 10 * (uint64_t)kind);
     object_count = count;
@@ -577,6 +579,7 @@ int main(int argc, char **argv) {
     thorough = argc > 1;
     if (thorough) object_count = (size_t)strtoull(argv[1], NULL, 10);
     if (argc > 2) cmocka_set_test_filter(argv[2]);
+    if (argc > 3) only = argv[3];
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(of_objects_in_the_plane),      cmocka_unit_test(of_areas),
         cmocka_unit_test(groups_in_space_are_no_areas), cmocka_unit_test(of_objects_in_space),

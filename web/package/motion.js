@@ -26,7 +26,7 @@ export class Motion extends Resource {
     get window() {
         return this[CORE].within((arena) => {
             const out = arena.room(WINDOW);
-            this[CORE].get("froe_motion_window", out, this[AT]);
+            this[CORE].get("froe_motion_window_into", this[AT], out, WINDOW);
             const [begin, end, tick] = this[CORE].copy(Float64Array, out + 8, 3);
             return { dim: this[CORE].uint(out + 4), begin, end, tick };
         });

@@ -171,14 +171,14 @@ froe_body_knot froe_motion_body_knot(const froe_motion *motion, uint32_t body, s
                             {q[0], q[1], q[2], q[3]}};
 }
 
-froe_motion_options froe_motion_window(const froe_motion *motion) {
+void froe_motion_window_into(const froe_motion *motion, froe_motion_options *out, size_t size) {
     BASE_FLOATS_OWN;
-    froe_motion_options window = froe_motion_defaults();
-    window.dim = (unsigned)motion->dim;
-    window.begin = motion->begin;
-    window.end = motion->end;
-    window.tick = ldexp(1, motion->power);
-    return window;
+    const froe_motion_options window = {.size = size,
+                                        .dim = (unsigned)motion->dim,
+                                        .begin = motion->begin,
+                                        .end = motion->end,
+                                        .tick = ldexp(1, motion->power)};
+    support_defaults(out, size, &window, sizeof window);
 }
 
 froe_moving_object froe_motion_object(const froe_motion *motion, uint32_t object) {
