@@ -1,6 +1,14 @@
 # Which parts can be built here? Sets FROE_HAS_IO, FROE_HAS_DRAW, FROE_HAS_CLI.
 find_package(Threads REQUIRED)
 find_package(PkgConfig)
+include(CheckCSourceCompiles)
+
+# pkg-config knows what is installed, not for which C library: musl-gcc finds no header of the system.
+set(header_gdal gdal.h)
+set(header_assimp assimp/scene.h)
+set(header_expat expat.h)
+set(header_cairo cairo.h)
+set(header_jansson jansson.h)
 
 # froe_part(NAME FOLDER PARTS parts it needs MODULES pkg-config modules it needs)
 function(froe_part name folder)
@@ -24,6 +32,12 @@ function(froe_part name folder)
       endif()
       if(NOT TARGET PkgConfig::${prefix})
         list(APPEND missing ${module})
+        continue()
+      endif()
+      set(CMAKE_REQUIRED_LIBRARIES PkgConfig::${prefix})
+      check_c_source_compiles("#include <${header_${module}}>\nint main(void) { return 0; }" FROE_SERVES_${prefix})
+      if(NOT FROE_SERVES_${prefix})
+        list(APPEND missing "${module} for this compiler")
       endif()
     endforeach()
     if(NOT missing)
