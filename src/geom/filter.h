@@ -30,12 +30,13 @@ static inline double filter_lift(double most) {
 
 /* A power of two for a normal of differences that were lifted from below 2^-800: it becomes about 2^200 long. So its
  * product with a difference of denormal numbers is no less than 2^-874, which NUM_BALL_TINY does not hide, and one of
- * three such normals is still a double. 1 for all others. */
+ * three such normals is still a double. 1 for all others. Lifted numbers are multiples of 2^-274, and so such a normal
+ * is no less than 2^-548. */
 static inline double filter_raise(double lift, double most) {
     int exponent;
     if (lift < 0x1p800 || !(most > 0) || most >= 0x1p200) return 1;
     frexp(most, &exponent);
-    return ldexp(1, exponent < -800 ? 1000 : 200 - exponent);
+    return ldexp(1, 200 - exponent);
 }
 
 /* sum n[k] w[k] - c, where w[k] = fl(x[k] - o[k]) has relative error u.

@@ -23,11 +23,10 @@ typedef struct span {
     double from[FROE_MAX_DIM][FROE_MAX_DIM], to[FROE_MAX_DIM][FROE_MAX_DIM];
 } span;
 
-/* Takes the vector from p to q up if it is independent of those before. */
+/* Takes the vector from p to q up if it is independent of those before, which are less than dim. */
 static void widen(num_context *context, span *s, int dim, const double *p, const double *q) {
     num_arena *arena = num_fresh(context);
     num_table t = {.rows = s->rank + 1, .columns = dim};
-    if (s->rank == dim) return;
     for (int k = 0; k < dim; k++) s->from[s->rank][k] = p[k], s->to[s->rank][k] = q[k];
     for (int i = 0; i < t.rows; i++)
         for (int k = 0; k < dim; k++)
@@ -109,6 +108,7 @@ static void pair_image(const void *user, uint32_t j, double *out) {
     out[p->dim + 1] = right || (j >= n && !all) ? 1 : all ? (double)m / (n + m) : 0;
 }
 
+/* The polytopes meet. */
 static bool interiors_meet(const pair *p) {
     const uint32_t corners = p->a.count + p->b.count;
     const geom_program program = {.rows = p->dim + 2,
@@ -118,8 +118,7 @@ static bool interiors_meet(const pair *p) {
                                   .user = p,
                                   .column = pair_column,
                                   .image = pair_image};
-    const geom_solution solution = geom_program_solve(p->context, &program);
-    return solution.feasible && solution.sign > 0;
+    return geom_program_solve(p->context, &program).sign > 0;
 }
 
 /* --------------------------------------------------------------------- both -- */

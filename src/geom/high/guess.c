@@ -141,6 +141,7 @@ geom_guess geom_guess_between(const geom_convex *a, const geom_convex *b) {
     for (int k = 0; k < s.dim; k++) g.origin[k] = geom_convex_coordinate(a, 0, k) * g.scale;
     place(&s, a, b, 0);
     memcpy(g.x, s.y[0], sizeof g.x);
+    /* one way: each step is nearer to 0; a limit of time alone */
     for (int step = 0; step < STEPS; step++) {
         double size = 0, before = dot(s.dim, g.x, g.x);
         uint32_t i, j;
@@ -190,7 +191,7 @@ void geom_guess_bounds(const geom_guess *g, const geom_convex *a, const geom_con
     }
     for (int k = 0; k < dim; k++) square += reach[k] / furthest * (reach[k] / furthest); /* does not underflow */
     const double far = furthest * sqrt(square) / sum * (1 + SUM_ERROR);
-    if (far >= 0) *most = far;
+    if (far >= 0) *most = far; /* one way: weights are finite, and some is positive */
     *least = *least / g->scale * (1 - 0x1p-50) - 0x1p-1070;
     *most = *most / g->scale * (1 + 0x1p-50) + 0x1p-1070;
     *least = *least > 0 ? fmin(*least, DBL_MAX) : 0;
@@ -217,6 +218,7 @@ bool geom_guess_inside(const geom_guess *g, const geom_convex *a, const geom_con
             for (int i = 0; i < dim; i++) table[k][i] = y[i + 1][k] - y[0][k];
             table[k][dim] = k == c;
         }
+        /* one way: weights were found from squares of these edges, which are flat before the edges are */
         if (!num_plain_solve(dim, dim + 1, table)) return false;
         for (int i = 0; i < dim; i++) r[i][c] = table[i][dim];
     }
@@ -225,7 +227,7 @@ bool geom_guess_inside(const geom_guess *g, const geom_convex *a, const geom_con
         double sum = 0;
         weight[i] = 0;
         for (int k = 0; k < dim; k++) sum += fabs(r[i][k]), weight[i] -= r[i][k] * y[0][k];
-        if (!(sum < 0x1p80 / reach)) return false; /* not a number, too */
+        if (!(sum < 0x1p80 / reach)) return false; /* one way: as above; not a number, too */
         norm = fmax(norm, sum);
         rest -= weight[i];
         least = fmin(least, weight[i]);

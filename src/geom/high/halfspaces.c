@@ -368,7 +368,7 @@ double geom_halfspaces_ball(const geom_halfspaces *h, double *x) {
             }
             x[k] += 0.5 * ahead - 0.5 * back;
             const double moved = radius_at(h, x, &at);
-            if (moved > radius && isfinite(x[k]))
+            if (moved > radius) /* not where x is infinite: it is no number there */
                 radius = moved;
             else
                 x[k] = before;

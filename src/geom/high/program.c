@@ -123,14 +123,15 @@ static int plain_leave(program_search *s, uint32_t j) {
         plain_column(s, c < m ? s->basis[c] : c == m ? GEOM_RIGHT_SIDE : j, column);
         for (int i = 0; i < m; i++) t[i][c] = column[i];
     }
+    /* one way: plain_enter() has solved the transposed equations */
     if (!num_plain_solve(m, m + 2, t)) return NO_ROW - 1;
     for (int i = 0; i < m; i++) {
         const double step = t[i][m + 1];
         if (!s->first_phase && s->basis[i] >= GEOM_UNIT && fabs(step) > NEAR) return i;
         if (step <= NEAR) continue;
         const double share = fmax(0, t[i][m]) / step;
-        if (share < least - NEAR || (share < least + NEAR && best != NO_ROW && s->basis[i] < s->basis[best]))
-            best = i, least = share;
+        if (share < least - NEAR || (share < least + NEAR && s->basis[i] < s->basis[best]))
+            best = i, least = share; /* the first share is less than the infinite one */
     }
     return best;
 }
@@ -156,11 +157,12 @@ static uint32_t plain_enter(program_search *s) {
 /* ------------------------------------------------------------------ solving -- */
 
 static void improve(program_search *s, bool plain, int steps) {
+    /* one way: rows of so few columns take fewer steps; a limit for doubles that go round */
     for (int i = 0; i != steps; i++) {
         const uint32_t j = plain ? plain_enter(s) : exact_enter(s);
         if (j == GEOM_RIGHT_SIDE) return;
         const int row = plain ? plain_leave(s, j) : exact_leave(s, j);
-        if (row < 0) return;
+        if (row < 0) return; /* one way: the programs are bounded; doubles that say otherwise are not trusted */
         s->basis[row] = j;
     }
 }

@@ -52,7 +52,7 @@ static bool find_sides(polygon *p, const polygon *other) {
  * behind it first. */
 static void find_edge(const polygon *p, bool up, const double *ends[2]) {
     uint32_t i = 0;
-    for (; i < p->count; i++) {
+    for (;; i++) { /* p has corners on both sides */
         bool from = p->sides[i] < 0, to = p->sides[i + 1 < p->count ? i + 1 : 0] < 0;
         if (up ? from && !to : !from && to) break;
     }

@@ -151,7 +151,7 @@ static bool root_from_simplex(const double *point, const geom_distance *a, pair_
 static bool root_by_pairs(const double *point, const geom_distance *a, pair_root *out) {
     if (a->radius > 0) return false;
     if (a->lo) return root_from_box(point, a, out);
-    if (!a->count || a->dim > 3) return false;
+    if (!a->count) return false; /* the point is in it, or it is a polytope above dimension 3 */
     return a->dim == 2 ? root_from_flat(point, a, out) : root_from_simplex(point, a, out);
 }
 
@@ -171,7 +171,7 @@ static int beyond_both(num_arena *arena, num_ratio s, double radius, num_dyadic 
 
 /* Are both distances from simplices of as many corners? */
 static bool same_kind(const geom_distance *a, const geom_distance *b) {
-    return !a->lo && !b->lo && a->count == b->count && a->radius == b->radius && !a->high.count && !b->high.count;
+    return !a->lo && !b->lo && a->count == b->count && a->radius == b->radius && !a->high.count;
 }
 
 /* Do both come from the same corners? Objects of one scene share them. */
@@ -195,11 +195,11 @@ static int axes_shared(const geom_distance *a, const geom_distance *b, int *last
     return shared;
 }
 
-/* Do these coordinates say that both have one affine hull? Of walls, floors and their edges along the axes many are
+/* Do these coordinates say that both, which do not have the point inside, have one affine hull? Of walls, floors and their edges along the axes many are
  * equally near. */
 static bool same_hull(const geom_distance *a, const geom_distance *b) {
     int axis;
-    return same_kind(a, b) && a->count && axes_shared(a, b, &axis) == a->dim + 1 - a->count;
+    return same_kind(a, b) && axes_shared(a, b, &axis) == a->dim + 1 - a->count;
 }
 
 static int compare_images(const geom_distance *a, const geom_distance *b) {

@@ -16,7 +16,7 @@
 /** Which differences a_i - b_j count, in dimension 2 or 3. Zero-initialise for all of them. */
 typedef struct geom_differences {
     const geom_body *a, *b;
-    bool star;               /**< only those with one of the corners star_a, star_b, not with both: */
+    bool star;               /**< only those with one of the corners star_a, star_b, not with both; nonzero, too: */
     uint32_t star_a, star_b; /*     a cone's generators, when these two are one point */
     bool along;              /**< modulo the direction from[k] - to[k] */
     bool nonzero;            /**< leave out those that vanish (modulo that direction) */

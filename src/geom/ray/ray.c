@@ -95,24 +95,24 @@ static int compare_hits_exactly(num_arena *arena, const geom_ray *ray, const geo
 
 /* The axis along which all corners of a PLANE in space have one coordinate; -1: there is none. Walls and floors of
  * models are such. */
-static int wall_axis(const geom_ray *ray, const geom_hit *h) {
-    for (int k = 0; h->source == GEOM_PLANE && ray->dim == 3 && k < 3; k++)
+static int wall_axis(const geom_hit *h) {
+    for (int k = 0; h->source == GEOM_PLANE && k < 3; k++)
         if (h->p[k] == h->q[k] && h->p[k] == h->r[k]) return k;
     return -1;
 }
 
 /* Do the sources alone say that both are equal? Walls of two bodies that touch lie in one plane. */
-static bool same_source(const geom_ray *ray, const geom_hit *a, const geom_hit *b) {
+static bool same_source(const geom_hit *a, const geom_hit *b) {
     if (a->source == GEOM_START && b->source == GEOM_START) return true;
-    const int axis = wall_axis(ray, a);
-    return axis >= 0 && axis == wall_axis(ray, b) && a->p[axis] == b->p[axis];
+    const int axis = wall_axis(a);
+    return axis >= 0 && axis == wall_axis(b) && a->p[axis] == b->p[axis];
 }
 
 int geom_hit_compare(num_context *context, const geom_ray *ray, const geom_hit *a, const geom_hit *b) {
     int sign;
     context->stats.calls++;
     return NUM_LADDER(context, sign, filter_sign(filter_sub(a->t, b->t)),
-                      same_source(ray, a, b) ? num_by_id(context, 0) : NUM_UNSURE, NUM_UNSURE,
+                      same_source(a, b) ? num_by_id(context, 0) : NUM_UNSURE, NUM_UNSURE,
                       compare_hits_exactly(num_fresh(context), ray, a, b));
 }
 
@@ -147,7 +147,7 @@ static bool is_moderate(double size) {
 /* The parameter of a wall, (c - o) / d along its axis, by pairs of doubles: one difference, which is exact, and one
  * quotient, off by less than 2^-98 of itself. Triangles as thin as they may be do not matter here. */
 static bool round_wall(const geom_ray *ray, const geom_hit *h, double *out) {
-    const int axis = wall_axis(ray, h);
+    const int axis = wall_axis(h);
     if (axis < 0) return false;
     const double d = ray->d[axis];
     const num_pair gap = num_pair_sum(h->p[axis], -ray->o[axis]), t = num_pair_div(gap, (num_pair){d, 0});
@@ -157,7 +157,8 @@ static bool round_wall(const geom_ray *ray, const geom_hit *h, double *out) {
 }
 
 /* The parameter of a PLANE, if pairs of doubles can tell how it is to be rounded. With sizes as sums of coordinates, a
- * product of three vectors is off by less than 2^-96 |e| |f| |v|. */
+ * product of three vectors is off by less than 2^-96 |e| |f| |v|. Where products underflow, |n . d| is less than 2^-600,
+ * and so far below |e| |f| |d| that nothing can be told. */
 static bool round_plane(const geom_ray *ray, const geom_hit *h, double *out) {
     num_pair e[3], f[3], v[3], n[3], d[3];
     const double zero[3] = {0}, e_size = num_pair_between(h->p, h->q, e), f_size = num_pair_between(h->p, h->r, f),
@@ -169,7 +170,7 @@ static bool round_plane(const geom_ray *ray, const geom_hit *h, double *out) {
         if (!(sizes[i] > 0x1p-100 && sizes[i] < 0x1p200)) return false;
     const double error = 0x1p-95 * e_size * f_size * (v_size + fabs(t.hi) * d_size) / low + 0x1p-96 * fabs(t.hi);
     *out = t.hi + (t.lo - error);
-    return *out == t.hi + (t.lo + error) && t.hi > 0x1p-200 && low > 0x1p-600;
+    return *out == t.hi + (t.lo + error) && t.hi > 0x1p-200;
 }
 
 double geom_hit_round(num_context *context, const geom_ray *ray, const geom_hit *a) {

@@ -64,9 +64,9 @@ static geom_hit hit_of(num_context *context, const program *lp) {
     h.p = corner[0];
     if (count > 1) h.q = corner[1];
     if (count > 2) h.r = corner[2];
-    for (int axis = 2, last = lp->ray->dim == 3 ? 0 : 2; count == 2 && axis >= last; axis--) {
+    for (int axis = 2, last = lp->ray->dim == 3 ? 0 : 2; count == 2; axis--) {
         h.axis = (axis + 1) % 3, h.other = (axis + 2) % 3;
-        if (apart(context, lp->ray, h.axis, h.other, h.p, h.q)) break;
+        if (axis == last || apart(context, lp->ray, h.axis, h.other, h.p, h.q)) break;
     }
     if (count == 1) {
         for (int k = 0; k < lp->ray->dim; k++)
