@@ -131,6 +131,7 @@ if(TARGET froe_io_white)
 endif()
 
 target_link_options(test_base_pages PRIVATE -Wl,--wrap=mremap)
+target_link_options(test_tree_reading PRIVATE -Wl,--wrap=read)
 
 # Outputs whose system calls fail: in the writer's own test, and in a program like froe (tests/faults).
 set(fault_options "")

@@ -80,8 +80,8 @@ static froe_status check_made(const froe_tree *t, froe_diagnostic *diag) {
     if (tree_wide_new(t, &wide)) return support_fail_memory(diag);
     const tree_wide *nodes = t->packed.wide;
     const bool wide_same =
-        !wide == !nodes && (!wide || (wide->count == nodes->count && wide->levels == nodes->levels &&
-                                      same(wide->nodes, nodes->nodes, wide->count * sizeof *wide->nodes)));
+        !wide || (wide->count == nodes->count && wide->levels == nodes->levels && /* both are there or neither is */
+                  same(wide->nodes, nodes->nodes, wide->count * sizeof *wide->nodes));
     if (wide) facts.levels = wide->levels;
     tree_wide_free(&t->alloc, wide);
     const char *what = !same(&facts, &t->facts, sizeof facts) ? "counts"

@@ -95,7 +95,7 @@ static froe_status read_bytes(opening *o, int fd, uint8_t *to) {
     size_t count = 0;
     for (ssize_t got = 1; count < o->size && got;) {
         got = read(fd, to + count, o->size - count);
-        if (got < 0 && errno == EINTR) continue; /* one way, as the next: a disk that is well */
+        if (got < 0 && errno == EINTR) continue;
         if (got < 0) return unreadable(o, errno);
         count += (size_t)got;
     }

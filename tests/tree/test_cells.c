@@ -95,6 +95,17 @@ static void leaves_tile_the_box(void **state) {
             }
 }
 
+/* Walls that stand on edges of triangles. */
+static void leaves_between_walls_tile_the_box(void **state) {
+    (void)state;
+    const double lo[3] = {-0.5, -0.5, -0.5}, hi[3] = {1.5, 1.5, 1.5};
+    froe_tree *tree = trees_grow(3, FROE_POLYGON, 30, 0, 0.03, "cylindrical", 1);
+    const tally t = cells_in(tree, lo, hi);
+    assert_true(fabs(t.leaf_measure - 8) < 1e-9);
+    assert_true(t.leaves > 30 && t.cuts == t.leaves - 1);
+    froe_tree_free(tree);
+}
+
 static void parts_of_a_tree_are_cells_of_a_smaller_box(void **state) {
     (void)state;
     const double lo[2] = {0.4, 0.4}, hi[2] = {0.5, 0.6};
@@ -347,9 +358,63 @@ static void threads_read_corners_together(void **state) {
     froe_tree_free(tree);
 }
 
+static bool count_leaves(void *user, const froe_cell *cell) {
+    *(size_t *)user += cell->leaf;
+    return true;
+}
+
+/* A cut through two corners of the box has no edge of it to cross, and one beside the box divides nothing. */
+static void cuts_through_corners_of_the_box_have_sections(void **state) {
+    static const double diagonal[] = {-1, -1, 4, 4}, triangle[] = {-1, -1, 0, 4, 4, 0, -1, -1, 3};
+    static const double lo[3] = {0, 0, 0}, hi[3] = {2, 2, 2}, off[3] = {0.5, 0, 0};
+    static const size_t starts[] = {0, 3};
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++)
+        for (int beside = 0; beside < 2; beside++) {
+            froe_scene *scene;
+            assert_int_equal(froe_scene_new(dim, NULL, &scene), FROE_OK);
+            assert_int_equal(trees_add(scene, dim == 2 ? FROE_SEGMENT : FROE_POLYGON, 1, dim == 2 ? diagonal : triangle,
+                                       NULL, dim == 2 ? NULL : starts),
+                             FROE_OK);
+            froe_tree *tree = trees_build(scene, "autopartition", 0);
+            assert_int_equal(tree->node_count, 3);
+            const tally t = cells_in(tree, beside ? off : lo, hi);
+            assert_int_equal(t.leaves, 2);
+            assert_int_equal(t.cuts, 1); /* check_cut() has looked at its corners */
+            assert_true(fabs(t.leaf_measure - t.root_measure) < 1e-12);
+            froe_tree_free(tree), froe_scene_free(scene);
+        }
+}
+
+/* Cuts so far from the box that they overflow in its units are on one side of it. */
+static void boxes_far_smaller_than_the_tree_are_in_one_leaf(void **state) {
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++) {
+        const size_t d = (size_t)dim, count = 12;
+        double coords[12 * 9];
+        size_t starts[13];
+        for (size_t i = 0; i <= count; i++) starts[i] = 3 * i;
+        for (size_t i = 0; i < count * d * d; i++) coords[i] = ldexp(trees_unit(4, i) + 0.25, 400);
+        froe_scene *scene;
+        assert_int_equal(froe_scene_new(dim, NULL, &scene), FROE_OK);
+        assert_int_equal(
+            trees_add(scene, dim == 2 ? FROE_SEGMENT : FROE_POLYGON, count, coords, NULL, dim == 2 ? NULL : starts),
+            FROE_OK);
+        froe_tree *tree = trees_build(scene, "autopartition", 1);
+        const double tiny[3] = {0x1p-1000, 0x1p-1000, 0x1p-1000}, zero[3] = {0, 0, 0};
+        size_t leaves = 0;
+        assert_int_equal(froe_tree_cells(tree, zero, tiny, count_leaves, &leaves, NULL), FROE_OK);
+        assert_int_equal(leaves, 1);
+        froe_tree_free(tree), froe_scene_free(scene);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(cuts_through_corners_of_the_box_have_sections),
+        cmocka_unit_test(boxes_far_smaller_than_the_tree_are_in_one_leaf),
         cmocka_unit_test(leaves_tile_the_box),
+        cmocka_unit_test(leaves_between_walls_tile_the_box),
         cmocka_unit_test(parts_of_a_tree_are_cells_of_a_smaller_box),
         cmocka_unit_test(flat_and_point_boxes_have_cells_too),
         cmocka_unit_test(no_scale_overflows),

@@ -9,6 +9,7 @@
 #include "tree/audit/inseparable.h"
 #include "tree/audit/share.h"
 #include "tree/packed/packer.h"
+#include "tree/packed/wide.h"
 #include "tree/validate.h"
 #include <froe/query.h>
 #include <stdio.h>
@@ -454,6 +455,140 @@ static void packers_take_large_leaves_and_may_lack_memory(void **state) {
     test_memory_end(&m);
 }
 
+/* A file that ends where a section does, before the zeros that align the next one. */
+static void sections_that_begin_behind_the_end_are_refused(void **state) {
+    (void)state;
+    file f = file_of(trees_grow(2, FROE_SEGMENT, 21, 0, 0.4, "autopartition", 1));
+    file_header *h = (file_header *)(void *)f.bytes;
+    const size_t whole = f.size;
+    int ends = 0;
+    for (uint32_t i = 0; i + 1 < FILE_SECTIONS; i++) {
+        file_section s;
+        memcpy(&s, f.bytes + sizeof *h + i * sizeof s, sizeof s);
+        const uint64_t end = s.offset + s.size;
+        if (end % FILE_ALIGN == 0 || end >= whole) continue;
+        f.size = h->size = (size_t)end;
+        forge_checksums(f.bytes, f.size);
+        assert_refused(&f, "a section is out of place");
+        ends++;
+    }
+    assert_true(ends > 1);
+    free(f.bytes);
+}
+
+/* What is asked before all of a file is checked: pieces and blocks that name what is not there. */
+static void parts_that_name_what_is_not_there_are_refused_when_asked(void **state) {
+    (void)state;
+    for (int wrong = 0; wrong < 4; wrong++) {
+        const file f = file_of(trees_grow(2, FROE_SEGMENT, 300, 0, 0.05, wrong ? "index" : "autopartition", 6));
+        file_section s;
+        memcpy(&s, f.bytes + sizeof(file_header) + (FILE_BLOCKS - 1) * sizeof s, sizeof s);
+        packed_header *first = section_of(&f, FILE_BLOCKS);
+        packed_header *last = (packed_header *)(void *)(f.bytes + s.offset + s.size - PACKED_BLOCK);
+        if (wrong == 0) ((tree_piece *)section_of(&f, FILE_PIECES))->object = 300;
+        if (wrong == 1) first->owner = UINT32_MAX;
+        if (wrong == 2) last->owner += 1;
+        if (wrong == 3) *(uint32_t *)section_of(&f, FILE_OWNERS) = 300;
+        forge_checksums(f.bytes, f.size);
+        const double all[4] = {-9, -9, 9, 9};
+        froe_tree *tree;
+        froe_query *q;
+        froe_list found;
+        froe_diagnostic why = {0};
+        froe_range r = froe_range_defaults();
+        r.points = all;
+        assert_int_equal(froe_tree_open_memory(f.bytes, f.size, NULL, &tree, NULL), FROE_OK);
+        if (wrong) {
+            assert_int_equal(froe_query_new(tree, &q, NULL), FROE_OK);
+            assert_int_equal(froe_query_range(q, &r, &found, &why), FROE_E_FORMAT);
+            assert_non_null(strstr(why.message, "owners that do not exist"));
+            froe_query_free(q);
+        }
+        assert_int_equal(froe_tree_piece(tree, 0).object, FROE_NONE);
+        assert_int_equal(froe_tree_check(tree, NULL), FROE_E_FORMAT);
+        froe_tree_free(tree);
+        free(f.bytes);
+    }
+}
+
+/* Boxes of trees in space follow from their nodes: no other number of children, unit, corner or level will do. */
+static void wide_nodes_that_do_not_fit_are_refused(void **state) {
+    (void)state;
+    const file f = file_of(trees_grow(3, FROE_POLYGON, 400, 0, 0.1, "index", 2));
+    wide_node *nodes = section_of(&f, FILE_WIDE);
+    const wide_node right = *nodes;
+    for (int wrong = 0; wrong < 8; wrong++) {
+        *nodes = right;
+        if (wrong == 0) nodes->count = 0;
+        if (wrong == 1) nodes->count = WIDE_CHILDREN + 1;
+        if (wrong == 2) nodes->unused++;
+        if (wrong == 3) nodes->lo[2] = 2.5;
+        if (wrong == 4) nodes->shift[1] = 3;
+        if (wrong == 5) nodes->child[0]++;
+        if (wrong == 6) nodes->child[0] = WIDE_LEAF | 0x7ffffff;
+        if (wrong == 7) nodes->box[1][0][0] ^= 1;
+        forge_checksums(f.bytes, f.size);
+        froe_diagnostic why = {0};
+        assert_int_equal(read_whole(&f, &why), FROE_E_FORMAT);
+        assert_true(why.message[0] != 0);
+    }
+    *nodes = right;
+    forge_checksums(f.bytes, f.size);
+    assert_int_equal(read_whole(&f, NULL), FROE_OK);
+    free(f.bytes);
+}
+
+/* The cut of a tree of two leaves is moved out of its root box, and the blocks say so: then the tree may not be told
+ * from one that froe has made, but it is audited as wrong. */
+static void cuts_beside_the_root_box_are_found(void **state) {
+    static const double places[] = {-1e9, 1e9};
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        const file f = file_of(trees_grow(2, FROE_SEGMENT, 12, 0, 0.01, "index", 9));
+        tree_node *nodes = section_of(&f, FILE_NODES);
+        packed_header *blocks = section_of(&f, FILE_BLOCKS);
+        assert_int_equal(nodes[0].type, TREE_PLAIN);
+        assert_true(nodes[1].type == TREE_LEAF && nodes[2].type == TREE_LEAF);
+        packed_header *of[2] = {blocks + 2 * nodes[1].child, blocks + 2 * nodes[2].child};
+        of[1]->lo[nodes[0].axis] = nodes[0].u.value = places[i];
+        for (int side = 0; side < 2; side++) of[side]->scale = 0, of[side]->error = PACKED_COARSE;
+        forge_checksums(f.bytes, f.size);
+        froe_tree *tree;
+        assert_int_equal(froe_tree_open_memory(f.bytes, f.size, NULL, &tree, NULL), FROE_OK);
+        const froe_status status = froe_tree_check(tree, NULL);
+        assert_true(status == FROE_E_FORMAT || (status == FROE_OK && froe_tree_audit(tree, NULL, NULL)));
+        froe_tree_free(tree);
+        free(f.bytes);
+    }
+}
+
+typedef struct growing {
+    int dim;
+    froe_kind kind;
+    size_t count;
+    const char *method;
+} growing;
+
+static froe_status grow_with(void *user, const froe_allocator *alloc) {
+    const growing *g = user;
+    froe_scene *scene = NULL;
+    froe_tree *tree = NULL;
+    froe_status status = froe_scene_new(g->dim, alloc, &scene);
+    if (!status) status = trees_scatter(scene, g->kind, g->count, 0, 0.3, 1);
+    froe_build_options o = froe_build_defaults();
+    o.method = g->method, o.leaf = 1, o.threads = 1;
+    if (!status) status = froe_build(scene, &o, &tree, NULL);
+    froe_tree_free(tree), froe_scene_free(scene);
+    return status;
+}
+
+static void growing_trees_may_lack_memory(void **state) {
+    static const growing all[] = {{2, FROE_SEGMENT, 90, "autopartition"}, {3, FROE_POLYGON, 120, "index"}};
+    (void)state;
+    for (size_t i = 0; i < sizeof all / sizeof *all; i++)
+        assert_true(test_memory_each(grow_with, (void *)(uintptr_t)(all + i)) > 30);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(wrong_words_of_headers_are_refused),
@@ -472,6 +607,11 @@ int main(void) {
         cmocka_unit_test(writing_may_lack_memory),
         cmocka_unit_test(opened_trees_of_many_objects_and_of_none_answer),
         cmocka_unit_test(packers_take_large_leaves_and_may_lack_memory),
+        cmocka_unit_test(sections_that_begin_behind_the_end_are_refused),
+        cmocka_unit_test(parts_that_name_what_is_not_there_are_refused_when_asked),
+        cmocka_unit_test(wide_nodes_that_do_not_fit_are_refused),
+        cmocka_unit_test(cuts_beside_the_root_box_are_found),
+        cmocka_unit_test(growing_trees_may_lack_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

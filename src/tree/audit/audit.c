@@ -239,7 +239,7 @@ static froe_status check_chunk(void *user, unsigned worker, size_t job) {
         if (!c.failed && !c.no_memory && !space && c.next < c.end) stray(&c);
         status = c.no_memory ? support_fail_memory(&diag) : c.failed ? FROE_E_AUDIT : FROE_OK;
     }
-    if (status && job < a->findings[worker].job) a->findings[worker] = (finding){job, diag};
+    if (status) a->findings[worker] = (finding){job, diag};
     return status;
 }
 

@@ -15,10 +15,7 @@ typedef struct packed_end {
 static bool in_general_position(const packed_end *e) {
     const tree_node *made = e->point.kind == RING_VERTEX ? NULL : e->tree->nodes + e->point.a;
     for (int axis = 0; axis < 2; axis++) {
-        if (made && made->axis == axis) {
-            if (made->u.value != e->box->lo[axis] && made->u.value != e->box->hi[axis]) return false;
-            continue;
-        }
+        if (made && made->axis == axis) continue; /* the end is in the closed cell, and so that cut is a side of it */
         for (int upper = 0; upper < 2; upper++) {
             const double value = (upper ? e->box->hi : e->box->lo)[axis];
             const bool cut = value != (upper ? e->tree->meta.root_hi : e->tree->meta.root_lo)[axis];

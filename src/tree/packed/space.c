@@ -44,10 +44,11 @@ static uint16_t unit_of_bound(double x, double lo, double scale, double up) {
     return (uint16_t)(u > 0 ? u < PACKED_UNITS ? (int32_t)u : PACKED_UNITS : 0);
 }
 
+/* Rounded up; x is no more than PACKED_UNITS above lo. */
 static uint16_t unit_above(double x, double lo, double scale) {
     const double u = (x - lo) * scale;
     const uint16_t below = unit_of_bound(x, lo, scale, 0);
-    return (uint16_t)(below + (u > below && below < PACKED_UNITS));
+    return (uint16_t)(below + (u > below));
 }
 
 /* 65535 / size, rounded down to a power of 2; 0 where numbers are too large or too small for it. */

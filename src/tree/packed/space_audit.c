@@ -32,7 +32,6 @@ static double outside(num_context *context, const space_header *h, int k, double
     double x = h->lo[k] + unit / h->scale;
     const double end = direction < 0 ? -(double)INFINITY : (double)INFINITY;
     while (isfinite(x) && beside(context, h, k, x, unit) * direction <= 0) x = nextafter(x, end);
-    while (isfinite(x) && beside(context, h, k, nextafter(x, -end), unit) * direction > 0) x = nextafter(x, -end);
     return x;
 }
 

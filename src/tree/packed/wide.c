@@ -97,6 +97,7 @@ static uint32_t open_up(const widening *w, uint32_t node, uint32_t child[]) {
             at = n->child + is_empty(w, n->child);
         if (is_empty(w, at)) continue;
         for (; room > 1 && !share; room -= !share) share = w->forests[at].share[room - 1];
+        /* one way: a box costs more than its parts, but in float where 2^24 boxes below are as large */
         if (first && !share && !tree_is_leaf(n)) room = WIDE_CHILDREN, share = 1; /* it has to be */
         first = false;
         if (!share) {
@@ -169,6 +170,7 @@ static bool frame_wide(const froe_tree *t, tree_wide *wide) {
     const tree_meta *m = &t->meta;
     double size = 0;
     int exponent;
+    /* one way: so many blocks take 128 GB */
     if (!tree_is_space(t) || !t->scene->object_count || t->packed.block_count > WIDE_INDEX ||
         !space_is_tame(m->root_lo, m->root_hi))
         return false;
@@ -246,7 +248,7 @@ bool tree_wide_fits(const froe_tree *t, const tree_wide *wide) {
         if (i == level) level = last + 1, levels++;
         if (!node_fits(t, wide->nodes + i, &last) || last >= wide->count) return false;
     }
-    return last + 1 == wide->count && levels == wide->levels;
+    return levels == wide->levels; /* every node is the child of one before, and no other child is there */
 }
 
 void tree_wide_free(const froe_allocator *alloc, tree_wide *wide) {
