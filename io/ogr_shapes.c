@@ -1,10 +1,22 @@
 /* ogr_shapes.c: a geometry's parts are visited in order with an explicit stack. */
 #include "ogr_shapes.h"
+#include <math.h>
 
 void io_shapes_free(const froe_allocator *alloc, io_shapes *shapes) {
     array_free(alloc, &shapes->stack);
     array_free(alloc, &shapes->points);
     formats_outlines_free(alloc, &shapes->outlines);
+}
+
+/* A whole number beyond 64 bits has become the last one within, so that one may have been any. */
+static froe_status refuse_cut(formats_sink *sink, const io_shapes *shapes, const double *xy, size_t count) {
+    for (size_t i = 0; i < 2 * count && shapes->cuts; i++)
+        if (fabs(xy[i]) == 0x1p63 || xy[i] == 0x1p64)
+            return formats_sink_fail(sink, FROE_E_INPUT,
+                                     "Coordinate %c is read as %.17g, as every longer whole number is; with a decimal "
+                                     "point it is read as it is written.",
+                                     i % 2 ? 'y' : 'x', xy[i]);
+    return FROE_OK;
 }
 
 /* The vertices of a line or ring as xy pairs. */
@@ -14,7 +26,7 @@ static froe_status load_points(formats_sink *sink, io_shapes *shapes, OGRGeometr
     if (!array_reserve(&sink->alloc, &shapes->points, *count * 2)) return support_fail_memory(sink->diag);
     double *xy = shapes->points.data;
     if (*count) OGR_G_GetPoints(line, xy, 2 * sizeof *xy, xy + 1, 2 * sizeof *xy, NULL, 0);
-    return FROE_OK;
+    return refuse_cut(sink, shapes, xy, *count);
 }
 
 typedef froe_status part_fn(void *user, formats_sink *sink, io_shapes *shapes, OGRGeometryH part,
@@ -80,7 +92,8 @@ static froe_status add_part(void *user, formats_sink *sink, io_shapes *shapes, O
     if (OGR_G_IsEmpty(part)) return ++sink->report.skipped, FROE_OK;
     if (type == wkbPoint) {
         const double at[2] = {OGR_G_GetX(part, 0), OGR_G_GetY(part, 0)};
-        return formats_outline_point(sink, &shapes->outlines, at);
+        status = refuse_cut(sink, shapes, at, 1);
+        return status ? status : formats_outline_point(sink, &shapes->outlines, at);
     }
     if (type != wkbLineString && !area) return ++sink->report.skipped, FROE_OK;
     const int rings = area ? OGR_G_GetGeometryCount(part) : 0;

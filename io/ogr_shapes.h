@@ -9,6 +9,7 @@
 typedef struct io_shapes {
     ARRAY(OGRGeometryH) stack;
     ARRAY(double) points; /**< xy */
+    bool cuts;            /**< are whole numbers of the file cut to 64 bits, as json-c does it for OGR? */
     formats_outlines outlines;
 } io_shapes;
 void io_shapes_free(const froe_allocator *alloc, io_shapes *shapes);

@@ -233,6 +233,7 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
     if (!m.data) status = refuse_content(&m, name);
     if (!status) {
         formats_report_format(sink, "float64", "%s", GDALGetDriverShortName(GDALGetDatasetDriver(m.data)));
+        m.shapes.cuts = strstr(sink->report.format, "JSON") != NULL;
         m.crs.promise = io_crs_promise_of(m.data);
         status = add_layers(&m);
     }
