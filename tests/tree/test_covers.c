@@ -14,7 +14,7 @@ typedef struct listed {
  *
  *     x = 0: node 1 | 2         node 2 by x = 4: 3 | 4        node 3 by y = 0: 5 | 6       6 by y = 4: 7 | 8
  */
-static froe_tree *by_hand(const double *outer, const listed *list, size_t count, uint32_t leaf) {
+static froe_tree *covers_by_hand(const double *outer, const listed *list, size_t count, uint32_t leaf) {
     static const froe_cut cuts[] = {{.kind = FROE_CUT_AXIS, .axis = 0, .value = 0},
                                     {.kind = FROE_CUT_AXIS, .axis = 0, .value = 4},
                                     {.kind = FROE_CUT_AXIS, .axis = 1, .value = 0},
@@ -59,14 +59,14 @@ static void a_cover_is_listed_once_for_all_that_is_below(void **state) {
     (void)state;
     const double inner[4] = {-1, -1, 5, 9};
     const listed below[] = {{9, 0, true}, {9, 1, false}, {10, 0, false}, {2, 2, false}};
-    froe_tree *tree = by_hand(square, right, 3, 1);
+    froe_tree *tree = covers_by_hand(square, right, 3, 1);
     const froe_report r = froe_tree_report(tree);
     const froe_node_info info = froe_tree_node(tree, (froe_node){8});
     assert_true(r.fragments == 3 && r.covers == 1 && r.in_cut == 1);
     assert_true(info.cut.kind == FROE_CUT_AXIS && info.piece_count == 1 && info.cover_count == 1);
     judge(tree, NULL);
-    judge(by_hand(square, below, 4, 1), NULL);                          /* it need not be listed as high as it could */
-    judge(by_hand(inner, right, 3, 1), "no piece where the object is"); /* it is in other cells, too */
+    judge(covers_by_hand(square, below, 4, 1), NULL);                          /* it need not be listed as high as it could */
+    judge(covers_by_hand(inner, right, 3, 1), "no piece where the object is"); /* it is in other cells, too */
 }
 
 static void a_cover_that_does_not_contain_its_region_is_found(void **state) {
@@ -74,16 +74,16 @@ static void a_cover_that_does_not_contain_its_region_is_found(void **state) {
     for (int side = 0; side < 4; side++) { /* too small by one number */
         double less[4] = {0, 0, 4, 4};
         less[side] = nextafter(less[side], 2);
-        judge(by_hand(less, right, 3, 1), "a cover that does not contain the region of the node");
+        judge(covers_by_hand(less, right, 3, 1), "a cover that does not contain the region of the node");
     }
     const listed high[] = {{6, 0, true}, {9, 1, false}, {2, 2, false}};
     const listed root[] = {{0, 0, true}, {9, 1, false}, {2, 2, false}};
     const listed small[] = {{7, 0, true}, {9, 1, true}, {2, 2, false}};
     const listed flat[] = {{2, 2, true}, {7, 0, true}, {9, 1, false}};
-    judge(by_hand(square, high, 3, 1), "a cover that does not contain the region of the node");
-    judge(by_hand(square, root, 3, 1), "a cover that does not contain the region of the node");
-    judge(by_hand(square, small, 3, 1), "a cover that does not contain the region of the node");
-    judge(by_hand(square, flat, 3, 1), "a cover that does not contain the region of the node");
+    judge(covers_by_hand(square, high, 3, 1), "a cover that does not contain the region of the node");
+    judge(covers_by_hand(square, root, 3, 1), "a cover that does not contain the region of the node");
+    judge(covers_by_hand(square, small, 3, 1), "a cover that does not contain the region of the node");
+    judge(covers_by_hand(square, flat, 3, 1), "a cover that does not contain the region of the node");
 }
 
 static void an_object_listed_twice_or_lost_is_found(void **state) {
@@ -94,12 +94,12 @@ static void an_object_listed_twice_or_lost_is_found(void **state) {
     const listed below[] = {{7, 0, true}, {9, 0, false}, {9, 1, false}, {2, 2, false}};
     const listed again[] = {{7, 0, true}, {9, 0, true}, {9, 1, false}, {2, 2, false}};
     const listed elsewhere[] = {{7, 0, true}, {9, 1, false}, {2, 2, false}, {8, 0, true}};
-    judge(by_hand(square, lost, 2, 1), "no piece where the object is");
-    judge(by_hand(square, twice, 4, 1), "two pieces of the object");
-    judge(by_hand(square, as_both, 4, 1), "two pieces of the object");
-    judge(by_hand(square, below, 4, 1), "a piece where the object is not");
-    judge(by_hand(square, again, 4, 1), "a piece where the object is not");
-    judge(by_hand(square, elsewhere, 4, 1), "a piece where the object is not");
+    judge(covers_by_hand(square, lost, 2, 1), "no piece where the object is");
+    judge(covers_by_hand(square, twice, 4, 1), "two pieces of the object");
+    judge(covers_by_hand(square, as_both, 4, 1), "two pieces of the object");
+    judge(covers_by_hand(square, below, 4, 1), "a piece where the object is not");
+    judge(covers_by_hand(square, again, 4, 1), "a piece where the object is not");
+    judge(covers_by_hand(square, elsewhere, 4, 1), "a piece where the object is not");
 }
 
 /* Covers of a leaf do not count as a load. */
@@ -107,9 +107,9 @@ static void leaves_have_room_for_what_is_not_a_cover(void **state) {
     (void)state;
     const listed leaf[] = {{9, 0, true}, {9, 1, false}, {10, 0, true}, {2, 2, false}};
     const listed full[] = {{9, 0, false}, {9, 1, false}, {10, 0, true}, {2, 2, false}};
-    judge(by_hand(square, leaf, 4, 1), NULL);
-    judge(by_hand(square, full, 4, 1), "The leaf has 2 pieces, and room for 1.");
-    froe_tree *tree = by_hand(square, leaf, 4, 1);
+    judge(covers_by_hand(square, leaf, 4, 1), NULL);
+    judge(covers_by_hand(square, full, 4, 1), "The leaf has 2 pieces, and room for 1.");
+    froe_tree *tree = covers_by_hand(square, leaf, 4, 1);
     for (uint32_t i = 0; i < tree->node_count; i++)
         if (tree_list(tree, i).count == 2) tree->nodes[i].flags = TREE_INSEPARABLE, tree->report.inseparable = 1;
     judge(tree, "It is called inseparable, but is not over capacity");
