@@ -140,7 +140,7 @@ void vector_film_free(film_list *list, const froe_allocator *alloc) {
 
 /* A group of paths that are shown from one time to another; those of the first picture also where nothing moves. */
 static void put_span(double from, double to, double seconds, vector_output *output) {
-    const vector_digits first = vector_real(7, from), last = vector_real(7, to);
+    const vector_digits first = vector_exact(from), last = vector_exact(to);
     vector_print(output,
                  "<g class=%s>\n<animate attributeName=\"display\" calcMode=\"discrete\" dur=\"%ss\" "
                  "repeatCount=\"indefinite\" ",

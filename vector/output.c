@@ -56,8 +56,12 @@ vector_digits vector_real(int digits, double x) {
     return out;
 }
 
-void vector_put_exactly(vector_output *o, double x) {
+vector_digits vector_exact(double x) {
     char text[40];
     snprintf(text, sizeof text, "%.15g", x);
-    vector_print(o, "%s", vector_real(strtod(text, NULL) == x ? 15 : 17, x).text);
+    return vector_real(strtod(text, NULL) == x ? 15 : 17, x);
+}
+
+void vector_put_exactly(vector_output *o, double x) {
+    vector_print(o, "%s", vector_exact(x).text);
 }

@@ -27,6 +27,7 @@ typedef struct vector_digits {
 } vector_digits;
 vector_digits vector_real(int digits, double x);
 /** A number with 15 digits, or 17 where these do not give the same double again. */
+vector_digits vector_exact(double x);
 void vector_put_exactly(vector_output *output, double x);
 /** A text within a string of JSON. */
 void vector_put_json(vector_output *output, const char *text);

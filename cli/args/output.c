@@ -3,6 +3,7 @@
 #include "exit.h"
 #include "files.h"
 #include "support/fail.h"
+#include "support/path.h"
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -40,6 +41,11 @@ static bool is_binary(const char *ending) {
     for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
         if (!strcmp(ending, texts[i])) return false;
     return true;
+}
+
+int cli_check_ending(const char *option, const char *path, const char *ending) {
+    if (!path || !strcmp(support_path_extension(path).text, ending)) return 0;
+    return cli_fail(CLI_USE, NULL, "--%s: '%s' does not end in .%s.", option, path, ending);
 }
 
 /* A file with the ending, in a folder of its own. */

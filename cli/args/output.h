@@ -30,6 +30,8 @@ typedef struct cli_output {
             .help = "of standard output (-o -) or a pipe: the usual extension of its files, e.g. svg"                  \
     }
 
+/** CLI_USE, after saying so, for the file of an option that does not end in .ENDING; path NULL: 0. */
+int cli_check_ending(const char *option, const char *path, const char *ending);
 /** Prepares the output of a command, if it has one. Where that is standard output, what is printed goes to standard
  * error from here on. Returns 0, or an exit code after saying why. On success cli_output_close() must follow. */
 int cli_output_open(const cli_part *parts, void *args);

@@ -167,7 +167,7 @@ static int run_compare(const void *given) {
     meter meters[sizeof args->scenes.at / sizeof *args->scenes.at] = {{0}};
     if (!(args->seconds > 0)) return cli_fail(CLI_USE, NULL, "--seconds: '%g' is not a number above 0.", args->seconds);
     if (!(args->pieces > 0)) return cli_fail(CLI_USE, NULL, "--pieces: '%g' is not a number above 0.", args->pieces);
-    int code = 0;
+    int code = cli_check_ending("output", args->page.path, "html");
     for (const char *at = args->methods; !code && at && *at;) { /* names parted by commas */
         char name[64];
         const size_t length = strcspn(at, ",");

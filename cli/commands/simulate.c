@@ -74,6 +74,7 @@ typedef struct simulation {
     double seconds;
     bool full;
     json_t *events;
+    cli_written written;
 } simulation;
 
 static bool keep(void *user, const froe_contact *contact) {
@@ -109,7 +110,7 @@ static int find_contacts(simulation *s) {
     return status ? cli_fail_status(CLI_WORKING, s->args->moving.path, status, &diag) : 0;
 }
 
-static int animate(const simulation *s, const char *path) {
+static int animate(simulation *s, const char *path) {
     froe_diagnostic diag;
     froe_animation_options o = froe_animation_defaults();
     if (!path) return 0;
@@ -117,6 +118,7 @@ static int animate(const simulation *s, const char *path) {
     o.up = s->read.up;
     o.numbers = s->read.extent > 0 || s->args->moving.poses; /* seconds of a model, or numbers of a table */
     const froe_status status = froe_animate(s->motion, s->contacts, s->count, &o, path, &diag);
+    if (!status) s->written.names[s->written.count++] = path;
     return status ? cli_fail_status(CLI_WRITING, path, status, &diag) : 0;
 }
 
@@ -143,16 +145,14 @@ static int report(const simulation *s) {
                                 seconds));
 }
 
-/* A picture and a page are told apart by their endings in the library, and by their options here. */
-static int check_ending(const char *option, const char *path, const char *ending) {
-    if (!path || !strcmp(support_path_extension(path).text, ending)) return 0;
-    return cli_fail(CLI_USE, NULL, "--%s: '%s' does not end in .%s.", option, path, ending);
-}
-
 static int check(const simulate_args *args) {
-    int code = check_ending("animate", args->animate, "svg");
-    if (!code) code = check_ending("player", args->player, "html");
+    int code = cli_check_ending("animate", args->animate, "svg");
+    if (!code) code = cli_check_ending("player", args->player, "html");
     if (code) return code;
+    const bool followed = args->follow.events || args->follow.tree.name;
+    if (!followed && (args->follow.ghosts || args->follow.augmented))
+        return cli_fail(CLI_USE, NULL, "--%s: It is about the partition, and needs --events or --at.",
+                        args->follow.ghosts ? "ghosts" : "augmented");
     if (isnan(args->follow.at) != !args->follow.tree.name)
         return cli_fail(CLI_USE, NULL,
                         "--at: It needs --output, a file for the tree of that time, and --output needs it.");
@@ -174,13 +174,18 @@ static int run_simulate(const void *given) {
     code = find_contacts(&s);
     if (!code && args->contacts) {
         const froe_status status = froe_write_contacts(s.motion, s.contacts, s.count, args->contacts, &diag);
-        if (status) code = cli_fail_status(CLI_WRITING, args->contacts, status, &diag);
+        if (status)
+            code = cli_fail_status(CLI_WRITING, args->contacts, status, &diag);
+        else
+            s.written.names[s.written.count++] = args->contacts;
     }
     if (!code) code = animate(&s, args->animate);
     if (!code) code = animate(&s, args->player);
     cli_follow follow = args->follow;
-    follow.deviation = args->moving.deviation;
-    if (!code) code = cli_follow_motion(&args->common, &follow, args->moving.path, s.motion, &s.events);
+    follow.deviation = args->moving.deviation, follow.up = s.read.up;
+    if (!code) code = cli_follow_motion(&args->common, &follow, args->moving.path, s.motion, &s.events, &s.written);
+    for (size_t i = 0; code && i < s.written.count && !args->common.quiet; i++)
+        (void)cli_fail(0, s.written.names[i], "note: It was written all the same.");
     if (!code) code = report(&s);
     json_decref(s.events);
     froe_motion_free(s.motion);

@@ -13,7 +13,8 @@
 bool cli_is_moving(const render_args *args) {
     return args->frames || args->exact || !isnan(args->at) || !isnan(args->moving.from) || !isnan(args->moving.to) ||
            !isnan(args->moving.deviation) || args->moving.animation || args->moving.poses ||
-           !strcmp(support_path_extension(args->tree.scene.path).text, "mfjson");
+           !strcmp(support_path_extension(args->tree.scene.path).text, "mfjson") ||
+           (args->tree.scene.format && !strcmp(args->tree.scene.format, "mfjson"));
 }
 
 typedef struct film_run {

@@ -3,9 +3,12 @@
 #include "exit.h"
 #include "motion/bodies.h"
 #include "progress.h"
+#include <stdio.h>
+#include <string.h>
 
 typedef struct walk {
     const cli_follow *asked;
+    cli_written *written;
     const char *file; /* of the motion */
     cli_progress bar;
     froe_kinetic *kinetic;
@@ -26,8 +29,14 @@ static bool write_event(void *user, const froe_event *happened) {
 
 /* What a call of the partition ended with; 0 for a writer that has failed, which tells so itself. */
 static int finish_following(walk *w, froe_status status, const froe_diagnostic *diag) {
+    froe_diagnostic told = *diag;
     cli_progress_end(&w->bar);
-    return !status || w->stuck ? 0 : cli_fail_status(CLI_WORKING, w->file, status, diag);
+    if (!status || w->stuck) return 0;
+    const size_t length = status == FROE_E_INPUT && !w->asked->ghosts ? strlen(told.message) : sizeof told.message;
+    if (length < sizeof told.message) /* triangles meet */
+        snprintf(told.message + length, sizeof told.message - length,
+                 " With --ghosts one of them is left out meanwhile.");
+    return cli_fail_status(CLI_WORKING, w->file, status, &told);
 }
 
 /* A partition that tells no events can be followed as long as none are asked for. */
@@ -41,13 +50,15 @@ static int snapshot(walk *w, json_t *report) {
     froe_diagnostic diag;
     froe_snapshot s;
     froe_snapshot_options o = froe_snapshot_defaults();
-    o.refuse = w->asked->unrounded, o.places = w->asked->places != NULL;
+    o.refuse = w->asked->unrounded, o.places = w->asked->places != NULL, o.up = w->asked->up;
     w->bar.what = "rounding";
     const int code = finish_following(w, froe_kinetic_snapshot(w->kinetic, &o, &s, &diag), &diag);
     if (code) return code;
     const char *path = w->asked->tree.path;
     froe_status status = froe_tree_save(s.tree, path, &diag);
+    if (!status) w->written->names[w->written->count++] = w->asked->tree.name;
     if (!status && w->asked->places) status = froe_write_places(s.places, path = w->asked->places, &diag);
+    if (!status && w->asked->places) w->written->names[w->written->count++] = w->asked->places;
     froe_tree_free(s.tree);
     froe_places_free(s.places);
     if (status) return cli_fail_status(CLI_WRITING, path, status, &diag);
@@ -90,9 +101,9 @@ static int follow(walk *w, const cli_common *common, froe_motion *motion, json_t
 }
 
 int cli_follow_motion(const cli_common *common, const cli_follow *asked, const char *file, froe_motion *motion,
-                      json_t **report) {
+                      json_t **report, cli_written *written) {
     froe_diagnostic diag;
-    walk w = {.asked = asked, .file = file, .bar = cli_progress_begin(common, "following")};
+    walk w = {.asked = asked, .written = written, .file = file, .bar = cli_progress_begin(common, "following")};
     *report = json_null();
     if (!asked->events && !asked->tree.name) return 0;
     if (asked->places && froe_motion_window(motion).dim == 3)
@@ -110,5 +121,6 @@ int cli_follow_motion(const cli_common *common, const cli_follow *asked, const c
     froe_kinetic_free(w.kinetic);
     froe_motion_free(replaced);
     const bool unwritten = status && (!code || w.stopped);
+    if (asked->events && !unwritten && (!code || w.stopped)) written->names[written->count++] = asked->events;
     return unwritten ? cli_fail_status(CLI_WRITING, asked->events, status, &diag) : code;
 }

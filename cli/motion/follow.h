@@ -6,6 +6,12 @@
 #include <froe/io.h>
 #include <jansson.h>
 
+/** Names of files that a command has written. */
+typedef struct cli_written {
+    const char *names[8];
+    size_t count;
+} cli_written;
+
 typedef struct cli_follow {
     const char *events, *places; /**< files to write, or NULL */
     cli_output tree;
@@ -13,11 +19,12 @@ typedef struct cli_follow {
     bool unrounded;   /**< rather no tree than one with rounded coordinates */
     bool augmented;   /**< segments turn upright for nothing */
     bool ghosts;      /**< triangles that meet others are left out meanwhile */
+    int up;           /**< the axis that points up in pictures of the tree */
     double deviation; /**< of what replaces bodies, as a share of the size of what moves; NaN: the usual one */
 } cli_follow;
 
 /** Goes through the window of a motion from a file, if anything is asked for; events are written as they happen.
- * *report: what there was, or null. Returns an exit code, after saying why. */
+ * *report: what there was, or null. Returns an exit code, after saying why. What is written is added to `written`. */
 int cli_follow_motion(const cli_common *common, const cli_follow *asked, const char *file, froe_motion *motion,
-                      json_t **report);
+                      json_t **report, cli_written *written);
 #endif

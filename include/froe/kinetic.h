@@ -429,6 +429,8 @@ typedef struct froe_snapshot_options {
     size_t size; /**< set by froe_snapshot_defaults() */
     bool refuse; /**< rather none than one with rounded places (default: false) */
     bool places; /**< with the table of exact places (default: true) */
+    int up;      /**< in space: the axis that points up in pictures of the tree, 0, 1 or 2 (default), as of
+                      froe_scene_set_up() */
 } froe_snapshot_options;
 FROE_DEFAULTS(froe_snapshot_options, froe_snapshot_defaults);
 
@@ -448,8 +450,8 @@ typedef struct froe_snapshot {
 /** The present as an ordinary tree, for all other questions: the segments where they are at the tick itself, not just
  * after it. Its coordinates are doubles, each the nearest to the truth; where that is no double, `rounded` counts it,
  * `alike` tells whether it made a difference to the partition, and `places` keeps the truth. FROE_E_UNSUPPORTED:
- * something would have to be rounded, and that is to be refused; the first object is named. FROE_E_MEMORY, and the
- * failures of froe_build(). */
+ * something would have to be rounded, and that is to be refused; the first object is named. FROE_E_OPTIONS: there is no
+ * such axis. FROE_E_MEMORY, and the failures of froe_build(). */
 FROE_API froe_status froe_kinetic_snapshot(froe_kinetic *kinetic, const froe_snapshot_options *options,
                                            froe_snapshot *out, froe_diagnostic *diag);
 

@@ -7,7 +7,7 @@
 #include "support/fail.h"
 
 void froe_snapshot_defaults_into(froe_snapshot_options *out, size_t size) {
-    const froe_snapshot_options all = {.size = size, .places = true};
+    const froe_snapshot_options all = {.size = size, .places = true, .up = 2};
     support_defaults(out, size, &all, sizeof all);
 }
 
@@ -85,7 +85,7 @@ static bool take_places(snapshot_work *p) {
     return true;
 }
 
-static froe_status build_snapshot_tree(const snapshot_work *p, froe_tree **tree, froe_diagnostic *diag) {
+static froe_status build_snapshot_tree(const snapshot_work *p, int up, froe_tree **tree, froe_diagnostic *diag) {
     froe_scene *scene = NULL;
     froe_status status = froe_scene_new((int)p->dim, &p->k->call.alloc, &scene);
     if (status) return support_fail_memory(diag);
@@ -99,6 +99,8 @@ static froe_status build_snapshot_tree(const snapshot_work *p, froe_tree **tree,
     o.order = p->order, o.order_count = p->count;
     o.progress = p->k->options.progress, o.user = p->k->options.user;
     status = froe_scene_add(scene, &batch, diag);
+    if (!status && p->dim == 3 && froe_scene_set_up(scene, up))
+        status = support_fail(diag, FROE_E_OPTIONS, "option 'up': '%d' is not 0, 1 or 2.", up);
     if (!status) status = froe_build(scene, &o, tree, diag);
     froe_scene_free(scene); /* the tree holds it */
     return status;
@@ -224,14 +226,15 @@ static froe_status compare_with_tree(const snapshot_work *p, const froe_tree *tr
 
 /* ---------------------------------------------------------------- snapshots -- */
 
-static froe_status make_snapshot(snapshot_work *p, bool refuse, froe_snapshot *out, froe_diagnostic *diag) {
+static froe_status make_snapshot(snapshot_work *p, const froe_snapshot_options *o, froe_snapshot *out,
+                                 froe_diagnostic *diag) {
     take_objects(p);
     if (!take_places(p)) return call_fail(&p->k->call, diag);
-    if (refuse && p->rounded)
+    if (o->refuse && p->rounded)
         return support_fail_at(diag, FROE_E_UNSUPPORTED, p->first_rounded, FROE_NONE, FROE_NONE,
                                "%s %u: It ends where no double is at this tick. %zu vertices would have to be rounded.",
                                motion_noun(p->k->now.motion), p->first_rounded, p->rounded);
-    froe_status status = build_snapshot_tree(p, &out->tree, diag);
+    froe_status status = build_snapshot_tree(p, o->up, &out->tree, diag);
     if (status) return status;
     if (compare_with_tree(p, out->tree, &out->alike)) {
         froe_tree_free(out->tree);
@@ -253,7 +256,7 @@ froe_status froe_kinetic_snapshot(froe_kinetic *k, const froe_snapshot_options *
     froe_snapshot made = {0};
     froe_status status = kinetic_begin(k, diag);
     if (status) return status;
-    status = snapshot_new(k, o->places, &p) ? make_snapshot(&p, o->refuse, &made, diag) : support_fail_memory(diag);
+    status = snapshot_new(k, o->places, &p) ? make_snapshot(&p, o, &made, diag) : support_fail_memory(diag);
     if (!status) *out = made;
     snapshot_free(&p);
     return status;

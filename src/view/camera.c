@@ -214,6 +214,8 @@ static froe_status put_in_place(const froe_camera *camera, const froe_scene *sce
             camera->parallel ? camera->scale : (0.5 * camera->height - camera->margin) / view_tan(camera->fov / 2);
     if (status) return status;
     /* The corners of the page, in space, at the distance of the scene. */
+    for (int k = 0; k < 3; k++) /* a window so near to an eye so far away would have all corners in one place */
+        if (!camera->fit && !camera->parallel) distance = fmax(distance, 0x1p-20 * fabs(view.origin[k]));
     for (int i = 0; i < 4; i++) {
         const double x = (i == 1 || i == 2 ? view.width : 0) - view.centre[0],
                      y = view.centre[1] - (i < 2 ? 0 : view.height);

@@ -18,8 +18,30 @@ static void turn_about(const double *axis, double cosine, double sine, const dou
     }
 }
 
+/* The exponent of the largest of three numbers, so that squares of shares of 2^that neither overflow nor vanish. */
+static int exponent_of(const double *v) {
+    int exponent = 0;
+    frexp(fmax(fmax(fabs(v[0]), fabs(v[1])), fabs(v[2])), &exponent);
+    return exponent;
+}
+
 static double length_of(const double *v) {
-    return sqrt(support_dot(v, v));
+    const int exponent = exponent_of(v);
+    double share[3];
+    for (int k = 0; k < 3; k++) share[k] = ldexp(v[k], -exponent);
+    return ldexp(sqrt(support_dot(share, share)), exponent);
+}
+
+/* A way that the coordinates of a large scene, or of one far away, do not swallow when it is added to them. */
+static void lengthen(const froe_scene *scene, double *way) {
+    enum { MOST = 16 }; /* bits of the way that they may */
+    const int exponent = exponent_of(way);
+    int most = exponent;
+    if (scene->object_count) {
+        const int lo = exponent_of(scene->lo), hi = exponent_of(scene->hi);
+        most = lo > hi ? lo : hi;
+    }
+    for (int k = 0; k < 3 && most - exponent > MOST; k++) way[k] = ldexp(way[k], most - exponent);
 }
 
 /* One camera turned and fitted: the distance or the scale that it needs. */
@@ -52,6 +74,7 @@ froe_status froe_camera_turn(const froe_camera *camera, const froe_scene *scene,
         axis[k] = camera->up[k] / up;
         way[k] = camera->eye[k] - camera->target[k];
     }
+    lengthen(scene, way);
     for (size_t i = 0; i < count; i++) {
         const double t = view_tan(90.0 * (double)i / (double)count), half_c = (1 - t * t) / (1 + t * t),
                      half_s = 2 * t / (1 + t * t);

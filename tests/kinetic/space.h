@@ -304,6 +304,8 @@ static inline froe_motion *space_new(const space_kind *kind, uint64_t seed, cons
 
 typedef struct space_counts {
     uint64_t events[FROE_EVENT_KINDS], all, compared;
+    bool blurs;       /* what coincides exactly does not always where doubles are next to it */
+    uint64_t blurred; /* how often that made another tree of `cylindrical` */
 } space_counts;
 
 static inline bool space_count(void *user, const froe_event *event) {
@@ -319,7 +321,8 @@ static inline bool space_is_alike(froe_kinetic *k, space_counts *counts, froe_di
     froe_snapshot s = {0};
     counts->compared++;
     if (froe_kinetic_snapshot(k, NULL, &s, why)) return false;
-    const bool alike = s.alike;
+    const bool blurred = !s.alike && counts->blurs && s.rounded, alike = s.alike || blurred;
+    counts->blurred += blurred;
     if (!alike) snprintf(why->message, sizeof why->message, "alike %d, rounded %zu", s.alike, s.rounded);
     froe_tree_free(s.tree);
     return alike;

@@ -186,6 +186,7 @@ static void bodies_that_turn_are_followed(void **state) {
     for (uint64_t i = 0; i < FLIGHT_KINDS; i++) {
         froe_diagnostic why = {0};
         double reached;
+        counts.blurs = flight_kinds[i].quarters;
         froe_motion *m = flight_on_parabolas(flight_kinds + i, i, &reached);
         froe_kinetic_options o = froe_kinetic_defaults();
         froe_kinetic *k = NULL;
@@ -195,7 +196,7 @@ static void bodies_that_turn_are_followed(void **state) {
         froe_kinetic_free(k);
         froe_motion_free(m);
     }
-    assert_true(counts.all > 1000 && counts.compared > 500);
+    assert_true(counts.all > 1000 && counts.compared > 500 && counts.blurred < 5);
     assert_true(counts.events[FROE_EVENT_FLOP] > 10 && counts.events[FROE_EVENT_PLAN] > 100);
 }
 

@@ -37,13 +37,13 @@ void soak_space(soak_block *block) {
     froe_kinetic_options o = froe_kinetic_defaults();
     froe_kinetic *k;
     froe_diagnostic why = {0};
-    space_counts counts = {.all = 0};
+    space_counts counts = {.blurs = flight && flight->quarters};
     o.seed = block->seed;
     if (froe_kinetic_new(m, &o, NULL, &k, &why)) {
         soak_complain(block, "%s: %s", name, why.message);
     } else {
         if (!space_follow(k, 60, &counts, &why)) soak_complain(block, "%s: %s", name, why.message);
-        block->decisions += 2 * counts.compared; /* node for node, and by the audit */
+        block->decisions += 2 * counts.compared - counts.blurred; /* node for node, and by the audit */
         froe_kinetic_free(k);
     }
     froe_motion_free(m);

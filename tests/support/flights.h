@@ -14,7 +14,8 @@ typedef struct flight_kind {
     double deviation;
     bool straight; /* they do not turn */
     bool mortal;   /* faces come and go */
-    bool quarters; /* boxes with upright faces, which turn by quarters about x, y or z from one key to the next */
+    bool quarters; /* boxes with upright faces, which turn by quarters about x, y or z from one key to the next, so that
+                      much coincides (space_counts.blurs) */
     bool still;    /* they turn where they are */
 } flight_kind;
 

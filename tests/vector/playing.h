@@ -191,15 +191,15 @@ static inline void playing_inside(const froe_motion *motion, double time, double
     }
 }
 
-/* The time of the picture that is shown; the file has seven digits, and births and deaths are exact. */
+/* The time of the picture that is shown; births and deaths are exact, and shares of the film rounded. */
 static inline double playing_time(const froe_motion *motion, double instant) {
     const froe_motion_options w = froe_motion_window(motion);
     const double exact = w.begin + (w.end - w.begin) * instant;
     double time = exact;
     for (uint32_t i = 0; i < froe_motion_object_count(motion); i++) {
         const froe_moving_object o = froe_motion_object(motion, i);
-        if (fabs(o.birth - exact) < 2e-6) time = o.birth;
-        if (fabs(o.death - exact) < 2e-6) time = o.death;
+        if (fabs(o.birth - exact) < 4e-15 * (w.end - w.begin)) time = o.birth;
+        if (fabs(o.death - exact) < 4e-15 * (w.end - w.begin)) time = o.death;
     }
     return time;
 }

@@ -104,6 +104,15 @@ export class Motion extends Resource {
             core.records("web_contacts_of", [this[AT], core.options(arena, "contacts", options)], CONTACT, take));
     }
 
+    /** The same motion in space without bodies, { motion, reached }: their vertices fly along parabolas of their own, at
+     * most `reached` from where the bodies have them, which is not above `deviation`. So partitions follow bodies that turn. */
+    withoutBodies(deviation) {
+        return this[CORE].within((arena) => {
+            const core = this[CORE], reached = arena.room(8), out = arena.room(4);
+            core.call("froe_motion_without_bodies", this[AT], number(deviation, "deviation"), 0, out, reached);
+            return { motion: Motion.made(core, core.uint(out)), reached: core.copy(Float64Array, reached, 1)[0] };
+        });
+    }
     /** A partition that follows the motion, at the beginning of the window. Options: seed, order, epoch, swap, augmented. */
     partition(options = {}) {
         const core = this[CORE], all = arraysOf({ order: Uint32Array }, options);

@@ -34,6 +34,8 @@ const text: string = picture.text;
     const { tree: present, alike } = partition.snapshot();
     present.audit();
     motion.contacts({ from: 0, to: 1 }).begins[0].toFixed();
+    using curved = froe.generateMotion("moving-boxes", 1).withoutBodies(0.1).motion;
+    curved.partition().advance(1).kinds.at(0)?.toFixed();
     void [kind, alike];
 }
 try {

@@ -123,6 +123,14 @@ test("objects that move, their places, and a partition that is asked and changed
     assert.deepEqual([...space.positions(0)], [0, 0, 0, 1, 0, 0, 0, 1, 0]);
     assert.equal(space.positions(1)[0], 1);
     assert.throws(() => space.partition(), (error) => error.status === "FROE_E_UNSUPPORTED");
+    const { motion: curved, reached } = space.withoutBodies(0.01);
+    assert.ok(reached > 0 && reached <= 0.01);
+    assert.deepEqual([curved.bodyCount, curved.vertexCount, curved.objectCount], [0, 3, 1]);
+    const away = curved.positions(1.3).map((x, i) => Math.abs(x - space.positions(1.3)[i]));
+    assert.ok(Math.max(...away) <= reached);
+    assert.ok(curved.partition().advance(2).kinds.length > 0);
+    assert.throws(() => space.withoutBodies(0), (error) => error.status === "FROE_E_ARG");
+    assert.throws(() => froe.motion({ begin: 0, end: 1 }).withoutBodies(1), (error) => error.status === "FROE_E_UNSUPPORTED");
 });
 
 test("events in space are about edges of triangles, as seen from above", () => {
