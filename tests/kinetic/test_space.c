@@ -735,6 +735,15 @@ static void what_is_not_there_is_refused(void **state) {
     assert_int_equal(froe_kinetic_locate_in_space(k, (double[]){0, NAN, 0}, &place, NULL), FROE_E_ARG);
     assert_int_equal(froe_kinetic_locate_in_space(k, at, NULL, NULL), FROE_E_ARG);
     assert_int_equal(froe_kinetic_layers(k, NULL, NULL, NULL), FROE_E_ARG);
+    froe_snapshot now = {0};
+    froe_snapshot_options up = froe_snapshot_defaults();
+    up.up = 3;
+    assert_int_equal(froe_kinetic_snapshot(k, &up, &now, NULL), FROE_E_OPTIONS);
+    assert_null(now.tree);
+    up.up = 1;
+    assert_int_equal(froe_kinetic_snapshot(k, &up, &now, NULL), FROE_OK);
+    assert_int_equal(froe_scene_up(froe_tree_scene(now.tree)), 1);
+    froe_tree_free(now.tree);
     o.augmented = true;
     assert_int_equal(froe_kinetic_new(m, &o, NULL, &none, NULL), FROE_E_UNSUPPORTED);
     assert_null(none);
