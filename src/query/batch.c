@@ -248,7 +248,6 @@ static froe_status answer_windows(const batch *b, froe_query *q, size_t first, s
     }
     for (size_t count; first < end && !status; first += count, windows += count) {
         count = found->queries < end - first ? found->queries + 1 : end - first; /* one, two, four ... */
-        if (count > end - first) count = end - first;
         expect_as_much(b, q, found);
         const query_ids own = q->found;
         q->found = found->ids;

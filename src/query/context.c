@@ -120,7 +120,6 @@ bool query_check_leaf(froe_query *q, uint32_t block) {
 }
 
 bool query_owners_are_good(froe_query *q, uint32_t block, uint32_t end) {
-    if (!q->ready) return true;
     if (tree_check_owners(q->ready, block, end, NULL) == FROE_OK) return true;
     q->bad.found = q->bad.owners = true;
     q->bad.block = block;

@@ -14,7 +14,6 @@ static froe_status make_covers(froe_query *q, query_part **out, froe_diagnostic 
     if (!c) return support_fail_memory(diag);
     c->part.free = free_covers;
     *out = &c->part;
-    if (!t->report.covers) return FROE_OK;
     c->above = support_calloc(&q->alloc, t->node_count, sizeof *c->above);
     if (!c->above) return support_fail_memory(diag);
     c->node_count = t->node_count;

@@ -13,13 +13,13 @@
 typedef struct query_covers {
     query_part part;
     uint32_t node_count;
-    uint32_t *above; /**< [node]: the lowest proper ancestor with covers, or FROE_NONE; NULL: the tree has no covers */
+    uint32_t *above; /**< [node]: the lowest proper ancestor with covers, or FROE_NONE */
 } query_covers;
 
-/** Prepares them. FROE_E_MEMORY. O(nodes), once for all forks; nothing on trees without covers. */
+/** Prepares them, of a tree that has covers. FROE_E_MEMORY. O(nodes), once for all forks. */
 froe_status query_covers_of(froe_query *query, const query_covers **out, froe_diagnostic *diag);
 
 static inline uint32_t query_covers_above(const query_covers *c, uint32_t node) {
-    return c->above ? c->above[node] : FROE_NONE;
+    return c->above[node];
 }
 #endif

@@ -196,7 +196,7 @@ static froe_status follow_outer(overlay *o, bool *good) {
         const uint32_t object = o->work->near.data[i];
         if (r->areas->roles[object] != AREA_BORDER) continue;
         const double *p = scene_point(s, object, 0), *q = scene_point(s, object, 1);
-        if (p[0] != q[0] || p[1] != q[1]) status = follow_edge(o, p, q, false, good);
+        status = follow_edge(o, p, q, false, good); /* segments without length are points, and no borders */
     }
     return status;
 }

@@ -74,10 +74,10 @@ froe_status query_region_has(const query_region *r, const double *x, bool *out, 
 
 /* ------------------------------------------------------------------- turns -- */
 
-/* Does x lie ahead of p in the direction of a, all three on one line? */
+/* Does x, which is not p, lie ahead of p in the direction of a, all three on one line? */
 static bool is_ahead(const double *p, const double *a, const double *x) {
     const int k = a[0] == p[0];
-    return x[k] != p[k] && (x[k] > p[k]) == (a[k] > p[k]);
+    return (x[k] > p[k]) == (a[k] > p[k]);
 }
 
 /* How far the direction from p to x is turned left from that to a: 0 not at all, 1 less than half, 2 half, 3 more. */

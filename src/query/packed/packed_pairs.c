@@ -73,7 +73,7 @@ static bool end_here(pairing *p, const double *const a[2], const double *const b
         if ((!first || precedes(a[i], first)) && segment_holds(p, b, a[i])) first = a[i];
         if ((!first || precedes(b[i], first)) && segment_holds(p, a, b[i])) first = b[i];
     }
-    return first && is_here(p, first);
+    return is_here(p, first);
 }
 
 /* ------------------------------------------------------------------- pairs -- */
@@ -229,6 +229,7 @@ froe_status packed_pairs(query_workers *workers, bool shared, froe_pair_fn *fn, 
     const uint32_t objects = q->tree->scene->object_count;
     const uint64_t most = (uint64_t)objects * PAIRS_EACH + PAIRS_MORE;
     packed_search s = {.workers = workers, .shared = shared};
+    /* one way: so many objects take 64 GB */
     froe_status status =
         pair_lists_take(&s.lists, &q->alloc, objects, workers->count, most < UINT32_MAX ? (uint32_t)most : UINT32_MAX);
     base_task *task = &workers->task;

@@ -29,6 +29,7 @@ froe_status pair_lists_add(pair_lists *l, unsigned thread, uint32_t a, uint32_t 
     if (!list->room) { /* takes room for up to PAIRS_AT_ONCE pairs from what is left for all threads */
         unsigned left = atomic_load(&l->left), taken;
         do taken = left < PAIRS_AT_ONCE ? left : PAIRS_AT_ONCE;
+        /* one way: another thread has to be faster between two lines */
         while (taken && !atomic_compare_exchange_weak(&l->left, &left, left - taken));
         list->room = taken;
         if (!taken) return FROE_E_LIMIT;

@@ -215,7 +215,7 @@ bool query_areas_settle(froe_query *q, query_areas *areas) {
         ok = number == w.last || array_push(alloc, &w.far, areas->references.data[number]);
         w.last = number;
         *slot = (uint32_t)(w.far.count - 1) | AREA_FAR;
-        ok = ok && w.far.count <= AREA_NUMBER;
+        ok = ok && w.far.count <= AREA_NUMBER; /* one way: so many references take 16 GB */
     }
     array_free(alloc, &areas->references);
     areas->references.data = w.far.data;

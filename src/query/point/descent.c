@@ -105,6 +105,7 @@ static void fill_table(query_descent *d) {
 static bool take_units(query_descent *d, const froe_tree *t) {
     const froe_scene *s = t->scene;
     double side[2];
+    /* one way: so many nodes take 16 GB */
     if (s->dim != 2 || tree_is_packed(t) || !s->object_count || t->node_count > DESCENT_NODE) return false;
     for (int k = 0; k < 2; k++) d->lo[k] = s->lo[k], side[k] = s->hi[k] - s->lo[k];
     const double most = fmax(side[0], side[1]);

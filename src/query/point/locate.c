@@ -41,18 +41,17 @@ typedef struct point_range {
     double ends[2 * FROE_MAX_DIM];
 } point_range;
 
-static froe_status take_point(const froe_query *q, const double *point, point_range *out, froe_diagnostic *diag) {
+static void take_point(const froe_query *q, const double *point, point_range *out) {
     const size_t dim = (size_t)q->tree->scene->dim;
     out->range = froe_range_defaults();
     out->range.points = out->ends;
     for (size_t k = 0; k < dim; k++) out->ends[k] = out->ends[dim + k] = point[k];
-    return query_check_point(point, (int)dim, "a point", diag);
 }
 
 froe_status query_locate_in(froe_query *q, const double *point, const query_leaf *leaf, froe_diagnostic *diag) {
     point_range s;
-    froe_status status = take_point(q, point, &s, diag);
-    if (status) return status;
+    froe_status status = FROE_OK;
+    take_point(q, point, &s);
     if (leaf->on_cut) return query_range_ask(q, &s.range, false, diag);
     begin_point(q, &s.range);
     if (!leaf->empty) {
@@ -71,8 +70,9 @@ froe_status query_locate_in(froe_query *q, const double *point, const query_leaf
 froe_status query_locate(froe_query *q, const double *point, froe_diagnostic *diag) {
     query_leaf leaf;
     point_range s;
-    const froe_status status = take_point(q, point, &s, diag);
+    const froe_status status = query_check_point(point, q->tree->scene->dim, "a point", diag);
     if (status) return status;
+    take_point(q, point, &s);
     if (tree_is_packed(q->tree)) return query_range_ask(q, &s.range, false, diag);
     if (!query_in_scene(q->tree->scene, point)) {
         begin_point(q, &s.range);

@@ -31,12 +31,11 @@ typedef struct centroid_plan {
 
 /* ---------------------------------------------------------------- centroids -- */
 
-/* Of two children that are left the heavier; FROE_NONE if none is. */
+/* Of two children that are left the heavier; some of what is below the node is left. */
 static uint32_t heavier(const centroid_plan *p, uint32_t node) {
     const uint32_t child = p->tree->nodes[node].child;
-    if (tree_is_leaf(p->tree->nodes + node) || !p->sizes[child]) return FROE_NONE;
     const uint32_t left = p->gone[child] ? 0 : p->sizes[child], right = p->gone[child + 1] ? 0 : p->sizes[child + 1];
-    return !left && !right ? FROE_NONE : child + (right > left);
+    return child + (right > left);
 }
 
 static void link_to(centroid_plan *p, uint64_t from, uint32_t to) {
@@ -60,9 +59,8 @@ static bool divide_parts(centroid_plan *p) {
             link_to(p, from, root | CENTROID_END);
             continue;
         }
-        uint32_t v = heavier(p, root), next;
-        while ((uint64_t)p->sizes[v] * 3 > (uint64_t)p->sizes[root] * 2 && (next = heavier(p, v)) != FROE_NONE)
-            v = next;
+        uint32_t v = heavier(p, root);
+        while ((uint64_t)p->sizes[v] * 3 > (uint64_t)p->sizes[root] * 2) v = heavier(p, v); /* v has two nodes or more */
         const uint32_t step = p->c->count++;
         p->c->steps[step].node = v;
         link_to(p, from, step);

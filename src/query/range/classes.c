@@ -64,12 +64,13 @@ static bool enter_object(class_draft *d, uint32_t object) {
         ok = array_push(&d->q->alloc, &d->entries, (class_entry){object, (int16_t)level}) &&
              array_append(&d->q->alloc, &d->corners, corner, (size_t)d->dim);
     }
-    return ok && d->entries.count < FROE_NONE;
+    return ok && d->entries.count < FROE_NONE; /* one way: so many take 100 GB */
 }
 
 /* ------------------------------------------------------------------- cells -- */
 
-/* Copies the ids of the next larger cell that holds this one, and of those it refers to, as far as they meet it. */
+/* Copies the ids of the next larger cell that holds this one, as far as they meet it. Where these, and those of the cells
+ * that it refers to, are too many, it is referred to instead. */
 static bool inherit(class_draft *d, query_classes *p, uint32_t cell) {
     query_cell *c = p->cells + cell;
     size_t listed = 0;
@@ -77,13 +78,13 @@ static bool inherit(class_draft *d, query_classes *p, uint32_t cell) {
         listed += p->cells[at].count;
         if (listed > CLASSES_MOST) return c->refers = true;
     }
-    for (uint32_t at = c->parent; at != FROE_NONE; at = p->cells[at].refers ? p->cells[at].parent : FROE_NONE)
-        for (uint32_t i = 0; i < p->cells[at].count; i++) {
-            const uint32_t object = p->ids.data[p->cells[at].first + i];
-            if (!meets_cube(d->q, object, query_cell_corner(p, cell), c->level)) continue;
-            if (!array_push(&d->q->alloc, &p->ids, object)) return false;
-            c->count++;
-        }
+    const uint32_t above = c->parent; /* refers to none: together with what it did they would be too many here, too */
+    for (uint32_t i = 0; above != FROE_NONE && i < p->cells[above].count; i++) {
+        const uint32_t object = p->ids.data[p->cells[above].first + i];
+        if (!meets_cube(d->q, object, query_cell_corner(p, cell), c->level)) continue;
+        if (!array_push(&d->q->alloc, &p->ids, object)) return false;
+        c->count++;
+    }
     return true;
 }
 
@@ -109,7 +110,7 @@ static bool make_cell(class_draft *d, query_classes *p, uint32_t cell, uint32_t 
     *above = cell;
     for (uint32_t i = first; i < end; i++)
         if (!array_push(&d->q->alloc, &p->ids, d->entries.data[d->order[i]].object)) return false;
-    return inherit(d, p, cell) && p->ids.count < FROE_NONE;
+    return inherit(d, p, cell) && p->ids.count < FROE_NONE; /* one way: so many take 100 GB */
 }
 
 static bool make_cells(class_draft *d, query_classes *p) {

@@ -356,10 +356,9 @@ static uint32_t jump_thin(range_walk *w, uint32_t node, const double *t) {
     for (int k = 0; k < w->dim; k++) {
         const double d = set->core == GEOM_CORE_RAY ? e[k] : e[k] - o[k], x = o[k] + t[0] * d, y = o[k] + t[1] * d;
         const double error = 8 * FILTER_U * (fabs(o[k]) + t[1] * fabs(d)) + NUM_BALL_TINY;
-        if (!(x - error > -INFINITY && y + error < INFINITY && x + error < INFINITY && y - error > -INFINITY))
-            return node;
         lo[k] = (x < y ? x : y) - error;
         hi[k] = (x < y ? y : x) + error;
+        if (!(lo[k] > -INFINITY && hi[k] < INFINITY)) return node; /* of numbers that are none, too */
     }
     const uint32_t found = query_jump_below(&w->jump, node, lo, hi);
     visit_passed(w, node, found);

@@ -1,0 +1,529 @@
+/* test_seldom.c: answers where searches seldom go: windows and rays without ends, points beside tables, equal sums of
+ * sets, deep trees of oblique cuts, blocks that cannot be read, areas with loose objects; compared with brute force, or
+ * with what is asked in another way. */
+#include "query/context.h"
+#include "query/members.h"
+#include "support/forge.h"
+#include "support/large.h"
+#include "tree/trees.h"
+#include <froe/query.h>
+#include <math.h>
+
+static froe_query *ask(froe_tree *tree) {
+    froe_query *q;
+    assert_int_equal(froe_query_new(tree, &q, NULL), FROE_OK);
+    return q;
+}
+
+static void end_query(froe_query *q) {
+    froe_tree *tree = (froe_tree *)(uintptr_t)q->tree;
+    froe_query_free(q);
+    froe_tree_free(tree);
+}
+
+static int ascending(const void *a, const void *b) {
+    return (*(const uint32_t *)a > *(const uint32_t *)b) - (*(const uint32_t *)a < *(const uint32_t *)b);
+}
+
+static void assert_same_ids(const uint32_t *a, size_t a_count, const uint32_t *b, size_t b_count) {
+    uint32_t x[4096], y[4096];
+    assert_int_equal(a_count, b_count);
+    assert_true(a_count <= 4096);
+    if (!a_count) return;
+    memcpy(x, a, a_count * sizeof *x), memcpy(y, b, b_count * sizeof *y);
+    qsort(x, a_count, sizeof *x, ascending), qsort(y, b_count, sizeof *y, ascending);
+    assert_memory_equal(x, y, a_count * sizeof *x);
+}
+
+/* ------------------------------------------------------------------------- batches -- */
+
+/* Windows that reach beyond everything, one by one and together, in order and in flocks. */
+static void batches_of_windows_without_ends_are_single_questions(void **state) {
+    static const double ends[] = {-INFINITY, 0.3, 0.6, INFINITY};
+    double boxes[256 * 4];
+    size_t count = 0;
+    (void)state;
+    for (int i = 0; i < 256; i++) {
+        const double box[4] = {ends[i & 3], ends[i >> 2 & 3], ends[i >> 4 & 3], ends[i >> 6]};
+        if (!(box[0] <= box[2] && box[1] <= box[3]) || box[0] == INFINITY || box[1] == INFINITY) continue;
+        if (box[2] == -INFINITY || box[3] == -INFINITY) continue;
+        memcpy(boxes + 4 * count++, box, sizeof box);
+    }
+    for (int large = 0; large < 2; large++)
+        for (uint32_t leaf = 1; leaf < 30; leaf += 23) {
+            froe_query *q = ask(trees_grow(2, FROE_SEGMENT, 3000, 0, 0.02, "index", leaf));
+            froe_answers all;
+            large_ask(q, large);
+            assert_int_equal(froe_batch_boxes(q, boxes, count, NULL, &all, NULL), FROE_OK);
+            for (size_t i = 0; i < count; i++) {
+                froe_list one;
+                froe_range r = froe_range_defaults();
+                r.points = boxes + 4 * i;
+                for (int again = 0; again < 2; again++) assert_int_equal(froe_query_range(q, &r, &one, NULL), FROE_OK);
+                assert_same_ids(one.ids, one.count, all.ids + all.starts[i], all.starts[i + 1] - all.starts[i]);
+            }
+            froe_answers_free(&all);
+            end_query(q);
+        }
+}
+
+/* Points beside the scene on all sides: their cells are not in the table. */
+static void batches_of_neighbours_of_points_outside_are_single_questions(void **state) {
+    enum { SIDE = 24, COUNT = SIDE * SIDE };
+    double points[COUNT][2];
+    (void)state;
+    for (int i = 0; i < COUNT; i++) points[i][0] = i % SIDE * 0.3 - 3, points[i][1] = i / SIDE * 0.3 - 3;
+    for (int large = 0; large < 2; large++) {
+        froe_query *q = ask(trees_grow(2, FROE_SEGMENT, 400, 0, 0.05, "index", 8));
+        froe_answers all;
+        large_ask(q, large);
+        assert_int_equal(froe_batch_near(q, points[0], COUNT, 3, INFINITY, NULL, &all, NULL), FROE_OK);
+        for (size_t i = 0; i < COUNT; i++) {
+            froe_neighbours one;
+            assert_int_equal(froe_query_near(q, points[i], 3, INFINITY, &one, NULL), FROE_OK);
+            assert_int_equal(one.count, 3);
+            for (size_t k = 0; k < 3; k++) {
+                assert_int_equal(all.ids[3 * i + k], one.items[k].object);
+                assert_true(all.values[3 * i + k] == one.items[k].distance);
+            }
+        }
+        froe_answers_free(&all);
+        end_query(q);
+    }
+}
+
+/* Of some chunks of questions nothing is found, of others much, by several threads. */
+static void chunks_of_questions_without_answers_leave_no_gaps(void **state) {
+    enum { CHUNK = 256, CHUNKS = 40, COUNT = CHUNK * CHUNKS };
+    static double points[COUNT][2];
+    (void)state;
+    froe_query *q = ask(trees_grow(2, FROE_SEGMENT, 400, 0, 0.05, "autopartition", 4));
+    for (size_t i = 0; i < COUNT; i++)
+        for (size_t k = 0; k < 2; k++) points[i][k] = trees_unit(7, 2 * i + k) + (i / CHUNK % 2 ? 50 : 0);
+    froe_batch_options o = froe_batch_defaults();
+    for (o.threads = 1; o.threads <= 4; o.threads += 3)
+        for (int round = 0; round < 5; round++) {
+            froe_answers all;
+            assert_int_equal(froe_batch_near(q, points[0], COUNT, 2, 1, &o, &all, NULL), FROE_OK);
+            for (size_t i = 0; i < COUNT; i++)
+                assert_int_equal(all.starts[i + 1] - all.starts[i], i / CHUNK % 2 ? 0 : 2);
+            froe_answers_free(&all);
+        }
+    end_query(q);
+}
+
+static bool stop_at(void *user, double done) {
+    (void)done;
+    return --*(int *)user != 0;
+}
+
+static void batches_can_be_cancelled_at_every_call(void **state) {
+    static double points[2000][2];
+    (void)state;
+    froe_query *q = ask(trees_grow(2, FROE_SEGMENT, 400, 0, 0.05, "autopartition", 4));
+    for (size_t i = 0; i < 2000; i++)
+        for (size_t k = 0; k < 2; k++) points[i][k] = trees_unit(7, 2 * i + k);
+    for (unsigned threads = 1; threads <= 2; threads++) {
+        froe_status status = FROE_E_CANCELLED;
+        for (int stop = 1; status; stop++) {
+            int left = stop;
+            froe_answers all;
+            froe_diagnostic why = {0};
+            froe_batch_options o = froe_batch_defaults();
+            o.threads = threads, o.progress = stop_at, o.user = &left;
+            status = froe_batch_near(q, points[0], 2000, 2, INFINITY, &o, &all, &why);
+            assert_true(status == FROE_OK || status == FROE_E_CANCELLED);
+            assert_true(status ? why.message[0] != 0 : stop > 2);
+            if (!status) froe_answers_free(&all);
+        }
+    }
+    end_query(q);
+}
+
+/* ------------------------------------------------------------------- opened trees -- */
+
+typedef struct file {
+    uint8_t *bytes;
+    size_t size;
+} file;
+
+static bool receive(void *user, const void *data, size_t count) {
+    file *f = user;
+    f->bytes = realloc(f->bytes, f->size + count);
+    assert_non_null(f->bytes);
+    memcpy(f->bytes + f->size, data, count);
+    f->size += count;
+    return true;
+}
+
+static file file_of(froe_tree *tree) {
+    file f = {0};
+    assert_int_equal(froe_tree_write(tree, receive, &f, NULL), FROE_OK);
+    froe_tree_free(tree);
+    return f;
+}
+
+/* Blocks whose first object is none: whatever reads one says so, in a batch as well. */
+static void blocks_that_cannot_be_read_are_told_by_every_question(void **state) {
+    (void)state;
+    const file f = file_of(trees_grow(2, FROE_SEGMENT, 3000, 0, 0.02, "index", 4));
+    file_section s;
+    memcpy(&s, f.bytes + sizeof(file_header) + (FILE_BLOCKS - 1) * sizeof s, sizeof s);
+    for (uint64_t at = s.offset; at < s.offset + s.size; at += PACKED_BLOCK)
+        memset(f.bytes + at + sizeof(packed_header), 0x7f, PACKED_BLOCK - sizeof(packed_header));
+    forge_checksums(f.bytes, f.size);
+    for (int which = 0; which < 8; which++) {
+        static const double box[4] = {0.1, 0.1, 0.9, 0.9}, x[2] = {0.5, 0.5};
+        froe_tree *tree;
+        froe_diagnostic why = {0};
+        froe_answers many;
+        froe_list found;
+        froe_neighbours near;
+        froe_range r = froe_range_defaults();
+        uint64_t sum;
+        uint32_t object;
+        froe_status status = FROE_OK;
+        r.points = box;
+        assert_int_equal(froe_tree_open_memory(f.bytes, f.size, NULL, &tree, NULL), FROE_OK);
+        froe_query *q = ask(tree);
+        if (which == 0) status = froe_query_range(q, &r, &found, &why);
+        if (which == 1) status = froe_query_count(q, &r, &sum, &why);
+        if (which == 2) status = froe_query_any(q, &r, &object, &why);
+        if (which == 3) status = froe_query_near(q, x, 4, INFINITY, &near, &why);
+        if (which == 4) status = froe_query_vertical(q, x, 1, &object, &why);
+        if (which == 5) status = froe_batch_boxes(q, box, 1, NULL, &many, &why);
+        if (which == 6) status = froe_batch_near(q, x, 1, 4, INFINITY, NULL, &many, &why);
+        if (which == 7) status = froe_batch_vertical(q, x, 1, 1, NULL, &object, &why);
+        assert_int_equal(status, FROE_E_FORMAT);
+        assert_non_null(strstr(why.message, "corrupted"));
+        froe_query_free(q), froe_tree_free(tree);
+    }
+    free(f.bytes);
+}
+
+static void opened_trees_of_nothing_have_no_neighbours(void **state) {
+    static const double x[3] = {0};
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++)
+        for (size_t k = 1; k < 4; k++) {
+            const file f = file_of(trees_grow(dim, dim == 2 ? FROE_SEGMENT : FROE_POLYGON, 0, 0, 0.02, "index", 4));
+            froe_tree *tree;
+            froe_neighbours near = {.count = 1};
+            assert_int_equal(froe_tree_open_memory(f.bytes, f.size, NULL, &tree, NULL), FROE_OK);
+            froe_query *q = ask(tree);
+            assert_int_equal(froe_query_near(q, x, k, INFINITY, &near, NULL), FROE_OK);
+            assert_int_equal(near.count, 0);
+            froe_query_free(q), froe_tree_free(tree);
+            free(f.bytes);
+        }
+}
+
+/* ---------------------------------------------------------------------------- sets -- */
+
+/* So many sets of one number and of two that some have the same tag. */
+static void sets_with_the_same_tag_are_told_apart(void **state) {
+    enum { SETS = 300000 };
+    query_sets sets = {0};
+    query_members set = {0}, again = {0};
+    const froe_allocator alloc = support_allocator(NULL);
+    (void)state;
+    for (int round = 0; round < 2; round++)
+        for (uint32_t i = 0; i < SETS; i++) {
+            uint32_t kept;
+            set.count = 0;
+            assert_true(query_members_add(&set, &alloc, i / 2));
+            if (i % 2) assert_true(query_members_add(&set, &alloc, SETS + i));
+            assert_true(query_sets_keep(&sets, &alloc, &set, &kept));
+            assert_int_equal(kept, i);
+            assert_true(query_sets_copy(&sets, &alloc, kept, &again));
+            assert_int_equal(again.count, set.count);
+            assert_memory_equal(again.data, set.data, set.count * sizeof *set.data);
+        }
+    query_sets_free(&sets, &alloc);
+    array_free(&alloc, &set), array_free(&alloc, &again);
+}
+
+/* --------------------------------------------------------------------------- pairs -- */
+
+/* Segments on few lines, in both directions, which lie upon one another. */
+static void pairs_of_segments_on_one_line_are_told_once(void **state) {
+    enum { COUNT = 160, GRID = 16 };
+    double coords[COUNT][4];
+    (void)state;
+    for (uint64_t i = 0; i < COUNT; i++) {
+        const int line = (int)(trees_unit(3, 4 * i) * 5), a = (int)(trees_unit(3, 4 * i + 1) * GRID);
+        const int way = i % 3 ? 1 : -1, b = a + (trees_unit(3, 4 * i + 2) < 0.5 ? 3 : -3);
+        coords[i][0] = a, coords[i][1] = way * a + line - 2, coords[i][2] = b, coords[i][3] = way * b + line - 2;
+    }
+    size_t counts[2];
+    for (int packed = 0; packed < 2; packed++) {
+        froe_scene *scene;
+        froe_pairs all;
+        assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+        assert_int_equal(trees_add(scene, FROE_SEGMENT, COUNT, coords[0], NULL, NULL), FROE_OK);
+        froe_query *q = ask(trees_build(scene, packed ? "index" : "autopartition", 2));
+        bool met[COUNT][COUNT] = {{false}};
+        assert_int_equal(froe_batch_pair_array(q, true, NULL, &all, NULL), FROE_OK);
+        counts[packed] = all.count;
+        for (size_t i = 0; i < all.count; i++) {
+            assert_false(met[all.pairs[i].a][all.pairs[i].b]);
+            met[all.pairs[i].a][all.pairs[i].b] = true;
+        }
+        for (uint32_t a = 0; a < COUNT; a++) {
+            froe_list found;
+            froe_range r = froe_range_defaults();
+            r.shape = FROE_SHAPE_SEGMENT, r.points = coords[a];
+            assert_int_equal(froe_query_range(q, &r, &found, NULL), FROE_OK);
+            for (size_t i = 0; i < found.count; i++)
+                if (found.ids[i] > a) assert_true(met[a][found.ids[i]]), met[a][found.ids[i]] = false;
+        }
+        for (size_t i = 0; i < (size_t)COUNT * COUNT; i++) assert_false(met[i / COUNT][i % COUNT]);
+        froe_pairs_free(&all);
+        end_query(q);
+        froe_scene_free(scene);
+    }
+    assert_int_equal(counts[0], counts[1]);
+}
+
+/* --------------------------------------------------------------------------- areas -- */
+
+static uint32_t add_group(froe_scene *scene) {
+    const froe_group group = {.name = "g"};
+    uint32_t id;
+    assert_int_equal(froe_scene_add_group(scene, &group, &id), FROE_OK);
+    return id;
+}
+
+static void add_to(froe_scene *scene, uint32_t group, froe_kind kind, size_t count, const double *coords,
+                   const double *radii) {
+    froe_objects o = froe_objects_defaults();
+    o.kind = kind, o.count = count, o.coords = coords, o.radii = radii, o.group = group;
+    assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
+}
+
+/* 0: a square; 1: a triangle within; 2: two points, both in 0, one in 1; 3: nothing; and a segment without a group. */
+static froe_scene *areas(void) {
+    static const double square[] = {0, 0, 4, 0, 4, 0, 4, 4, 4, 4, 0, 4, 0, 4, 0, 0};
+    static const double triangle[] = {1, 1, 3, 1, 3, 1, 1, 3, 1, 3, 1, 1}, points[] = {1.5, 1.25, 3.5, 3.5};
+    static const double loose[] = {-1, -1, 5, 5};
+    froe_scene *scene;
+    assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+    add_to(scene, add_group(scene), FROE_SEGMENT, 4, square, NULL);
+    add_to(scene, add_group(scene), FROE_SEGMENT, 3, triangle, NULL);
+    add_to(scene, add_group(scene), FROE_POINT, 2, points, NULL);
+    add_group(scene);
+    add_to(scene, FROE_NONE, FROE_SEGMENT, 1, loose, NULL);
+    return scene;
+}
+
+static void groups_of_one_scene_are_joined_beside_loose_objects(void **state) {
+    static const bool meets[4][4] = {{1, 1, 1, 0}, {1, 1, 1, 0}, {1, 1, 1, 0}, {0}};
+    static const bool within[4][4] = {{1, 1, 1, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0}}; /* [question][answer] */
+    static const char *const methods[] = {"index", "autopartition"};
+    (void)state;
+    froe_scene *scene = areas();
+    for (int m = 0; m < 2; m++) {
+        froe_query *q = ask(trees_build(scene, methods[m], 1)), *other = ask(trees_build(scene, methods[!m], 4));
+        for (froe_relation r = FROE_MEETS; r <= FROE_COVERS; r++) {
+            froe_answers join;
+            assert_int_equal(froe_batch_groups_join(q, other, r, NULL, &join, NULL), FROE_OK);
+            assert_int_equal(join.queries, 4);
+            for (uint32_t i = 0; i < 4; i++) {
+                bool found[4] = {false};
+                for (size_t k = join.starts[i]; k < join.starts[i + 1]; k++) found[join.ids[k]] = true;
+                for (uint32_t k = 0; k < 4; k++)
+                    assert_int_equal(found[k], r == FROE_MEETS    ? meets[i][k]
+                                               : r == FROE_WITHIN ? within[i][k]
+                                                                  : within[k][i]);
+            }
+            froe_answers_free(&join);
+        }
+        end_query(q), end_query(other);
+    }
+    froe_scene_free(scene);
+}
+
+/* A disc that touches the window from outside meets it, and is not within; from inside it is. */
+static void discs_that_touch_windows_are_within_from_inside_only(void **state) {
+    static const double window[4] = {0, 0, 4, 4}, radius = 1;
+    static const double centres[][2] = {{3, 2}, {5, 2}, {-1, 2}, {2, 5}, {2, -1}, {1, 1}, {2, 3.5}, {2, 2}};
+    static const bool within[] = {true, false, false, false, false, true, false, true};
+    (void)state;
+    for (size_t i = 0; i < sizeof centres / sizeof *centres; i++) {
+        froe_scene *scene;
+        froe_list found;
+        froe_range r = froe_range_defaults();
+        r.points = window;
+        assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+        add_to(scene, add_group(scene), FROE_BALL, 1, centres[i], &radius);
+        froe_query *q = ask(trees_build(scene, "density", 1));
+        assert_int_equal(froe_query_groups_range(q, &r, FROE_MEETS, &found, NULL), FROE_OK);
+        assert_int_equal(found.count, 1);
+        assert_int_equal(froe_query_groups_range(q, &r, FROE_WITHIN, &found, NULL), FROE_OK);
+        assert_int_equal(found.count, within[i]);
+        end_query(q);
+        froe_scene_free(scene);
+    }
+}
+
+/* Balls and capsules without a radius are points and segments. The loose segment passes through the first of them. */
+static void areas_cover_ranges_without_a_radius(void **state) {
+    static const double points[][4] = {
+        {0.5, 0.5, 0.5, 0.5}, {1.5, 1.25, 1.5, 1.25}, {0.5, 0.5, 3.5, 3.5}, {1.25, 1.25, 1.5, 1.25}, {3, 3, 5, 3}};
+    static const size_t counts[] = {1, 2, 1, 2, 0};
+    static const char *const methods[] = {"index", "autopartition"};
+    (void)state;
+    froe_scene *scene = areas();
+    for (int m = 0; m < 2; m++) {
+        froe_query *q = ask(trees_build(scene, methods[m], 1));
+        for (int i = 0; i < 5; i++)
+            for (int shape = 0; shape < 4; shape++) {
+                static const froe_range_shape shapes[] = {FROE_SHAPE_BOX, FROE_SHAPE_BALL, FROE_SHAPE_CAPSULE,
+                                                          FROE_SHAPE_SEGMENT};
+                froe_list found;
+                froe_range r = froe_range_defaults();
+                r.shape = shapes[shape], r.points = points[i], r.radius = 0;
+                if (shape == 1 && i > 1) continue;
+                assert_int_equal(froe_query_groups_range(q, &r, FROE_COVERS, &found, NULL), FROE_OK);
+                assert_int_equal(found.count, shape == 0 && i == 2 ? 1 : counts[i] + (i == 1));
+            }
+        end_query(q);
+    }
+    froe_scene_free(scene);
+}
+
+/* Of a convex polygon of many edges every cut leaves all others on one side: the tree is as high as it is long. */
+static void groups_are_found_in_deep_trees_of_oblique_cuts(void **state) {
+    enum { EDGES = 400 };
+    static double coords[EDGES][4];
+    (void)state;
+    for (int i = 0; i < EDGES; i++)
+        for (int end = 0; end < 2; end++) {
+            const double t = 6.283185307179586 * ((i + end) % EDGES) / EDGES;
+            coords[i][2 * end] = cos(t), coords[i][2 * end + 1] = sin(t);
+        }
+    froe_scene *scene;
+    assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+    add_to(scene, add_group(scene), FROE_SEGMENT, EDGES, coords[0], NULL);
+    froe_query *q = ask(trees_build(scene, "autopartition", 1));
+    assert_true(q->tree->report.height > EDGES / 2);
+    for (int stage = NUM_FILTER; stage <= NUM_EXACT; stage++)
+        for (uint64_t i = 0; i < 500; i++) {
+            const double x[2] = {2 * trees_unit(5, 2 * i) - 1, 2 * trees_unit(5, 2 * i + 1) - 1};
+            const double square = x[0] * x[0] + x[1] * x[1];
+            froe_list found;
+            q->numbers.first = (num_stage)stage;
+            if (square > 0.9998 && square < 1.0001) continue;
+            assert_int_equal(froe_query_groups(q, x, &found, NULL), FROE_OK);
+            assert_int_equal(found.count, square < 1);
+        }
+    end_query(q);
+    froe_scene_free(scene);
+}
+
+/* Solids have no borders: points are located in them. */
+static void batches_of_groups_without_borders_are_single_questions(void **state) {
+    static const double boxes[] = {0, 0, 2, 2, 1, 1, 3, 3};
+    double points[49][2];
+    (void)state;
+    froe_scene *scene;
+    assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+    for (size_t i = 0; i < 2; i++) add_to(scene, add_group(scene), FROE_BOX, 1, boxes + 4 * i, NULL);
+    for (int i = 0; i < 49; i++) points[i][0] = i % 7 * 0.5, points[i][1] = i / 7 * 0.5;
+    froe_query *q = ask(trees_build(scene, "density", 1));
+    froe_answers all;
+    assert_int_equal(froe_batch_groups(q, points[0], 49, NULL, &all, NULL), FROE_OK);
+    for (size_t i = 0; i < 49; i++) {
+        size_t count = 0;
+        for (size_t b = 0; b < 2; b++) {
+            const double *box = boxes + 4 * b, *x = points[i];
+            const bool in = x[0] >= box[0] && x[0] <= box[2] && x[1] >= box[1] && x[1] <= box[3];
+            if (in) assert_int_equal(all.ids[all.starts[i] + count++], b);
+        }
+        assert_int_equal(all.starts[i + 1] - all.starts[i], count);
+    }
+    froe_answers_free(&all);
+    end_query(q);
+    froe_scene_free(scene);
+}
+
+/* -------------------------------------------------------------------------- ranges -- */
+
+/* The scene around the origin, times 2^power: of objects of one kind that have corners alone. */
+static froe_scene *around_origin(const froe_scene *from, froe_kind kind, int power) {
+    const size_t dim = (size_t)from->dim, count = from->object_count, each = from->corner_count / count;
+    double *coords = malloc(from->corner_count * dim * sizeof *coords);
+    size_t starts[200];
+    froe_scene *scene;
+    assert_non_null(coords);
+    for (size_t i = 0; i <= count; i++) starts[i] = each * i;
+    for (uint32_t c = 0; c < from->corner_count; c++)
+        for (size_t k = 0; k < dim; k++)
+            coords[c * dim + k] = ldexp(scene_vertex(from, scene_corner_vertex(from, c))[k] - 0.5, power);
+    assert_int_equal(froe_scene_new((int)dim, NULL, &scene), FROE_OK);
+    assert_int_equal(trees_add(scene, kind, count, coords, NULL, kind == FROE_HULL ? starts : NULL), FROE_OK);
+    free(coords);
+    return scene;
+}
+
+/* All walks, for one and for all, in scenes on both sides of 0; above dimension 3 segments are divided among cubes. */
+static void walks_agree_about_one_and_all_around_the_origin(void **state) {
+    static const struct {
+        int dim;
+        froe_kind kind;
+        double size;
+    } cases[] = {{2, FROE_SEGMENT, 0.2}, {3, FROE_HULL, 0.2}, {4, FROE_SEGMENT, 0.7}, {5, FROE_BOX, 0.5}};
+    (void)state;
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++)
+        for (int power = 0; power <= 1020; power += 1020) {
+            const int dim = cases[c].dim;
+            froe_scene *raw = trees_scene(dim, cases[c].kind, 150, 0, cases[c].size, 2), *scene;
+            froe_query *q;
+            scene = around_origin(raw, cases[c].kind, power);
+            q = ask(trees_build(scene, "density", 2));
+            for (uint64_t i = 0; i < 40; i++) {
+                double box[2 * FROE_MAX_DIM];
+                froe_list all[FROE_WALK_COUNT];
+                uint32_t ids[200];
+                size_t count = 0;
+                for (int k = 0; k < dim; k++) {
+                    const double at = trees_unit(8, 16 * i + (uint64_t)k) - 0.5;
+                    box[k] = ldexp(at, power), box[dim + k] = ldexp(at + (i % 4 ? 0.25 : 0.75), power);
+                }
+                for (int walk = 0; walk < FROE_WALK_COUNT; walk++) {
+                    uint32_t one = FROE_NONE;
+                    froe_range r = froe_range_defaults();
+                    r.points = box, r.walk = (froe_walk)walk;
+                    const froe_status status = froe_query_range(q, &r, &all[walk], NULL);
+                    if (status == FROE_E_UNSUPPORTED) continue;
+                    assert_int_equal(status, FROE_OK);
+                    if (!walk) count = all[0].count, memcpy(ids, all[0].ids, count * sizeof *ids);
+                    assert_same_ids(all[walk].ids, all[walk].count, ids, count);
+                    assert_int_equal(froe_query_any(q, &r, &one, NULL), FROE_OK);
+                    assert_int_equal(one != FROE_NONE, count > 0);
+                }
+            }
+            end_query(q);
+            froe_scene_free(raw), froe_scene_free(scene);
+        }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(batches_of_windows_without_ends_are_single_questions),
+        cmocka_unit_test(batches_of_neighbours_of_points_outside_are_single_questions),
+        cmocka_unit_test(chunks_of_questions_without_answers_leave_no_gaps),
+        cmocka_unit_test(batches_can_be_cancelled_at_every_call),
+        cmocka_unit_test(blocks_that_cannot_be_read_are_told_by_every_question),
+        cmocka_unit_test(opened_trees_of_nothing_have_no_neighbours),
+        cmocka_unit_test(sets_with_the_same_tag_are_told_apart),
+        cmocka_unit_test(pairs_of_segments_on_one_line_are_told_once),
+        cmocka_unit_test(groups_of_one_scene_are_joined_beside_loose_objects),
+        cmocka_unit_test(discs_that_touch_windows_are_within_from_inside_only),
+        cmocka_unit_test(areas_cover_ranges_without_a_radius),
+        cmocka_unit_test(groups_are_found_in_deep_trees_of_oblique_cuts),
+        cmocka_unit_test(batches_of_groups_without_borders_are_single_questions),
+        cmocka_unit_test(walks_agree_about_one_and_all_around_the_origin),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
