@@ -1,39 +1,11 @@
 /* test_seldom.c: answers where searches seldom go: windows and rays without ends, points beside tables, equal sums of
  * sets, deep trees of oblique cuts, blocks that cannot be read, areas with loose objects; compared with brute force, or
  * with what is asked in another way. */
-#include "query/context.h"
+#include "asked.h"
 #include "query/members.h"
 #include "support/forge.h"
 #include "support/large.h"
-#include "tree/trees.h"
-#include <froe/query.h>
 #include <math.h>
-
-static froe_query *ask(froe_tree *tree) {
-    froe_query *q;
-    assert_int_equal(froe_query_new(tree, &q, NULL), FROE_OK);
-    return q;
-}
-
-static void end_query(froe_query *q) {
-    froe_tree *tree = (froe_tree *)(uintptr_t)q->tree;
-    froe_query_free(q);
-    froe_tree_free(tree);
-}
-
-static int ascending(const void *a, const void *b) {
-    return (*(const uint32_t *)a > *(const uint32_t *)b) - (*(const uint32_t *)a < *(const uint32_t *)b);
-}
-
-static void assert_same_ids(const uint32_t *a, size_t a_count, const uint32_t *b, size_t b_count) {
-    uint32_t x[4096], y[4096];
-    assert_int_equal(a_count, b_count);
-    assert_true(a_count <= 4096);
-    if (!a_count) return;
-    memcpy(x, a, a_count * sizeof *x), memcpy(y, b, b_count * sizeof *y);
-    qsort(x, a_count, sizeof *x, ascending), qsort(y, b_count, sizeof *y, ascending);
-    assert_memory_equal(x, y, a_count * sizeof *x);
-}
 
 /* ------------------------------------------------------------------------- batches -- */
 
@@ -287,35 +259,6 @@ static void pairs_of_segments_on_one_line_are_told_once(void **state) {
 
 /* --------------------------------------------------------------------------- areas -- */
 
-static uint32_t add_group(froe_scene *scene) {
-    const froe_group group = {.name = "g"};
-    uint32_t id;
-    assert_int_equal(froe_scene_add_group(scene, &group, &id), FROE_OK);
-    return id;
-}
-
-static void add_to(froe_scene *scene, uint32_t group, froe_kind kind, size_t count, const double *coords,
-                   const double *radii) {
-    froe_objects o = froe_objects_defaults();
-    o.kind = kind, o.count = count, o.coords = coords, o.radii = radii, o.group = group;
-    assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
-}
-
-/* 0: a square; 1: a triangle within; 2: two points, both in 0, one in 1; 3: nothing; and a segment without a group. */
-static froe_scene *areas(void) {
-    static const double square[] = {0, 0, 4, 0, 4, 0, 4, 4, 4, 4, 0, 4, 0, 4, 0, 0};
-    static const double triangle[] = {1, 1, 3, 1, 3, 1, 1, 3, 1, 3, 1, 1}, points[] = {1.5, 1.25, 3.5, 3.5};
-    static const double loose[] = {-1, -1, 5, 5};
-    froe_scene *scene;
-    assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
-    add_to(scene, add_group(scene), FROE_SEGMENT, 4, square, NULL);
-    add_to(scene, add_group(scene), FROE_SEGMENT, 3, triangle, NULL);
-    add_to(scene, add_group(scene), FROE_POINT, 2, points, NULL);
-    add_group(scene);
-    add_to(scene, FROE_NONE, FROE_SEGMENT, 1, loose, NULL);
-    return scene;
-}
-
 static void groups_of_one_scene_are_joined_beside_loose_objects(void **state) {
     static const bool meets[4][4] = {{1, 1, 1, 0}, {1, 1, 1, 0}, {1, 1, 1, 0}, {0}};
     static const bool within[4][4] = {{1, 1, 1, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0}}; /* [question][answer] */
@@ -447,64 +390,96 @@ static void batches_of_groups_without_borders_are_single_questions(void **state)
     froe_scene_free(scene);
 }
 
-/* -------------------------------------------------------------------------- ranges -- */
+/* ---------------------------------------------------------------------------- rays -- */
 
-/* The scene around the origin, times 2^power: of objects of one kind that have corners alone. */
-static froe_scene *around_origin(const froe_scene *from, froe_kind kind, int power) {
-    const size_t dim = (size_t)from->dim, count = from->object_count, each = from->corner_count / count;
-    double *coords = malloc(from->corner_count * dim * sizeof *coords);
-    size_t starts[200];
+/* Of halves that have a corner in the middle the cut is moved by the least that there is; others, beside them, are cut
+ * in the middle. Tables of columns do not say what is above such lines. */
+static void segments_are_found_above_cuts_that_are_not_quite_on_one_line(void **state) {
+    enum { COUNT = 600, POINTS = 400 };
+    static double coords[COUNT][4], points[POINTS][2];
+    static const char *const methods[] = {"index", "autopartition"};
+    static uint32_t found[2][POINTS];
     froe_scene *scene;
-    assert_non_null(coords);
-    for (size_t i = 0; i <= count; i++) starts[i] = each * i;
-    for (uint32_t c = 0; c < from->corner_count; c++)
-        for (size_t k = 0; k < dim; k++)
-            coords[c * dim + k] = ldexp(scene_vertex(from, scene_corner_vertex(from, c))[k] - 0.5, power);
-    assert_int_equal(froe_scene_new((int)dim, NULL, &scene), FROE_OK);
-    assert_int_equal(trees_add(scene, kind, count, coords, NULL, kind == FROE_HULL ? starts : NULL), FROE_OK);
-    free(coords);
-    return scene;
+    (void)state;
+    for (uint64_t i = 0; i < COUNT; i++)
+        for (uint64_t k = 0; k < 4; k++) {
+            const double x = trees_unit(21, 4 * i + k % 2) * 0.45 + (k < 2 ? 0 : 0.03 * trees_unit(22, 4 * i + k));
+            coords[i][k] = i % 2 ? x + (k % 2 ? trees_unit(23, i) * 0.5 : 0.5) : x * (k % 2 ? 2 : 1);
+            if (i % 2 == 0) coords[i][k] = floor(coords[i][k] * 64) / 64;
+        }
+    memcpy(coords[0], (const double[]){0, 0, 0.01, 0.01}, sizeof coords[0]);
+    memcpy(coords[1], (const double[]){1, 1, 0.99, 0.99}, sizeof coords[1]);
+    for (size_t i = 0; i < POINTS; i++)
+        for (size_t k = 0; k < 2; k++) points[i][k] = trees_unit(24, 2 * i + k);
+    assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+    assert_int_equal(trees_add(scene, FROE_SEGMENT, COUNT, coords[0], NULL, NULL), FROE_OK);
+    for (int way = -1; way <= 1; way += 2) {
+        for (int m = 0; m < 2; m++) {
+            froe_query *q = ask(trees_build(scene, methods[m], 2));
+            assert_int_equal(froe_batch_vertical(q, points[0], POINTS, way, NULL, found[m], NULL), FROE_OK);
+            end_query(q);
+        }
+        assert_memory_equal(found[0], found[1], sizeof found[0]);
+    }
+    froe_scene_free(scene);
 }
 
-/* All walks, for one and for all, in scenes on both sides of 0; above dimension 3 segments are divided among cubes. */
-static void walks_agree_about_one_and_all_around_the_origin(void **state) {
-    static const struct {
-        int dim;
-        froe_kind kind;
-        double size;
-    } cases[] = {{2, FROE_SEGMENT, 0.2}, {3, FROE_HULL, 0.2}, {4, FROE_SEGMENT, 0.7}, {5, FROE_BOX, 0.5}};
+/* Batches make room for what they have found so far, up to many millions of answers. */
+static void batches_have_millions_of_answers(void **state) {
+    enum { OBJECTS = 3000, COUNT = 6000 };
+    static double boxes[COUNT][4];
+    froe_answers all;
+    froe_batch_options o = froe_batch_defaults();
     (void)state;
-    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++)
-        for (int power = 0; power <= 1020; power += 1020) {
-            const int dim = cases[c].dim;
-            froe_scene *raw = trees_scene(dim, cases[c].kind, 150, 0, cases[c].size, 2), *scene;
-            froe_query *q;
-            scene = around_origin(raw, cases[c].kind, power);
-            q = ask(trees_build(scene, "density", 2));
-            for (uint64_t i = 0; i < 40; i++) {
-                double box[2 * FROE_MAX_DIM];
-                froe_list all[FROE_WALK_COUNT];
-                uint32_t ids[200];
+    o.threads = 1;
+    froe_query *q = ask(trees_grow(2, FROE_POINT, OBJECTS, 0, 0, "index", 24));
+    for (size_t i = 0; i < COUNT; i++) memcpy(boxes[i], (const double[]){0, 0, 1, 1}, sizeof boxes[i]);
+    assert_int_equal(froe_batch_boxes(q, boxes[0], COUNT, &o, &all, NULL), FROE_OK);
+    for (size_t i = 0; i <= COUNT; i++) assert_int_equal(all.starts[i], i * OBJECTS);
+    froe_answers_free(&all);
+    end_query(q);
+}
+
+/* Rays along each axis and way, which leave the scene at an end that is no number; rays with a far limit. */
+static void rays_that_never_end_meet_what_they_meet_before_a_far_end(void **state) {
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++)
+        for (int packed = 0; packed < 2; packed++) {
+            const froe_kind kind = dim == 2 ? FROE_SEGMENT : FROE_POLYGON;
+            froe_query *q = ask(trees_grow(dim, kind, 300, 0, 0.2, packed ? "index" : "autopartition", 3));
+            for (uint64_t i = 0; i < 120; i++) {
+                static const double limits[] = {INFINITY, 0x1p1000, 9};
+                double ray[6] = {0};
+                uint32_t ids[300];
                 size_t count = 0;
-                for (int k = 0; k < dim; k++) {
-                    const double at = trees_unit(8, 16 * i + (uint64_t)k) - 0.5;
-                    box[k] = ldexp(at, power), box[dim + k] = ldexp(at + (i % 4 ? 0.25 : 0.75), power);
-                }
+                for (int k = 0; k < dim; k++) ray[k] = trees_unit(31, 8 * i + (uint64_t)k);
+                for (int k = 0; k < dim; k++)
+                    ray[dim + k] = i % 3 ? (int)(i / 6) % dim == k ? (i / 3 % 2 ? 1 : -1) : 0
+                                         : trees_unit(32, 8 * i + (uint64_t)k) - 0.5;
                 for (int walk = 0; walk < FROE_WALK_COUNT; walk++) {
-                    uint32_t one = FROE_NONE;
+                    froe_list found;
                     froe_range r = froe_range_defaults();
-                    r.points = box, r.walk = (froe_walk)walk;
-                    const froe_status status = froe_query_range(q, &r, &all[walk], NULL);
+                    r.shape = FROE_SHAPE_RAY, r.points = ray, r.walk = (froe_walk)walk;
+                    const froe_status status = froe_query_range(q, &r, &found, NULL);
                     if (status == FROE_E_UNSUPPORTED) continue;
                     assert_int_equal(status, FROE_OK);
-                    if (!walk) count = all[0].count, memcpy(ids, all[0].ids, count * sizeof *ids);
-                    assert_same_ids(all[walk].ids, all[walk].count, ids, count);
-                    assert_int_equal(froe_query_any(q, &r, &one, NULL), FROE_OK);
-                    assert_int_equal(one != FROE_NONE, count > 0);
+                    if (!walk) count = found.count;
+                    if (!walk && count) memcpy(ids, found.ids, count * sizeof *ids);
+                    assert_same_ids(found.ids, found.count, ids, count);
+                }
+                for (int l = 0; l < 3; l++) {
+                    froe_hits all;
+                    froe_hit first;
+                    double way[3];
+                    for (int k = 0; k < dim; k++) way[k] = ray[dim + k] * (i % 3 ? 1 : 100);
+                    assert_int_equal(froe_query_ray_all(q, ray, way, limits[l], &all, NULL), FROE_OK);
+                    assert_int_equal(all.count, count);
+                    assert_int_equal(froe_query_ray(q, ray, way, limits[l], &first, NULL), FROE_OK);
+                    assert_int_equal(first.object != FROE_NONE, count > 0);
+                    if (count) assert_true(first.t == all.hits[0].t);
                 }
             }
             end_query(q);
-            froe_scene_free(raw), froe_scene_free(scene);
         }
 }
 
@@ -523,7 +498,9 @@ int main(void) {
         cmocka_unit_test(areas_cover_ranges_without_a_radius),
         cmocka_unit_test(groups_are_found_in_deep_trees_of_oblique_cuts),
         cmocka_unit_test(batches_of_groups_without_borders_are_single_questions),
-        cmocka_unit_test(walks_agree_about_one_and_all_around_the_origin),
+        cmocka_unit_test(segments_are_found_above_cuts_that_are_not_quite_on_one_line),
+        cmocka_unit_test(batches_have_millions_of_answers),
+        cmocka_unit_test(rays_that_never_end_meet_what_they_meet_before_a_far_end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -13,8 +13,7 @@ static int side_in_plane(froe_query *q, const tree_cut *cut, const double *x) {
     const froe_scene *s = q->tree->scene;
     const double *u;
     switch (cut->kind) {
-    case FROE_CUT_OBJECT:
-        if (scene_form(s, cut->a) != FROE_SEGMENT) return NUM_UNSURE;
+    case FROE_CUT_OBJECT: /* a segment: other objects of the plane have no line */
         return query_turn(&q->numbers, scene_point(s, cut->a, 0), scene_point(s, cut->a, 1), x);
     case FROE_CUT_VERTICES:
         return query_turn(&q->numbers, scene_vertex(s, cut->a), scene_vertex(s, cut->u.id.b), x);
