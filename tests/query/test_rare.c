@@ -1,6 +1,8 @@
 /* test_rare.c: questions of kinds that scenes and ranges of ordinary sizes do not lead to: joins with boxes, balls and
  * objects without groups, ranges of many corners, windows without ends, and coordinates too large for units. */
 #include "asked.h"
+#include "query/context.h"
+#include "query/groups/work.h"
 #include <math.h>
 
 static froe_query *ask_by(froe_scene *scene, const char *method, uint32_t leaf) {
@@ -344,6 +346,23 @@ static void answers_are_the_same_at_any_scale(void **state) {
     }
 }
 
+/* A context counts its calls by 32 bits. When they come round, no tally may have a stamp of a call to come. */
+static void counts_of_groups_are_forgotten_when_calls_come_round(void **state) {
+    (void)state;
+    test_memory m;
+    const froe_allocator alloc = test_memory_begin(&m);
+    query_groups_work w = {.stamp = 0};
+    assert_true(query_groups_begin(&w, &alloc, 2));
+    assert_int_equal(query_groups_count(&w, 1), 1);
+    assert_int_equal(query_groups_count(&w, 1), 2);
+    w.stamp = UINT32_MAX;
+    assert_true(query_groups_begin(&w, &alloc, 2));
+    for (uint32_t group = 0; group < 2; group++) assert_int_equal(w.tallies[group].stamp, 0);
+    assert_int_equal(query_groups_count(&w, 1), 1);
+    query_groups_work_free(&w, &alloc);
+    test_memory_end(&m);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(joins_with_boxes_and_balls_are_single_questions),
@@ -355,6 +374,7 @@ int main(void) {
         cmocka_unit_test(wrong_ranges_are_refused),
         cmocka_unit_test(missing_arguments_of_rays_are_refused),
         cmocka_unit_test(answers_are_the_same_at_any_scale),
+        cmocka_unit_test(counts_of_groups_are_forgotten_when_calls_come_round),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
