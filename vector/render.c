@@ -66,6 +66,7 @@ static froe_status find_picture(vector_render *r, froe_diagnostic *diag) {
     p.interleave_points = o->interleaved ? 0.5 * vector_line_style(o, FROE_LINE_POINT, false, 1).width : 0;
     p.hidden = o->hidden;
     p.halo = o->halo;
+    p.threads = o->threads;
     p.alloc = &r->alloc;
     p.progress = o->progress;
     p.user = o->user;

@@ -232,6 +232,7 @@ int render_set_options(const render_args *args, const froe_scene *scene, froe_re
     if (args->decimals != UINT64_MAX) o->decimals = (int)args->decimals;
     if (args->hidden >= 0) o->hidden = args->hidden > 0;
     o->cull_back = args->cull_back;
+    o->threads = (unsigned)args->common.threads;
     o->section = args->section.count ? -1 : 0;
     o->interleaved = args->over > 0;
     o->own_colours = args->colours > 0;

@@ -112,6 +112,7 @@ typedef struct froe_render_options {
     double min_area;                 /**< see froe_picture_options */
     const char *title, *description; /**< SVG, PDF: UTF-8; NULL: none */
     double pixels;                   /**< PNG: pixels per unit of the page, 0.1 .. 64; default 1 */
+    unsigned threads;                /**< 0: one per processor; no picture depends on it */
     const froe_allocator *alloc;
     froe_progress_fn *progress;
     void *user;

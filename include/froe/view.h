@@ -324,6 +324,7 @@ typedef struct froe_picture_options {
     uint64_t max_graph;        /**< WHOLE: most pairs to compare; 0 (default): 1,000 for each visible piece, 50 million
                                     at least. Beyond them the picture is made of fragments and says so: see
                                     froe_picture_report */
+    unsigned threads;          /**< 0: one per processor; no picture depends on it */
     const froe_allocator *alloc; /**< NULL: malloc */
     froe_progress_fn *progress;
     void *user;

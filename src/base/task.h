@@ -22,6 +22,11 @@ static inline bool base_cancelled(base_task *task) {
     return atomic_load_explicit(&task->cancelled, memory_order_relaxed);
 }
 
+/** How many workers base_run() may have for so many jobs: 1 at least. */
+static inline unsigned base_workers(const base_task *task, size_t jobs) {
+    return jobs < 1 ? 1 : jobs < task->threads ? (unsigned)jobs : task->threads;
+}
+
 /** One job of many; `worker` < threads names the worker's private state; 0 is the calling thread. */
 typedef froe_status base_job_fn(void *user, unsigned worker, size_t job);
 /** Runs jobs 0..count-1, in any order, on task->threads threads (the calling one

@@ -68,6 +68,48 @@ static void the_same_bytes_in_every_format(void **state) {
     froe_tree_free(tree);
 }
 
+/* Enough faces for several jobs of each kind; some are in circles, and clipped. With glass there are parts of pieces. */
+static void the_same_bytes_with_any_number_of_threads(void **state) {
+    (void)state;
+    for (int glass = 0; glass < 2; glass++) {
+        const double opacity[1] = {0.5};
+        froe_scene *scene = scene_of(3);
+        uint32_t group;
+        assert_int_equal(froe_scene_add_group(scene, &(froe_group){.name = "glass", .material = "glass"}, &group),
+                         FROE_OK);
+        froe_scene *triangles = random_triangles(glass ? 700 : 2500, glass ? 0.2 : 0.06);
+        for (uint32_t i = 0; i < froe_scene_object_count(triangles); i++) {
+            double x[9];
+            for (uint32_t c = 0; c < 3; c++)
+                memcpy(x + 3 * c, froe_scene_vertex(triangles, froe_scene_corner(triangles, i, c)), 3 * sizeof *x);
+            froe_objects o = froe_objects_defaults();
+            const size_t starts[2] = {0, 3};
+            o.count = 1, o.coords = x, o.starts = starts, o.group = group;
+            assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
+        }
+        froe_scene_free(triangles);
+        froe_tree *tree = tree_of(scene, "density", 1);
+        froe_render_options o = froe_render_defaults();
+        froe_render_report report;
+        size_t count[2];
+        o.opacity = glass ? opacity : NULL;
+        o.threads = 1;
+        char *one = render(tree, "one.svg", &o, &report, &count[0]);
+        assert_true(report.picture.late > 10 && report.picture.whole > 10);
+        assert_true(glass || report.picture.shapes > 1200);
+        const froe_picture_report alone = report.picture;
+        for (o.threads = 2; o.threads < 6; o.threads += 3) {
+            char *several = render(tree, "several.svg", &o, &report, &count[1]);
+            assert_int_equal(count[0], count[1]);
+            assert_memory_equal(one, several, count[0]);
+            assert_memory_equal(&alone, &report.picture, sizeof alone);
+            free(several);
+        }
+        free(one);
+        froe_tree_free(tree);
+    }
+}
+
 static void a_cube_shows_three_faces_and_nine_edges(void **state) {
     (void)state;
     froe_tree *tree = cube();
@@ -259,6 +301,7 @@ static void every_allocation_may_fail(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_same_bytes_in_every_format),
+        cmocka_unit_test(the_same_bytes_with_any_number_of_threads),
         cmocka_unit_test(a_cube_shows_three_faces_and_nine_edges),
         cmocka_unit_test(through_glass_one_sees_what_is_behind),
         cmocka_unit_test(a_scene_brings_its_colours),

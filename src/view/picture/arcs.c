@@ -4,7 +4,7 @@
  * the node painted last at any point is the one that is visible there. A grid on the page finds pairs of a visible
  * piece and a part. Separating axes in doubles decide almost all of them, sightlines the rest: parts that touch must
  * not count. */
-#include "view/picture/grid.h"
+#include "view/grid.h"
 #include "view/picture/parts.h"
 #include <math.h>
 
@@ -13,16 +13,29 @@ typedef struct arc_box {
     float x0, y0, x1, y1;
 } arc_box;
 
-typedef struct finder {
+enum { NODES_A_JOB = 1024 };
+
+/* What all threads share. */
+typedef struct arc_search {
     view_parts *parts;
-    view_sightlines *sights;
-    view_arcs *arcs;
+    uint32_t *tour;
+    arc_box *boxes; /* per part */
+    view_grid grid; /* of parts */
+    uint64_t most;
+    atomic_uint_least64_t tests;
+    struct finder *finders;
+    unsigned finder_count;
+} arc_search;
+
+/* One thread. */
+typedef struct finder {
+    view_parts parts;
+    view_sightlines own_sights, *sights;
     view_grid grid;
+    view_arcs arcs;
     print_ring piece;
     view_ring own, ring;
-    arc_box *boxes;  /* per part */
     uint32_t *known; /* per node: the node + 1 that is known to come after it */
-    uint64_t most, *tests;
 } finder;
 
 /* ---------------------------------------------------------------------- overlap -- */
@@ -43,7 +56,7 @@ static bool ring_is_beyond(view_sightlines *s, const view_corner *a, uint32_t a_
 
 /* A superfluous arc does no harm: so it is without memory. */
 static bool overlap_exactly(finder *f, uint32_t visible, const paint_part *part, int kind) {
-    const froe_visibility *v = f->parts->v;
+    const froe_visibility *v = f->parts.v;
     const bool ok = view_ring_of_visible(v, f->sights, visible, &f->own) &&
                     (kind == PART_VISIBLE ? view_ring_of_visible(v, f->sights, part->source, &f->ring)
                      : kind == PART_PIECE ? view_beam_of(f->sights, part->source, &f->ring)
@@ -74,29 +87,29 @@ static bool boxes_meet(const arc_box *a, const arc_box *b) {
 /* ------------------------------------------------------------------------- arcs -- */
 
 /* Finds the arcs from parts that lie under a visible piece. */
-static froe_status compare_piece(finder *f, uint32_t visible) {
-    const view_piece *piece = f->parts->v->pieces + visible;
-    const uint32_t node = f->parts->node_of[visible];
-    const double unsure = 1e-9 * (f->parts->view->width + f->parts->view->height);
+static froe_status compare_piece(const arc_search *s, finder *f, uint32_t visible, uint64_t *tests) {
+    const view_piece *piece = f->parts.v->pieces + visible;
+    const uint32_t node = f->parts.node_of[visible];
+    const double unsure = 1e-9 * (f->parts.view->width + f->parts.view->height);
     f->piece.count = 0;
-    if (!view_print_visible(f->parts, visible, &f->piece)) return FROE_E_MEMORY;
+    if (!view_print_visible(&f->parts, visible, &f->piece)) return FROE_E_MEMORY;
     if (f->piece.count < 3) return FROE_OK;
     const arc_box box = box_of(f->piece.data, f->piece.count, unsure);
     view_grid_walk walk = view_grid_begin(&f->grid, view_grid_cells(&f->grid, f->piece.data, f->piece.count, 0));
     for (uint32_t i; view_grid_next(&walk, &i);) {
-        if (!boxes_meet(&box, f->boxes + i)) continue;
-        const paint_part *part = f->parts->parts.data + i;
+        if (!boxes_meet(&box, s->boxes + i)) continue;
+        const paint_part *part = f->parts.parts.data + i;
         if (part->node == node || f->known[part->node] == node + 1) continue;
-        if (f->parts->clear && part->place <= piece->place) continue;
-        if (++*f->tests > f->most) return FROE_E_BUDGET;
+        if (f->parts.clear && part->place <= piece->place) continue;
+        if (++*tests > s->most) return FROE_E_BUDGET;
         /* Do their interiors overlap? Sightlines decide where rounding could hide that. */
-        const print_point *ring = f->parts->points.data + part->first;
+        const print_point *ring = f->parts.points.data + part->first;
         if (!print_overlap(f->piece.data, f->piece.count, ring, part->count, -unsure)) continue;
         if (!print_overlap(f->piece.data, f->piece.count, ring, part->count, unsure) &&
-            !overlap_exactly(f, visible, part, f->parts->kinds.data[i]))
+            !overlap_exactly(f, visible, part, f->parts.kinds.data[i]))
             continue;
         f->known[part->node] = node + 1;
-        if (!array_push(&f->parts->v->alloc, f->arcs, (graph_arc){part->node, node})) return FROE_E_MEMORY;
+        if (!array_push(&f->parts.v->alloc, &f->arcs, (graph_arc){part->node, node})) return FROE_E_MEMORY;
     }
     return FROE_OK;
 }
@@ -107,25 +120,100 @@ static const print_point *arc_points(const void *user, size_t i, size_t *points)
     return p->points.data + p->parts.data[i].first;
 }
 
-froe_status view_find_arcs(view_parts *parts, view_sightlines *sights, uint64_t most, view_arcs *arcs,
+static froe_status find_some_arcs(void *user, unsigned worker, size_t job) {
+    arc_search *s = user;
+    finder *f = s->finders + worker;
+    const view_parts *p = s->parts;
+    const size_t first = job * NODES_A_JOB, left = p->nodes.count - first,
+                 count = left < NODES_A_JOB ? left : NODES_A_JOB;
+    froe_status status = FROE_OK;
+    for (size_t k = first; k < first + count && !status; k++) {
+        const uint32_t node = s->tour[k];
+        uint64_t tests = 0;
+        for (uint32_t i = p->nodes.data[node].first; i < p->v->piece_count && p->node_of[i] == node && !status; i++)
+            status = compare_piece(s, f, i, &tests);
+        if (atomic_fetch_add(&s->tests, tests) + tests > s->most) status = FROE_E_BUDGET;
+    }
+    return status;
+}
+
+/* Lines of sight along the borders of all parts, so that threads need not make any; and the facings of objects. */
+static froe_status make_borders(const arc_search *s, view_sightlines *sights) {
+    const froe_scene *scene = sights->tree->scene;
+    for (size_t i = 0; i < s->parts->parts.count; i++) {
+        const uint32_t object = s->parts->parts.data[i].source;
+        if (s->parts->kinds.data[i] != PART_OBJECT) continue;
+        (void)view_facing(sights, object);
+        for (uint32_t c = 0; c < scene_corners(scene, object); c++)
+            if (view_line_of_edge(sights, sights->surface->edge_of[scene_start(scene, object) + c]) == FROE_NONE)
+                return FROE_E_MEMORY;
+    }
+    return FROE_OK;
+}
+
+static froe_status begin_finder(const arc_search *s, finder *f, view_sightlines *sights) {
+    const froe_allocator *alloc = &s->parts->v->alloc;
+    f->parts = view_parts_fork(s->parts);
+    f->known = support_calloc(alloc, s->parts->nodes.count + 1, sizeof *f->known);
+    if (!f->known || view_grid_fork(alloc, &s->grid, &f->grid)) return FROE_E_MEMORY;
+    f->sights = sights;
+    if (s->parts->clear) return FROE_OK; /* one thread, which makes lines */
+    f->sights = &f->own_sights;
+    return view_sightlines_fork(sights, &f->own_sights);
+}
+
+static void end_finder(const arc_search *s, finder *f, view_sightlines *sights) {
+    const froe_allocator *alloc = &s->parts->v->alloc;
+    if (f->own_sights.tree) num_stats_add(&sights->context.stats, &f->own_sights.context.stats);
+    view_sightlines_close(&f->own_sights);
+    view_parts_close(&f->parts);
+    view_grid_close(alloc, &f->grid);
+    support_free(alloc, f->known, (s->parts->nodes.count + 1) * sizeof *f->known);
+    array_free(alloc, &f->arcs);
+    array_free(alloc, &f->piece);
+    array_free(alloc, &f->own);
+    array_free(alloc, &f->ring);
+}
+
+static froe_status begin_search(arc_search *s, view_sightlines *sights) {
+    view_parts *parts = s->parts;
+    const froe_allocator *alloc = &parts->v->alloc;
+    const double unsure = 1e-9 * (parts->view->width + parts->view->height);
+    const size_t part_count = parts->parts.count;
+    s->tour = support_calloc(alloc, parts->nodes.count + 1, sizeof *s->tour);
+    s->boxes = support_calloc(alloc, part_count + 1, sizeof *s->boxes);
+    s->finders = support_calloc(alloc, s->finder_count, sizeof *s->finders);
+    if (!s->tour || !s->boxes || !s->finders || view_tour(parts, s->tour)) return FROE_E_MEMORY;
+    for (size_t i = 0; i < part_count; i++)
+        s->boxes[i] = box_of(parts->points.data + parts->parts.data[i].first, parts->parts.data[i].count, unsure);
+    froe_status status = view_grid_new(alloc, parts->view, part_count, arc_points, parts, &s->grid);
+    if (!status && !parts->clear) status = make_borders(s, sights);
+    for (unsigned i = 0; i < s->finder_count && !status; i++) status = begin_finder(s, s->finders + i, sights);
+    return status;
+}
+
+froe_status view_find_arcs(view_parts *parts, view_sightlines *sights, base_task *task, uint64_t most, view_arcs *arcs,
                            uint64_t *tests) {
     const froe_allocator *alloc = &parts->v->alloc;
-    finder f = {.parts = parts, .sights = sights, .arcs = arcs, .most = most, .tests = tests};
-    const size_t part_count = parts->parts.count, node_count = parts->nodes.count;
+    const size_t jobs = (parts->nodes.count + NODES_A_JOB - 1) / NODES_A_JOB;
+    base_task alone;
+    base_task_init(&alone, 1, NULL, NULL);
+    if (parts->clear) task = &alone;
+    arc_search s = {
+        .parts = parts, .most = most > *tests ? most - *tests : 0, .finder_count = base_workers(task, jobs)};
+    atomic_init(&s.tests, 0);
+    froe_status status = begin_search(&s, sights);
+    if (!status) status = base_run(task, 0, jobs, find_some_arcs, &s);
     arcs->count = 0;
-    const double unsure = 1e-9 * (parts->view->width + parts->view->height);
-    f.known = support_calloc(alloc, node_count + 1, sizeof *f.known);
-    f.boxes = support_calloc(alloc, part_count + 1, sizeof *f.boxes);
-    froe_status status = f.known && f.boxes ? FROE_OK : FROE_E_MEMORY;
-    for (size_t i = 0; i < part_count && !status; i++)
-        f.boxes[i] = box_of(parts->points.data + parts->parts.data[i].first, parts->parts.data[i].count, unsure);
-    if (!status) status = view_grid_new(alloc, parts->view, part_count, arc_points, parts, &f.grid);
-    for (uint32_t i = 0; i < parts->v->piece_count && !status; i++) status = compare_piece(&f, i);
-    support_free(alloc, f.known, (node_count + 1) * sizeof *f.known);
-    support_free(alloc, f.boxes, (part_count + 1) * sizeof *f.boxes);
-    view_grid_free(alloc, &f.grid);
-    array_free(alloc, &f.piece);
-    array_free(alloc, &f.own);
-    array_free(alloc, &f.ring);
+    for (unsigned i = 0; s.finders && i < s.finder_count; i++) {
+        const view_arcs *found = &s.finders[i].arcs;
+        if (!status && !array_append(alloc, arcs, found->data, found->count)) status = FROE_E_MEMORY;
+        end_finder(&s, s.finders + i, sights);
+    }
+    *tests = status == FROE_E_BUDGET ? most + 1 : *tests + atomic_load(&s.tests);
+    support_free(alloc, s.finders, s.finder_count * sizeof *s.finders);
+    support_free(alloc, s.tour, (parts->nodes.count + 1) * sizeof *s.tour);
+    support_free(alloc, s.boxes, (parts->parts.count + 1) * sizeof *s.boxes);
+    view_grid_free(alloc, &s.grid);
     return status;
 }

@@ -5,7 +5,7 @@
  *      |         |              surface would have gaps. Hidden lines of one wall lie behind those of the next:
  *    halo      dashes           drawn twice, their dashes would fill each other's gaps. */
 #include "base/sort.h"
-#include "view/picture/grid.h"
+#include "view/grid.h"
 #include "view/picture/strokes.h"
 #include <math.h>
 

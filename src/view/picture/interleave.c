@@ -9,7 +9,7 @@
  * late, never faces: a late line goes on top of all, as lines without anything nearer do. All in doubles: visibility
  * has been decided before; this affects half a line's width. */
 #include "support/clip.h"
-#include "view/picture/grid.h"
+#include "view/grid.h"
 #include "view/picture/picture.h"
 #include <math.h>
 

@@ -1,5 +1,7 @@
 /* parts.c: nodes, and the parts that they paint on the page. */
 #include "view/picture/parts.h"
+#include "base/curve.h"
+#include "base/radix.h"
 
 froe_status view_parts_new(view_parts *p, const froe_visibility *v, const froe_projection *view, uint32_t *places,
                            bool cull_back) {
@@ -98,10 +100,11 @@ froe_status view_parts_make(view_parts *p, view_sightlines *sights) {
         /* One node for a patch; or one for each piece of it with a visible part. */
         const bool pieces = p->split[patch] == PARTS_PIECES;
         p->node_of_patch[patch] = (uint32_t)p->nodes.count;
-        if (!pieces && !array_push(&v->alloc, &p->nodes, (paint_node){patch, FROE_NONE})) return FROE_E_MEMORY;
+        if (!pieces && !array_push(&v->alloc, &p->nodes, (paint_node){patch, FROE_NONE, v->patch_starts[patch]}))
+            return FROE_E_MEMORY;
         for (uint32_t i = v->patch_starts[patch]; i < v->patch_starts[patch + 1]; i++) {
             const bool next = pieces && (i == v->patch_starts[patch] || v->pieces[i].piece != v->pieces[i - 1].piece);
-            if (next && !array_push(&v->alloc, &p->nodes, (paint_node){patch, v->pieces[i].piece}))
+            if (next && !array_push(&v->alloc, &p->nodes, (paint_node){patch, v->pieces[i].piece, i}))
                 return FROE_E_MEMORY;
             p->node_of[i] = (uint32_t)p->nodes.count - 1;
         }
@@ -119,4 +122,40 @@ froe_status view_parts_make(view_parts *p, view_sightlines *sights) {
             return FROE_E_MEMORY;
     }
     return FROE_OK;
+}
+
+/* ------------------------------------------------------------------------- tours -- */
+
+froe_status view_tour(view_parts *p, uint32_t *tour) {
+    const froe_allocator *alloc = &p->v->alloc;
+    const size_t n = p->nodes.count;
+    const double lo[2] = {0, 0}, hi[2] = {p->view->width, p->view->height};
+    base_pair *pairs = support_calloc(alloc, 2 * n + 1, sizeof *pairs);
+    print_ring ring = {0};
+    bool ok = pairs != NULL;
+    for (uint32_t i = 0; ok && i < n; i++) {
+        ring.count = 0;
+        ok = view_print_visible(p, p->nodes.data[i].first, &ring);
+        double at[2] = {ok && ring.count ? ring.data[0].x : 0, ok && ring.count ? ring.data[0].y : 0};
+        for (int k = 0; k < 2; k++) at[k] = at[k] > 0 ? at[k] < hi[k] ? at[k] : hi[k] : 0;
+        pairs[i] = (base_pair){base_curve_place(2, at, at, lo, hi), i};
+    }
+    if (ok) base_radix_sort(pairs, pairs + n, n);
+    for (size_t i = 0; ok && i < n; i++) tour[i] = pairs[i].value;
+    support_free(alloc, pairs, (2 * n + 1) * sizeof *pairs);
+    array_free(alloc, &ring);
+    return ok ? FROE_OK : FROE_E_MEMORY;
+}
+
+view_parts view_parts_fork(const view_parts *parts) {
+    view_parts out = *parts;
+    out.press = (print_press){.alloc = parts->v->alloc, .view = parts->view};
+    out.ring = (view_ring){0};
+    return out;
+}
+
+void view_parts_close(view_parts *p) {
+    if (!p->v) return;
+    array_free(&p->v->alloc, &p->ring);
+    print_free(&p->press);
 }

@@ -14,6 +14,7 @@
 typedef struct paint_node {
     uint32_t patch;
     uint32_t piece; /**< of the tree; FROE_NONE: the whole patch */
+    uint32_t first; /**< visible piece: those of a node follow each other */
 } paint_node;
 
 typedef struct paint_part {
@@ -57,8 +58,15 @@ bool view_print_visible(view_parts *parts, uint32_t visible, print_ring *out);
 /** Appends the ring of a tree's piece. */
 bool view_print_piece(view_parts *parts, view_sightlines *sights, uint32_t piece, print_ring *out);
 
-/** Finds the pairs of nodes whose order matters: all arcs of the graph. *tests counts pairs that were compared;
- * FROE_E_BUDGET when they would exceed `most`. Overlaps are decided exactly. */
+/** All nodes along a curve over the page: what is near there is mostly near in the caches. FROE_E_MEMORY. */
+froe_status view_tour(view_parts *parts, uint32_t *tour);
+/** The same parts for another thread, with scratch of its own, which is freed by view_parts_close(). */
+view_parts view_parts_fork(const view_parts *parts);
+void view_parts_close(view_parts *fork);
+
+/** Finds the pairs of nodes whose order matters: all arcs of the graph, in any order. *tests counts pairs that were
+ * compared; FROE_E_BUDGET when they would exceed `most`. Overlaps are decided exactly. */
 typedef ARRAY(graph_arc) view_arcs;
-froe_status view_find_arcs(view_parts *parts, view_sightlines *sights, uint64_t most, view_arcs *arcs, uint64_t *tests);
+froe_status view_find_arcs(view_parts *parts, view_sightlines *sights, base_task *task, uint64_t most, view_arcs *arcs,
+                           uint64_t *tests);
 #endif

@@ -172,15 +172,12 @@ froe_status froe_picture_new(const froe_tree *tree, const froe_surface *surface,
     if (!picture) return support_fail_memory(diag);
     picture->alloc = alloc;
     view_painter p = {.picture = picture, .options = options};
+    base_task_init(&p.task, options->threads, NULL, NULL);
     status = make_picture(&p, tree, surface, diag);
-    view_outliner_free(&p.outliner);
     view_seams_free(&p.seams);
     view_graph_free(&alloc, &p.graph);
     array_free(&alloc, &p.arcs);
     view_region_free(&alloc, &p.region);
-    array_free(&alloc, &p.region_points);
-    array_free(&alloc, &p.region_ends);
-    array_free(&alloc, &p.region_starts);
     support_free(&alloc, p.order, (p.parts.nodes.count + 1) * sizeof *p.order);
     support_free(&alloc, p.breaks, p.parts.nodes.count + 1);
     array_free(&alloc, &p.items);

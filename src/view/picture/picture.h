@@ -2,7 +2,8 @@
  *
  *     picture.c      the public calls: look, plan, paint
  *     plan.c         the order of painting; interleave.c: the places of lines in it
- *     paint.c        shapes: whole patches and clipped ones, visible regions, fragments
+ *     whole.c        shapes: whole patches and clipped ones
+ *     paint.c        visible regions and fragments
  *     kinds.c        which edges are lines; segments.c: where they are on the page
  *
  * It speaks for these. */
@@ -43,17 +44,14 @@ struct froe_picture {
 typedef struct view_painter {
     froe_picture *picture;
     const froe_picture_options *options;
+    base_task task; /**< the threads */
     froe_visibility *v;
     view_sightlines *sights; /**< of v */
     view_parts parts;
     view_arcs arcs;
     view_graph graph;
-    view_outliner outliner;
     view_seams seams;
     view_region region;
-    print_ring region_points; /**< the rings of clipped nodes, in the order of painting */
-    print_ends region_ends, region_starts;
-    bool keep;              /**< visible pieces are asked for while nodes are painted */
     uint32_t *order;        /**< of the nodes */
     uint32_t *painted;      /**< per place in `order`: shapes there are before it is painted; NULL: not painted whole */
     uint8_t *breaks;        /**< per place in `order`: lines come before it; NULL: all lines are on top */
@@ -77,6 +75,13 @@ froe_status view_leave_out(view_painter *painter);
 froe_status view_paint_whole(view_painter *painter);
 froe_status view_paint_regions(view_painter *painter);
 froe_status view_paint_fragments(view_painter *painter);
+/** Is too little visible of a patch? */
+static inline bool view_is_left_out(const view_painter *p, uint32_t patch) {
+    return p->left_out && p->left_out[patch];
+}
+/** Appends the visible region of a patch as rings; those of less than three points are dropped. False without memory.
+ */
+bool view_append_region(view_painter *painter, uint32_t patch, print_ring *points, print_ends *ends);
 /** Begins a shape; rings that are then added to points and ring_ends belong to it. */
 bool view_begin_shape(froe_picture *picture, uint32_t patch, bool whole);
 /** Ends it; a shape without rings is dropped. */

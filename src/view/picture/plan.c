@@ -13,7 +13,7 @@ static froe_status find_graph(view_painter *p) {
     const uint64_t most = given ? given : own > 50000000 ? own : 50000000; /* pairs to be compared */
     view_graph_free(alloc, &p->graph);
     froe_status status = view_parts_make(&p->parts, p->sights);
-    if (!status) status = view_find_arcs(&p->parts, p->sights, most, &p->arcs, &report->tests);
+    if (!status) status = view_find_arcs(&p->parts, p->sights, &p->task, most, &p->arcs, &report->tests);
     if (!status) status = view_graph_new(alloc, (uint32_t)p->parts.nodes.count, p->arcs.data, p->arcs.count, &p->graph);
     array_free(alloc, &p->arcs);
     if (status) return status;

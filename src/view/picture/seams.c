@@ -20,8 +20,7 @@ froe_status view_seams_new(view_seams *s, view_parts *parts, const uint32_t *ord
     *s = (view_seams){.parts = parts, .clear = clear, .width = width};
     s->place = support_calloc(alloc, n + 1, sizeof *s->place);
     s->run = support_calloc(alloc, n + 1, sizeof *s->run);
-    s->marks = support_calloc(alloc, n + 1, sizeof *s->marks);
-    if (!s->place || !s->run || !s->marks || !array_reserve(alloc, &s->starts, (size_t)parts->v->piece_count + 1))
+    if (!s->place || !s->run || !array_reserve(alloc, &s->starts, (size_t)parts->v->piece_count + 1))
         return FROE_E_MEMORY;
     for (uint32_t i = 0; i < n; i++) {
         const uint32_t patch = parts->nodes.data[order[i]].patch, style = styles ? styles[patch] : 0;
@@ -44,10 +43,24 @@ void view_seams_free(view_seams *s) {
     const froe_allocator *alloc = &s->parts->v->alloc;
     support_free(alloc, s->place, (s->parts->nodes.count + 1) * sizeof *s->place);
     support_free(alloc, s->run, (s->parts->nodes.count + 1) * sizeof *s->run);
-    support_free(alloc, s->marks, (s->parts->nodes.count + 1) * sizeof *s->marks);
     view_grid_free(alloc, &s->grid);
     array_free(alloc, &s->points);
     array_free(alloc, &s->starts);
+    *s = (view_seams){.parts = NULL};
+}
+
+froe_status view_seams_fork(const view_seams *s, view_seams *out) {
+    const froe_allocator *alloc = &s->parts->v->alloc;
+    *out = *s;
+    out->marks = support_calloc(alloc, s->parts->nodes.count + 1, sizeof *out->marks);
+    return view_grid_fork(alloc, &s->grid, &out->grid) || !out->marks ? FROE_E_MEMORY : FROE_OK;
+}
+
+void view_seams_close(view_seams *s) {
+    if (!s->parts) return;
+    const froe_allocator *alloc = &s->parts->v->alloc;
+    view_grid_close(alloc, &s->grid);
+    support_free(alloc, s->marks, (s->parts->nodes.count + 1) * sizeof *s->marks);
     array_free(alloc, &s->near);
     array_free(alloc, &s->own);
     array_free(alloc, &s->inside);
@@ -108,13 +121,15 @@ bool view_seams_near(view_seams *s, view_grid_walk walk) {
 
 bool view_seams_own(view_seams *s, uint32_t node, view_grid_walk walk) {
     enum { FEW = 32 };
-    const froe_visibility *v = s->parts->v;
-    const uint32_t patch = s->parts->nodes.data[node].patch, first = v->patch_starts[patch],
-                   end = v->patch_starts[patch + 1];
-    const bool few = end - first <= FEW;
+    const uint32_t *node_of = s->parts->node_of, first = s->parts->nodes.data[node].first,
+                   most = s->parts->v->piece_count - first;
+    uint32_t n = 0;
+    while (n < most && n <= FEW && node_of[first + n] == node) n++;
     s->own.count = 0;
-    for (uint32_t i = first, at = first; few ? at < end : view_grid_next(&walk, &i); i = few ? ++at : i)
-        if (s->parts->node_of[i] == node && !array_push(&v->alloc, &s->own, i)) return false;
+    if (!array_reserve(&s->parts->v->alloc, &s->own, FEW)) return false;
+    for (uint32_t i = 0; n <= FEW && i < n; i++) s->own.data[s->own.count++] = first + i;
+    for (uint32_t i; n > FEW && view_grid_next(&walk, &i);)
+        if (node_of[i] == node && !array_push(&s->parts->v->alloc, &s->own, i)) return false;
     return true;
 }
 

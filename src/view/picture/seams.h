@@ -19,7 +19,7 @@
  */
 #ifndef FROE_VIEW_PICTURE_SEAMS_H
 #define FROE_VIEW_PICTURE_SEAMS_H
-#include "view/picture/grid.h"
+#include "view/grid.h"
 #include "view/picture/parts.h"
 
 /** The points of a visible piece, in those of all. */
@@ -57,6 +57,9 @@ typedef struct view_seams {
 froe_status view_seams_new(view_seams *seams, view_parts *parts, const uint32_t *order, const uint8_t *breaks,
                            const uint32_t *styles, const uint8_t *clear, double width);
 void view_seams_free(view_seams *seams);
+/** What a thread needs to look along sides; to be closed before the seams are freed. FROE_E_MEMORY. */
+froe_status view_seams_fork(const view_seams *seams, view_seams *out);
+void view_seams_close(view_seams *fork);
 /** Looks along a side of a node's shape, which lies on its left as the eye sees it. *beside: the node is visible
  * inside; then strips are added. False without memory. */
 bool view_seams_look(view_seams *seams, uint32_t node, print_point a, print_point b, bool *beside);

@@ -16,8 +16,8 @@ froe_status froe_visibility_regions(const froe_visibility *v, uint32_t first, ui
     region_rings g = {.coords = {0}};
     bool go_on = true;
     if (!v || !fn) return support_fail_null(diag, __func__);
-    view_sightlines sights = v->sights; /* with a number context of its own: the rest is only read */
-    if (geom_context_new(&v->alloc, &sights.context)) return support_fail_memory(diag);
+    view_sightlines sights;
+    if (view_sightlines_fork(&v->sights, &sights)) return support_fail_memory(diag);
     bool ok = true;
     for (uint32_t p = first; ok && go_on && p < v->surface->patch_count && p - first < count; p++) {
         if (v->patch_starts[p] == v->patch_starts[p + 1]) continue;
@@ -38,6 +38,6 @@ froe_status froe_visibility_regions(const froe_visibility *v, uint32_t first, ui
     view_region_free(&v->alloc, &g.region);
     array_free(&v->alloc, &g.coords);
     array_free(&v->alloc, &g.starts);
-    num_context_free(&sights.context);
+    view_sightlines_close(&sights);
     return ok ? FROE_OK : support_fail_memory(diag);
 }

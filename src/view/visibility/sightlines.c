@@ -68,6 +68,17 @@ void view_sightlines_free(view_sightlines *s) {
     num_context_free(&s->context);
 }
 
+froe_status view_sightlines_fork(const view_sightlines *s, view_sightlines *out) {
+    *out = *s;
+    const froe_status status = geom_context_new(&s->alloc, &out->context);
+    if (status) out->tree = NULL;
+    return status;
+}
+
+void view_sightlines_close(view_sightlines *s) {
+    if (s->tree) num_context_free(&s->context);
+}
+
 void view_sightlines_drop(view_sightlines *s) {
     if (s->of_edge) support_free(&s->alloc, s->of_edge, (surface_line_count(s->surface) + 1) * sizeof *s->of_edge);
     s->of_edge = NULL;

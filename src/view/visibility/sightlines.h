@@ -52,6 +52,10 @@ froe_status view_sightlines_new(view_sightlines *sights, const froe_tree *tree, 
                                 const geom_eye *eye, const double *window, uint32_t window_count,
                                 const froe_allocator *alloc);
 void view_sightlines_free(view_sightlines *sights);
+/** The same for another thread, with numbers of its own: lines are no more made. To be closed before it is freed.
+ * FROE_E_MEMORY. */
+froe_status view_sightlines_fork(const view_sightlines *sights, view_sightlines *out);
+void view_sightlines_close(view_sightlines *fork);
 /** Frees the lines, where only points and sides of objects are still asked for. */
 void view_sightlines_drop(view_sightlines *sights);
 

@@ -5,8 +5,8 @@
  *      +---+---+---+
  *      |   | b | b |
  *      +---+---+---+  */
-#ifndef FROE_VIEW_PICTURE_GRID_H
-#define FROE_VIEW_PICTURE_GRID_H
+#ifndef FROE_VIEW_GRID_H
+#define FROE_VIEW_GRID_H
 #include "view/print.h"
 
 /** Cells, inclusive. */
@@ -31,6 +31,9 @@ typedef const print_point *view_points_fn(const void *user, size_t i, size_t *po
 froe_status view_grid_new(const froe_allocator *alloc, const froe_projection *view, size_t count, view_points_fn *fn,
                           const void *user, view_grid *out);
 void view_grid_free(const froe_allocator *alloc, view_grid *grid);
+/** The same things for the walks of another thread; to be closed before the grid is freed. FROE_E_MEMORY. */
+froe_status view_grid_fork(const froe_allocator *alloc, const view_grid *grid, view_grid *out);
+void view_grid_close(const froe_allocator *alloc, view_grid *fork);
 /** The cells that the bounds of some points, widened by `beyond`, meet. */
 view_cells view_grid_cells(const view_grid *grid, const print_point *points, size_t count, double beyond);
 

@@ -1,5 +1,5 @@
 /* grid.c: the entries of each cell are counted first, then filled in. */
-#include "view/picture/grid.h"
+#include "view/grid.h"
 #include <math.h>
 #include <string.h>
 
@@ -80,6 +80,18 @@ void view_grid_free(const froe_allocator *alloc, view_grid *g) {
     support_free(alloc, g->starts, ((size_t)g->cells * g->cells + 1) * sizeof *g->starts);
     support_free(alloc, g->stamps, (g->count + 1) * sizeof *g->stamps);
     support_free(alloc, g->entries, (g->entry_count + 1) * sizeof *g->entries);
+    *g = (view_grid){0};
+}
+
+froe_status view_grid_fork(const froe_allocator *alloc, const view_grid *g, view_grid *out) {
+    *out = *g;
+    out->walks = 0;
+    out->stamps = support_calloc(alloc, g->count + 1, sizeof *out->stamps);
+    return out->stamps ? FROE_OK : FROE_E_MEMORY;
+}
+
+void view_grid_close(const froe_allocator *alloc, view_grid *g) {
+    support_free(alloc, g->stamps, (g->count + 1) * sizeof *g->stamps);
     *g = (view_grid){0};
 }
 
