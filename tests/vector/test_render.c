@@ -68,7 +68,7 @@ static void the_same_bytes_in_every_format(void **state) {
     froe_tree_free(tree);
 }
 
-/* Enough faces for several jobs of each kind; some are in circles, and clipped. With glass there are parts of pieces. */
+/* Enough faces for several jobs of each kind; some are in circles, and clipped. With glass, pieces are painted. */
 static void the_same_bytes_with_any_number_of_threads(void **state) {
     (void)state;
     for (int glass = 0; glass < 2; glass++) {

@@ -1,7 +1,7 @@
 /* whole.c: whole patches, and those that are clipped, as shapes in their order.
  *
- * Shapes do not depend on each other, so that threads make them: along a tour of the page, some nodes a job, each job on
- * a sheet of its own. Sheets are then read in the order of painting. */
+ * Shapes do not depend on each other, so that threads make them: along a tour of the page, some nodes a job, each job
+ * on a sheet of its own. Sheets are then read in the order of painting. */
 #include "view/picture/picture.h"
 
 enum { NODES_A_JOB = 512 };
