@@ -25,7 +25,8 @@ if(FROE_NATIVE)
   add_compile_options(-march=native)
 endif()
 if(FROE_SANITIZE)
-  add_compile_options(-fsanitize=${FROE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
+  # -g1: lines, which is what reports name. They take a fifth less time to compile than all that debuggers want.
+  add_compile_options(-fsanitize=${FROE_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g1)
   add_link_options(-fsanitize=${FROE_SANITIZE})
 endif()
 if(FROE_COVERAGE) # by clang; FroeCoverage.cmake says what is counted
