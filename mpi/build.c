@@ -27,10 +27,13 @@ struct froe_mpi_builder {
 /* Collective. Brings the folder to its place, and removes the old one. */
 static froe_status place_folder(froe_mpi_builder *b) {
     bool replaced = false;
-    froe_status status = b->draft ? froe_shard_draft_place(b->draft, &replaced, &b->diag) : FROE_OK;
+    const uint32_t rank = (uint32_t)b->ranks.rank, count = (uint32_t)b->ranks.count;
+    froe_status status = froe_shard_draft_sync(b->folder, rank, count, &b->diag);
+    if ((status = mpi_agree(&b->ranks, status, &b->diag))) return status;
+    status = b->draft ? froe_shard_draft_place(b->draft, &replaced, &b->diag) : FROE_OK;
     if ((status = mpi_agree(&b->ranks, status, &b->diag))) return status;
     MPI_Bcast(&replaced, sizeof replaced, MPI_BYTE, 0, b->ranks.comm);
-    if (replaced) froe_shard_draft_clear(b->folder, (uint32_t)b->ranks.rank, (uint32_t)b->ranks.count);
+    if (replaced) froe_shard_draft_clear(b->folder, rank, count);
     return mpi_agree(&b->ranks, FROE_OK, &b->diag);
 }
 

@@ -71,14 +71,37 @@ static void empty_folder(const char *path) {
     if (folder) closedir(folder);
 }
 
+/* Is it the name of a shard of this part? */
+static bool is_of_part(const char *name, uint32_t part, uint32_t parts) {
+    unsigned number;
+    return is_own_name(name) && sscanf(name, "shard-%u", &number) == 1 && number % parts == part;
+}
+
 void froe_shard_draft_clear(const char *path, uint32_t part, uint32_t parts) {
     DIR *folder = path && parts ? opendir(path) : NULL;
-    for (struct dirent *entry; folder && (entry = readdir(folder));) {
-        unsigned number;
-        if (is_own_name(entry->d_name) && sscanf(entry->d_name, "shard-%u", &number) == 1 && number % parts == part)
-            unlinkat(dirfd(folder), entry->d_name, 0);
-    }
+    for (struct dirent *entry; folder && (entry = readdir(folder));)
+        if (is_of_part(entry->d_name, part, parts)) unlinkat(dirfd(folder), entry->d_name, 0);
     if (folder) closedir(folder);
+}
+
+/* Waits until a file is on the disk; returns an errno. */
+static int sync_file(int folder, const char *name) {
+    const int file = openat(folder, name, O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
+    int error = file < 0 ? errno : 0;
+    while (!error && fsync(file)) error = errno == EINTR ? 0 : errno;
+    if (file >= 0) close(file);
+    return error == EINVAL || error == EROFS || error == ENOTSUP ? 0
+                                                                 : error; /* a system that has nothing to wait for */
+}
+
+froe_status froe_shard_draft_sync(const char *path, uint32_t part, uint32_t parts, froe_diagnostic *diag) {
+    if (!path || !parts) return support_fail_null(diag, __func__);
+    DIR *folder = opendir(path);
+    int error = folder ? 0 : errno;
+    for (struct dirent *entry; !error && (entry = readdir(folder));)
+        if (is_of_part(entry->d_name, part, parts)) error = sync_file(dirfd(folder), entry->d_name);
+    if (folder) closedir(folder);
+    return error ? support_fail_file(diag, "written", path, error) : FROE_OK;
 }
 
 static void sync_folder(const char *path) {
@@ -243,6 +266,7 @@ froe_status froe_shard_draft_place(froe_shard_draft *d, bool *replaced, froe_dia
     SUPPORT_FLOATS_OWN;
     if (!d || !replaced) return support_fail_null(diag, __func__);
     froe_status status = check_target(d, d->target, diag); /* another program may have built or put something there */
+    if (!status) status = froe_shard_draft_sync(d->folder, 0, 1, diag);
     if (status) return status;
     sync_folder(d->folder);
     if ((status = lock_old(d, diag))) return status;

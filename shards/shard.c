@@ -1,5 +1,6 @@
 /* shard.c: see shard.h. Objects have the order of their tags, and of equal tags that of their bytes, so that a tree is
  * a function of the set of its objects. */
+#define _GNU_SOURCE 1 /* sync_file_range */
 #include "shard.h"
 #include "support/fail.h"
 #include "support/floats.h"
@@ -262,13 +263,40 @@ froe_status shards_check_options(const froe_shards_options *options, froe_diagno
     return options->size == sizeof *options ? FROE_OK : support_fail_defaults(diag, "froe_shards_defaults");
 }
 
+static bool put_bytes(void *file, const void *bytes, size_t count) {
+    return fwrite(bytes, 1, count, file) == count;
+}
+
+/* Lets the system begin to write what it holds of a file, which is waited for when the draft is brought to its place:
+ * see draft.c. */
+static void begin_writeback(FILE *file) {
+#ifdef SYNC_FILE_RANGE_WRITE
+    (void)sync_file_range(fileno(file), 0, 0, SYNC_FILE_RANGE_WRITE);
+#else
+    (void)file;
+#endif
+}
+
+static froe_status write_tree(const froe_tree *tree, const char *path, froe_diagnostic *diag) {
+    FILE *file = fopen(path, "wbe");
+    if (!file) return support_fail_file(diag, "written", path, errno);
+    errno = 0;
+    froe_status status = froe_tree_write(tree, put_bytes, file, diag);
+    const bool failed = fflush(file) || ferror(file);
+    if (failed && (!status || status == FROE_E_IO))
+        status = support_fail_file(diag, "written", path, errno ? errno : EIO);
+    if (!status) begin_writeback(file);
+    if (fclose(file) && !status) status = support_fail_file(diag, "written", path, errno);
+    return status;
+}
+
 static froe_status save_tree(const froe_tree *tree, const char *folder, uint32_t cell, const froe_allocator *alloc,
                              froe_shard_entry *e, froe_diagnostic *diag) {
     const size_t size = strlen(folder) + SHARDS_NAME;
     char *path = support_realloc(alloc, NULL, 0, size);
     if (!path) return support_fail_memory(diag);
     shards_file_name(path, size, folder, cell);
-    froe_status status = froe_tree_save(tree, path, diag);
+    froe_status status = write_tree(tree, path, diag);
     if (!status) status = shards_file_check(path, &e->bytes, &e->check, diag);
     support_free(alloc, path, size);
     return status;

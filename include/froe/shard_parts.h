@@ -12,9 +12,10 @@
  *     froe_shard_build()            the owner of a shard its file and its entry
  *     froe_shard_report()           who has all entries  counts of the whole folder
  *     froe_shard_manifest_write()   one process          the text that names all shards
- *     froe_shard_draft_place()      the same             the new folder takes the place of the old one
+ *     froe_shard_draft_sync()       each                 its own files are on the disk
+ *     froe_shard_draft_place()      one process              the new folder takes the place of the old one
  *     froe_shard_draft_clear()      each                 part of the old folder goes away
- *     froe_shard_draft_end()        the first one        the rest of it goes away
+ *     froe_shard_draft_end()        one process          the rest of it goes away
  *
  * Nothing depends on the order in which objects come, nor on which process has them. docs/design/shards.md explains
  * why, and docs/format.md the files. Calls on different things may run at the same time. */
@@ -112,7 +113,8 @@ typedef struct froe_shard_entry {
     uint64_t check;                            /**< the checksum of its file's header, which holds all others */
     double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM]; /**< bounds of its objects' boxes within its cell; 0 without objects */
 } froe_shard_entry;
-/** Builds shard `cell` from its records in any order, and saves it as FOLDER/shard-NNNN.froe. The records are emptied
+/** Builds shard `cell` from its records in any order, and saves it as FOLDER/shard-NNNN.froe. The file may reach the
+ * disk later, before the draft comes to its place. The records are emptied
  * on the way, to save memory, and freed by the caller. Objects have the order of their tags in it, and those of equal
  * tags the order of their records' bytes. `scene` (may be NULL) gives coordinate system, upward axis and groups. Of
  * options, see froe_shards_options, `shards` and `memory` are ignored. FROE_E_INPUT names the tag of an object that is
@@ -137,6 +139,10 @@ FROE_API froe_status froe_shard_draft_begin(const char *path, const froe_allocat
                                             froe_diagnostic *diag);
 /** Where the files go; lives as long as the draft. */
 FROE_API const char *froe_shard_draft_folder(const froe_shard_draft *draft);
+/** Waits until part `part` of `parts` of the shards in a draft's folder is on the disk: shard s is of part s modulo
+ * `parts`. Each process does so with its own before froe_shard_draft_place(), which does so with all that are left.
+ * FROE_E_IO. */
+FROE_API froe_status froe_shard_draft_sync(const char *folder, uint32_t part, uint32_t parts, froe_diagnostic *diag);
 /** Brings the draft to its place. *replaced: what was there is now at froe_shard_draft_folder(), under a lock, until
  * froe_shard_draft_end() removes it. FROE_E_IO: everything is as it was. */
 FROE_API froe_status froe_shard_draft_place(froe_shard_draft *draft, bool *replaced, froe_diagnostic *diag);
