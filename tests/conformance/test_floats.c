@@ -605,7 +605,7 @@ static void motions(floats_run *r, void *user) {
         froe_motion_options window;
         double at[2] = {0, 0};
         MUST(r, froe_generate_motion(kinds[k], 12, 3, &memory, &motion, NULL));
-        TELL(r, window = froe_motion_window(motion));
+        TELL(r, froe_motion_window_into(motion, &window, sizeof window));
         floats_note(r, &window.tick, sizeof window.tick);
         TELL(r, froe_motion_position(motion, 0, 17.3, at));
         floats_note(r, at, sizeof at);
