@@ -58,7 +58,8 @@ static leaf_view view_leaf(const query_near *n, const packed_header *block) {
         v.point[k] = (float)x;
     }
     v.slack = 1.5 * (double)block->error + 0x1p-17 * most;
-    v.known = block->scale > 0 && most < 0x1p60 && v.slack < 0x1p24 && v.unit > 0x1p-1000; /* no cell is larger than the scene */
+    /* no cell is larger than the scene: units are not too large */
+    v.known = block->scale > 0 && most < 0x1p60 && v.slack < 0x1p24 && v.unit > 0x1p-1000;
     return v;
 }
 
