@@ -1,6 +1,6 @@
-/* test_seldom_ranges.c: ranges that lead to rare parts of searches, by all walks: cubes on both sides of the origin or as
- * large as numbers allow, cells that refer to others, hulls of many corners, an eps without a margin; and every kind of
- * question without memory. */
+/* test_seldom_ranges.c: ranges that lead to rare parts of searches, by all walks: cubes on both sides of the origin or
+ * as large as numbers allow, cells that refer to others, hulls of many corners, an eps without a margin; and every kind
+ * of question without memory. */
 #include "asked.h"
 #include <math.h>
 
@@ -131,7 +131,7 @@ static void halfspaces_find_hulls_of_many_corners(void **state) {
     froe_scene_free(scene);
 }
 
-/* An eps whose margin is no number, or that of a range without inside, adds nothing; one that is infinite is refused. */
+/* An eps whose margin is no number, or that of a range without inside, adds nothing; an infinite one is refused. */
 static void an_eps_without_a_margin_adds_nothing(void **state) {
     static const double cube[8][4] = {{1, 0, 0, 0}, {-1, 0, 0, 0}, {0, 1, 0, 0}, {0, -1, 0, 0},
                                       {0, 0, 1, 0}, {0, 0, -1, 0}, {0, 0, 0, 1}, {0, 0, 0, -1}};

@@ -195,8 +195,8 @@ static int axes_shared(const geom_distance *a, const geom_distance *b, int *last
     return shared;
 }
 
-/* Do these coordinates say that both, which do not have the point inside, have one affine hull? Of walls, floors and their edges along the axes many are
- * equally near. */
+/* Do these coordinates say that both, which do not have the point inside, have one affine hull? Of walls, floors and
+ * their edges along the axes many are equally near. */
 static bool same_hull(const geom_distance *a, const geom_distance *b) {
     int axis;
     return same_kind(a, b) && axes_shared(a, b, &axis) == a->dim + 1 - a->count;

@@ -157,7 +157,7 @@ static bool round_wall(const geom_ray *ray, const geom_hit *h, double *out) {
 }
 
 /* The parameter of a PLANE, if pairs of doubles can tell how it is to be rounded. With sizes as sums of coordinates, a
- * product of three vectors is off by less than 2^-96 |e| |f| |v|. Where products underflow, |n . d| is less than 2^-600,
+ * product of three vectors is off by less than 2^-96 |e| |f| |v|. Where products underflow, |n . d| is below 2^-600,
  * and so far below |e| |f| |d| that nothing can be told. */
 static bool round_plane(const geom_ray *ray, const geom_hit *h, double *out) {
     num_pair e[3], f[3], v[3], n[3], d[3];

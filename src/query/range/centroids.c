@@ -60,7 +60,7 @@ static bool divide_parts(centroid_plan *p) {
             continue;
         }
         uint32_t v = heavier(p, root);
-        while ((uint64_t)p->sizes[v] * 3 > (uint64_t)p->sizes[root] * 2) v = heavier(p, v); /* v has two nodes or more */
+        while ((uint64_t)p->sizes[v] * 3 > (uint64_t)p->sizes[root] * 2) v = heavier(p, v); /* v has two or more */
         const uint32_t step = p->c->count++;
         p->c->steps[step].node = v;
         link_to(p, from, step);

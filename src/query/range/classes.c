@@ -69,8 +69,8 @@ static bool enter_object(class_draft *d, uint32_t object) {
 
 /* ------------------------------------------------------------------- cells -- */
 
-/* Copies the ids of the next larger cell that holds this one, as far as they meet it. Where these, and those of the cells
- * that it refers to, are too many, it is referred to instead. */
+/* Copies the ids of the next larger cell that holds this one, as far as they meet it. Where these, and those of the
+ * cells that it refers to, are too many, it is referred to instead. */
 static bool inherit(class_draft *d, query_classes *p, uint32_t cell) {
     query_cell *c = p->cells + cell;
     size_t listed = 0;
