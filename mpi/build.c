@@ -174,11 +174,20 @@ static froe_status merge_samples(froe_mpi_builder *b) {
     return status;
 }
 
+/* Collective: leaves of this rank's sample what can be in that of all. */
+static void cut_sample(froe_mpi_builder *b) {
+    const uint64_t mine = froe_shard_sample_bound(b->sample, (uint32_t)b->ranks.count);
+    uint64_t bound;
+    MPI_Allreduce(&mine, &bound, 1, MPI_UINT64_T, MPI_MAX, b->ranks.comm);
+    froe_shard_sample_cut(b->sample, bound);
+}
+
 /* Collective: the plan that the samples of all ranks give. */
 static froe_status make_plan(froe_mpi_builder *b) {
     const bool first = !b->ranks.rank;
     size_t words = 0;
     mpi_wait(&b->ranks);
+    cut_sample(b);
     froe_status status = merge_samples(b);
     const uint64_t *all = first && !status ? froe_shard_sample_words(b->sample, &words) : NULL;
     if (first && !status && !all) status = support_fail_memory(&b->diag);

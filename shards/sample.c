@@ -111,6 +111,26 @@ froe_status froe_shard_sample_add(froe_shard_sample *s, const void *records, siz
     return FROE_OK;
 }
 
+/* If every part has so many items below the largest bound, all together have at least as many as a sample. */
+uint64_t froe_shard_sample_bound(froe_shard_sample *s, uint32_t parts) {
+    const size_t least = parts ? (SHARDS_SAMPLE + (size_t)parts - 1) / parts : SHARDS_SAMPLE;
+    if (!s || s->count < least) return UINT64_MAX;
+    uint64_t *items = s->words + HEAD;
+    shards_select(items, s->count, s->width * sizeof *items, least - 1, compare_of(s));
+    return items[(least - 1) * s->width];
+}
+
+void froe_shard_sample_cut(froe_shard_sample *s, uint64_t bound) {
+    if (!s || bound >= s->bound) return;
+    size_t kept = 0;
+    for (size_t i = 0; i < s->count; i++) {
+        const uint64_t *item = s->words + HEAD + i * s->width;
+        if (*item <= bound) memmove(s->words + HEAD + kept++ * s->width, item, s->width * sizeof *item);
+    }
+    s->count = kept;
+    s->bound = bound;
+}
+
 const uint64_t *froe_shard_sample_words(froe_shard_sample *s, size_t *count) {
     SUPPORT_FLOATS_OWN;
     if (!s || !count || !next_item(s)) return NULL;
