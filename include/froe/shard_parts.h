@@ -61,8 +61,8 @@ FROE_API froe_status froe_shard_sample_new(int dim, const froe_allocator *alloc,
 FROE_API void froe_shard_sample_free(froe_shard_sample *sample);
 /** Counts whole records, and keeps those that are drawn. FROE_E_MEMORY; FROE_E_ARG: other dimensions, no records. */
 FROE_API froe_status froe_shard_sample_add(froe_shard_sample *sample, const void *records, size_t count);
-/** Of a sample of part of the objects, which is one of `parts`: a hash for froe_shard_sample_cut(). The largest of those
- * of all parts leaves in them together what is in the sample of all, and little more. */
+/** Of a sample of part of the objects, which is one of `parts`: a hash for froe_shard_sample_cut(). The largest of
+ * those of all parts leaves in them together what is in the sample of all, and little more. */
 FROE_API uint64_t froe_shard_sample_bound(froe_shard_sample *sample, uint32_t parts);
 /** Drops those objects from a sample whose hash is above a bound. They are counted all the same. */
 FROE_API void froe_shard_sample_cut(froe_shard_sample *sample, uint64_t bound);
