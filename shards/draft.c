@@ -78,6 +78,7 @@ static bool is_of_part(const char *name, uint32_t part, uint32_t parts) {
 }
 
 void froe_shard_draft_clear(const char *path, uint32_t part, uint32_t parts) {
+    SUPPORT_FLOATS_OWN;
     DIR *folder = path && parts ? opendir(path) : NULL;
     for (struct dirent *entry; folder && (entry = readdir(folder));)
         if (is_of_part(entry->d_name, part, parts)) unlinkat(dirfd(folder), entry->d_name, 0);
@@ -95,6 +96,7 @@ static int sync_file(int folder, const char *name) {
 }
 
 froe_status froe_shard_draft_sync(const char *path, uint32_t part, uint32_t parts, froe_diagnostic *diag) {
+    SUPPORT_FLOATS_OWN;
     if (!path || !parts) return support_fail_null(diag, __func__);
     DIR *folder = opendir(path);
     int error = folder ? 0 : errno;
@@ -251,12 +253,13 @@ static froe_status lock_old(froe_shard_draft *d, froe_diagnostic *diag) {
             nanosleep(&pause, NULL);
             continue;
         }
-        char who[64] = "Another program";
+        char who[64] = "";
         const long process = holder_of(d->old);
-        if (process) snprintf(who, sizeof who, "Process %ld", process);
+        if (process) snprintf(who, sizeof who, " (process %ld)", process);
         close(d->old);
         d->old = -1;
-        return support_fail(diag, FROE_E_IO, "%s: %s holds a lock on the folder, so that it is not replaced.",
+        return support_fail(diag, FROE_E_IO,
+                            "%s: Another program%s holds a lock on the folder, so that it is not replaced.",
                             support_short(d->target), who);
     }
     return FROE_OK;

@@ -113,6 +113,7 @@ froe_status froe_shard_sample_add(froe_shard_sample *s, const void *records, siz
 
 /* If every part has so many items below the largest bound, all together have at least as many as a sample. */
 uint64_t froe_shard_sample_bound(froe_shard_sample *s, uint32_t parts) {
+    SUPPORT_FLOATS_OWN;
     const size_t least = parts ? (SHARDS_SAMPLE + (size_t)parts - 1) / parts : SHARDS_SAMPLE;
     if (!s || s->count < least) return UINT64_MAX;
     uint64_t *items = s->words + HEAD;

@@ -53,7 +53,7 @@ static void a_lock_that_is_kept_on_the_old_folder_is_told(void **state) {
     froe_shard_draft *draft;
     froe_diagnostic diag;
     char who[64];
-    snprintf(who, sizeof who, "Process %d holds a lock on the folder", (int)getpid());
+    snprintf(who, sizeof who, "Another program (process %d) holds a lock on the folder", (int)getpid());
     assert_int_equal(system("rm -rf kept.froes && mkdir kept.froes"), 0);
     assert_true(put_file("kept.froes", 0));
     assert_int_equal(froe_shard_draft_begin("kept.froes", NULL, &draft, NULL), FROE_OK);

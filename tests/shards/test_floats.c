@@ -45,6 +45,7 @@ static void building_by_steps(floats_run *r, void *user) {
     froe_shard_plan *plan;
     froe_shard_buckets *buckets;
     froe_shard_draft *draft;
+    bool replaced = false;
     froe_shard_entry entries[2];
     double box[2 * FROE_MAX_DIM] = {0};
     uint32_t cells[2] = {0};
@@ -59,6 +60,7 @@ static void building_by_steps(floats_run *r, void *user) {
     froe_shard_sample_new(2, NULL, &sample);
     MUST(r, froe_shard_sample_add(sample, records.bytes, records.count));
     froe_shard_sample_new(2, NULL, &other);
+    TELL(r, froe_shard_sample_bound(sample, 7));
     TELL(r, (words = froe_shard_sample_words(sample, &count), 0));
     MUST(r, froe_shard_sample_merge(other, words, count));
     MUST(r, froe_shard_plan_new(other, 2, 0, &plan, NULL));
@@ -74,6 +76,9 @@ static void building_by_steps(floats_run *r, void *user) {
         froe_shard_records_append(&taken, records.bytes, records.count, NULL);
     }
     MUST(r, froe_shard_manifest_write(plan, entries, froe_shard_draft_folder(draft), NULL, NULL));
+    MUST(r, froe_shard_draft_sync(froe_shard_draft_folder(draft), 0, 1, NULL));
+    MUST(r, froe_shard_draft_place(draft, &replaced, NULL));
+    TELL(r, (froe_shard_draft_clear(froe_shard_draft_folder(draft), 0, 1), replaced));
     MUST(r, froe_shard_draft_end(draft, FROE_OK, NULL));
     floats_note_file(r, "steps.froes/froe.shards");
     froe_shard_records_free(&records);
