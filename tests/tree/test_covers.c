@@ -65,7 +65,7 @@ static void a_cover_is_listed_once_for_all_that_is_below(void **state) {
     assert_true(r.fragments == 3 && r.covers == 1 && r.in_cut == 1);
     assert_true(info.cut.kind == FROE_CUT_AXIS && info.piece_count == 1 && info.cover_count == 1);
     judge(tree, NULL);
-    judge(covers_by_hand(square, below, 4, 1), NULL);                          /* it need not be listed as high as it could */
+    judge(covers_by_hand(square, below, 4, 1), NULL); /* it need not be listed as high as it could */
     judge(covers_by_hand(inner, right, 3, 1), "no piece where the object is"); /* it is in other cells, too */
 }
 
