@@ -13,7 +13,7 @@ static froe_status refuse_cut(formats_sink *sink, const io_shapes *shapes, const
     for (size_t i = 0; i < 2 * count && shapes->cuts; i++)
         if (fabs(xy[i]) == 0x1p63 || xy[i] == 0x1p64)
             return formats_sink_fail(sink, FROE_E_INPUT,
-                                     "Coordinate %c is read as %.17g, as every longer whole number is; with a decimal "
+                                     "Coordinate %c is read as %.17g, as every longer whole number is. With a decimal "
                                      "point it is read as it is written.",
                                      i % 2 ? 'y' : 'x', xy[i]);
     return FROE_OK;
