@@ -237,18 +237,26 @@ static void certify_touched(froe_kinetic *k, uint32_t root, ktree_cell cell) {
     }
 }
 
-void certify_site(froe_kinetic *k, const ktree_site *site) {
+/* The regions of the nodes above a subtree, as far as these tell whether there is a wall in it. */
+static void certify_above(froe_kinetic *k, const ktree_site *site) {
     ktree *tree = &k->tree;
-    uint32_t root = ktree_node_at(tree, site->parent)->child[site->slot];
-    if (k->call.stopped) return; /* parts may have no parent */
-    if (root && ktree_node_at(tree, root)->stamp == tree->stamp) certify_touched(k, root, site->cell);
-    bool changed = has_cut(tree, root) != site->cut;
+    bool changed = has_cut(tree, ktree_node_at(tree, site->parent)->child[site->slot]) != site->cut;
     for (uint32_t n = site->parent; changed && n != KTREE_ROOT; n = ktree_node_at(tree, n)->parent) {
         bool cut = find_cut(tree, n);
         changed = cut != ktree_node_at(tree, n)->cut;
         ktree_node_at(tree, n)->cut = cut;
         certify_regions(k, n, NULL);
     }
+}
+
+void certify_sites(froe_kinetic *k, const ktree_site *const sites[], int count) {
+    ktree *tree = &k->tree;
+    if (k->call.stopped) return; /* parts may have no parent */
+    for (int i = 0; i < count; i++) {
+        const uint32_t root = ktree_node_at(tree, sites[i]->parent)->child[sites[i]->slot];
+        if (root && ktree_node_at(tree, root)->stamp == tree->stamp) certify_touched(k, root, sites[i]->cell);
+    }
+    for (int i = 0; i < count; i++) certify_above(k, sites[i]); /* a node may be above several */
     if (k->call.stopped) return;
     for (size_t i = 0; i < tree->touched.count; i++) { /* ends outside of the subtree, and those without a wall */
         uint32_t segment = tree->touched.data[i] / 2, which = tree->touched.data[i] % 2;
@@ -262,6 +270,10 @@ void certify_site(froe_kinetic *k, const ktree_site *site) {
         }
     }
     tree->touched.count = 0;
+}
+
+void certify_site(froe_kinetic *k, const ktree_site *site) {
+    certify_sites(k, &site, 1);
 }
 
 /* --------------------------------------------------------- turns and flops -- */

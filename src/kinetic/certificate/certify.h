@@ -16,6 +16,8 @@
 
 /** After surgery at the site: certificates of all that was touched, and above. */
 void certify_site(froe_kinetic *k, const ktree_site *site);
+/** The same of several subtrees, none of which is in another. */
+void certify_sites(froe_kinetic *k, const ktree_site *const sites[], int count);
 /** Looks up which end is on the left, and makes the certificate of that. */
 void certify_turn(froe_kinetic *k, uint32_t segment);
 /** Makes the certificate that a triangle keeps the sign of its area, as seen from above, if it has any. */

@@ -297,8 +297,7 @@ pass_outcome pass_wall(froe_kinetic *k, const slab_item *item) {
     move_segment(k, &p);
     if (k->call.stopped) return PASS_DONE;
     ktree_touch_wall(tree, near->wall[p.near.side]);
-    certify_site(k, &p.near.site);
-    certify_site(k, &p.far.site);
+    certify_sites(k, (const ktree_site *const[]){&p.near.site, &p.far.site}, 2);
     turn_certify_halves(k);
     return PASS_DONE;
 }

@@ -88,6 +88,6 @@ pass_outcome strip_pass(froe_kinetic *k, const strip both[2], name_point point) 
     for (int i = 0; i < 2; i++) join_again(k, both + i, i);
     if (outcome || k->call.stopped || tree->broken || k->now.lost) return outcome;
     ktree_touch_wall(tree, both[0].site.cell.wall[both[0].side]);
-    for (int i = 0; i < 2; i++) certify_site(k, &both[i].site);
+    certify_sites(k, (const ktree_site *const[]){&both[0].site, &both[1].site}, 2);
     return PASS_DONE;
 }
