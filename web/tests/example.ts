@@ -35,7 +35,7 @@ const text: string = picture.text;
     present.audit();
     motion.contacts({ from: 0, to: 1 }).begins[0].toFixed();
     using curved = froe.generateMotion("moving-boxes", 1).withoutBodies(0.1).motion;
-    curved.partition().advance(1).kinds.at(0)?.toFixed();
+    curved.partition().advance(1).kinds[0]?.toFixed();
     void [kind, alike];
 }
 try {
