@@ -68,7 +68,7 @@ static bool overlap_exactly(finder *f, uint32_t visible, const paint_part *part,
 }
 
 /* Bounds of points, widened by more than is unsure. */
-static arc_box box_of(const print_point *ring, size_t count, double unsure) {
+static arc_box box_of_arc(const print_point *ring, size_t count, double unsure) {
     double x0 = INFINITY, y0 = INFINITY, x1 = -INFINITY, y1 = -INFINITY;
     for (size_t i = 0; i < count; i++) {
         x0 = ring[i].x < x0 ? ring[i].x : x0, x1 = ring[i].x > x1 ? ring[i].x : x1;
@@ -94,7 +94,7 @@ static froe_status compare_piece(const arc_search *s, finder *f, uint32_t visibl
     f->piece.count = 0;
     if (!view_print_visible(&f->parts, visible, &f->piece)) return FROE_E_MEMORY;
     if (f->piece.count < 3) return FROE_OK;
-    const arc_box box = box_of(f->piece.data, f->piece.count, unsure);
+    const arc_box box = box_of_arc(f->piece.data, f->piece.count, unsure);
     view_grid_walk walk = view_grid_begin(&f->grid, view_grid_cells(&f->grid, f->piece.data, f->piece.count, 0));
     for (uint32_t i; view_grid_next(&walk, &i);) {
         if (!boxes_meet(&box, s->boxes + i)) continue;
@@ -185,7 +185,7 @@ static froe_status begin_search(arc_search *s, view_sightlines *sights) {
     s->finders = support_calloc(alloc, s->finder_count, sizeof *s->finders);
     if (!s->tour || !s->boxes || !s->finders || view_tour(parts, s->tour)) return FROE_E_MEMORY;
     for (size_t i = 0; i < part_count; i++)
-        s->boxes[i] = box_of(parts->points.data + parts->parts.data[i].first, parts->parts.data[i].count, unsure);
+        s->boxes[i] = box_of_arc(parts->points.data + parts->parts.data[i].first, parts->parts.data[i].count, unsure);
     froe_status status = view_grid_new(alloc, parts->view, part_count, arc_points, parts, &s->grid);
     if (!status && !parts->clear) status = make_borders(s, sights);
     for (unsigned i = 0; i < s->finder_count && !status; i++) status = begin_finder(s, s->finders + i, sights);
