@@ -73,7 +73,7 @@ static froe_status map_file(opening *o) {
     froe_status status = open_file(o, &fd);
     if (status) return status;
     void *map = mmap(NULL, o->size, PROT_READ, MAP_PRIVATE, fd, 0);
-    if (map == MAP_FAILED) status = unreadable(o, errno); /* one way: there are addresses for 2^47 bytes */
+    if (map == MAP_FAILED) status = unreadable(o, errno);
     o->bytes = o->map = map;
     o->map_size = o->size;
     close(fd);
@@ -323,8 +323,7 @@ static froe_status check_machine(froe_diagnostic *diag) {
 static froe_status open_path(opening *o, bool mapped, const froe_allocator *caller, froe_tree **out) {
     const froe_allocator alloc = support_allocator(caller);
     froe_status status = check_machine(o->diag);
-    if (!status) /* one way: see check_machine() */
-        status = mapped ? map_file(o) : read_file(o, &alloc);
+    if (!status) status = mapped ? map_file(o) : read_file(o, &alloc);
     return status ? status : open_bytes(o, &alloc, out);
 }
 

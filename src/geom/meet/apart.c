@@ -170,7 +170,6 @@ int geom_apart(num_context *context, const geom_body *a, const geom_body *b, dou
     if (s.meeting || geom_meet(context, &s.set_a, &s.set_b)) return 0;
     find_coefficients(&s, coefficients);
     cut_into_rows(&s, coefficients);
-    /* one way: no bodies are known that take so many rows */
     for (int count = 1; count < GEOM_FINE_ROWS; count *= 2)
         if (is_between(&s, count)) return count;
     return is_between(&s, GEOM_FINE_ROWS) ? GEOM_FINE_ROWS : 0; /* one way: as above */

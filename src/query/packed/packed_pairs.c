@@ -230,8 +230,8 @@ froe_status packed_pairs(query_workers *workers, bool shared, froe_pair_fn *fn, 
     const uint64_t most = (uint64_t)objects * PAIRS_EACH + PAIRS_MORE;
     packed_search s = {.workers = workers, .shared = shared};
     /* one way: so many objects take 64 GB */
-    froe_status status =
-        pair_lists_take(&s.lists, &q->alloc, objects, workers->count, most < UINT32_MAX ? (uint32_t)most : UINT32_MAX);
+    const uint32_t room = most < UINT32_MAX ? (uint32_t)most : UINT32_MAX;
+    froe_status status = pair_lists_take(&s.lists, &q->alloc, objects, workers->count, room);
     base_task *task = &workers->task;
     const size_t jobs = ((size_t)q->tree->node_count + NODES_PER_JOB - 1) / NODES_PER_JOB;
     if (!status) status = base_run(task, 0.8, jobs, pair_run, &s);

@@ -29,7 +29,6 @@ static bool lay_grid(const froe_tree *t, tree_table *grid) {
         if (!(side[k] >= 0x1p-900 && side[k] <= 0x1p900)) return false;
     }
     /* cells as the builder halves its cells: always the longer side */
-    /* one way: trees with so many cells take minutes */
     for (uint32_t bits = 0; bits < MOST_BITS && (2u << bits) <= t->node_count / 2 + 1; bits++) {
         int longer = side[1] > side[0];
         side[longer] *= 0.5;
