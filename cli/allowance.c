@@ -3,6 +3,9 @@
 #include "allowance.h"
 #include "exit.h"
 #include <inttypes.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <stdio.h>
 #include <sys/resource.h>
 #include <sys/time.h>
@@ -30,6 +33,10 @@ static bool set_limit(uint64_t bytes) {
 
 int cli_limit(const cli_common *common) {
     if (common->limit_memory) {
+#ifdef __GLIBC__
+        (void)mallopt(M_ARENA_MAX,
+                      1); /* one for each thread would reserve 64 MB of addresses, which the limit counts */
+#endif
         const uint64_t mapped = mapped_now();
         if (!mapped || !set_limit(mapped + common->limit_memory * MEGABYTE))
             return cli_fail(CLI_RESOURCES, NULL, "--limit-memory: The system does not limit memory.");

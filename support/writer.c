@@ -142,22 +142,32 @@ static bool is_at(int file, const char *path) {
     return !fstat(file, &one) && !lstat(path, &other) && one.st_dev == other.st_dev && one.st_ino == other.st_ino;
 }
 
+/* A file of this user's that has no other name: what is written into it reaches nobody else. */
+static bool is_own(int file) {
+    struct stat info;
+    return !fstat(file, &info) && S_ISREG(info.st_mode) && info.st_nlink == 1 && info.st_uid == geteuid();
+}
+
 /* A file beside the target that other processes find, empty and locked. Returns its descriptor, or -1 and errno;
- * EWOULDBLOCK: another program writes it. */
+ * EWOULDBLOCK: another program writes it. EEXIST: something that is no file of this user's has its name. */
 static int create_shared(struct support_writer_room *room, mode_t mode) {
     const size_t length = folder_length(room->target);
     snprintf(room->temporary, sizeof room->temporary, "%.*s.%s.writing", (int)length, room->target,
              room->target + length);
     while (true) {
-        const int file = open(room->temporary, O_WRONLY | O_CREAT | O_NOFOLLOW | O_CLOEXEC, mode);
-        if (file >= 0 && !flock(file, LOCK_EX | LOCK_NB)) {
-            if (is_at(file, room->temporary) && !ftruncate(file, 0)) return file;
-            close(file); /* another program has just brought it to its place, or removed it */
+        const int file = open(room->temporary, O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, mode);
+        int error = file < 0 || flock(file, LOCK_EX | LOCK_NB) ? errno : 0;
+        if (!error &&
+            !is_at(file, room->temporary)) { /* another program has just brought it to its place, or removed it */
+            close(file);
             continue;
         }
-        const int error = errno;
+        if (!error && !is_own(file)) error = EEXIST;
+        if (!error && ftruncate(file, 0)) error = errno;
+        if (!error) return file;
         if (file >= 0) close(file);
         if (file < 0 && error == EINTR) continue;
+        if (error == ENXIO || error == ELOOP) error = EEXIST; /* a pipe that nobody reads, a link */
         room->temporary[0] = '\0';
         errno = error;
         return -1;
@@ -217,9 +227,13 @@ static froe_status open_writer(support_writer *w, const char *path, const froe_a
     int error = open_file(w);
     if (!error) return FROE_OK;
     support_free(&w->alloc, w->room, sizeof *w->room);
-    return error == EWOULDBLOCK
-               ? support_fail(diag, FROE_E_IO, "%s: Another program is writing this file.", support_short(path))
-               : support_fail_file(diag, "written", path, error);
+    if (error == EWOULDBLOCK)
+        return support_fail(diag, FROE_E_IO, "%s: Another program is writing this file.", support_short(path));
+    if (shared && error == EEXIST)
+        return support_fail(diag, FROE_E_IO,
+                            "%s: Its draft beside it, whose name ends in .writing, is no file of yours. Remove it.",
+                            support_short(path));
+    return support_fail_file(diag, "written", path, error);
 }
 
 froe_status support_writer_open(support_writer *w, const char *path, const froe_allocator *alloc,

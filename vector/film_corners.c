@@ -26,7 +26,7 @@ typedef struct film_box {
 typedef struct film_corners {
     const froe_motion *motion;
     froe_allocator alloc;
-    bool coarse; /* bodies by their boxes, and pieces in one part */
+    bool coarse; /* bodies by their boxes, and straight pieces and parabolas in one part */
     bool room;
     film_box *boxes; /* of bodies */
     ARRAY(film_stay) stays;
@@ -193,7 +193,7 @@ static void turn_corner(film_corners *w, uint32_t body, const double corner[3], 
         const froe_body_knot q = froe_motion_body_knot(w->motion, body, i + 1);
         double product = 0, shares[2];
         for (int k = 0; k < 4; k++) product += p.turn[k] * q.turn[k];
-        const int parts = w->coarse ? 1 : 1 + (int)(2 * PARTS * sqrt(fmax(1 - product, 0))); /* 10 degrees each */
+        const int parts = 1 + (int)(2 * PARTS * sqrt(fmax(1 - product, 0))); /* 10 degrees each */
         shares_of(p.time, q.time, stay, shares);
         for (int n = 0; n < parts; n++)
             add_arc(w, &p, &q, mix(shares[0], shares[1], (double)n / parts),

@@ -104,6 +104,29 @@ static void links_in_the_place_of_the_draft_are_not_followed(void **state) {
     assert_int_equal(access("linked.txt", F_OK), -1);
 }
 
+/* A second name of another file, a pipe that nobody reads, a pipe that somebody reads. */
+static void what_is_no_file_of_its_own_is_no_draft(void **state) {
+    (void)state;
+    support_writer w;
+    froe_diagnostic diag;
+    spill("shared.txt", "keep");
+    (void)unlink(".named.txt.writing");
+    assert_int_equal(link("shared.txt", ".named.txt.writing"), 0);
+    assert_int_equal(support_writer_open_shared(&w, "named.txt", NULL, &diag), FROE_E_IO);
+    assert_string_equal(diag.message,
+                        "named.txt: Its draft beside it, whose name ends in .writing, is no file of yours. "
+                        "Remove it.");
+    assert_text("shared.txt", "keep");
+    (void)unlink(".piped.txt.writing");
+    assert_int_equal(mkfifo(".piped.txt.writing", 0600), 0);
+    assert_int_equal(support_writer_open_shared(&w, "piped.txt", NULL, NULL), FROE_E_IO);
+    const int reader = open(".piped.txt.writing", O_RDONLY | O_NONBLOCK);
+    assert_true(reader >= 0);
+    assert_int_equal(support_writer_open_shared(&w, "piped.txt", NULL, NULL), FROE_E_IO);
+    close(reader);
+    assert_int_equal(access("piped.txt", F_OK), -1);
+}
+
 static void what_is_no_file_has_no_draft(void **state) {
     (void)state;
     support_writer w;
@@ -120,6 +143,7 @@ int main(void) {
         cmocka_unit_test(one_program_writes_at_a_time),
         cmocka_unit_test(what_a_killed_program_left_is_used_again),
         cmocka_unit_test(links_in_the_place_of_the_draft_are_not_followed),
+        cmocka_unit_test(what_is_no_file_of_its_own_is_no_draft),
         cmocka_unit_test(what_is_no_file_has_no_draft),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
