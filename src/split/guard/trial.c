@@ -239,7 +239,7 @@ static froe_status judge_first(const split_job *job, split_work *work, split_tri
     }
     if (t->by_guard) {
         if (is_done(work, t)) stay_by_guard(work, t);
-    } else if (refinement_exceeds(work, t) || (limited && !t->other)) {
+    } else if (refinement_exceeds(work, t) || (limited && t->other == 0)) {
         return go_by_guard(work, t);
     } else if (is_done(work, t)) {
         close_trial(work, t);

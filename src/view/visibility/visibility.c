@@ -58,6 +58,7 @@ static bool keep_corner(froe_visibility *v, const view_corner *corner, view_way 
     view_spot spot = {corner->way, corner->vertex};
     view_kept_ray kept = {.corner = (uint32_t)v->corners.count};
     ray_by_images(&v->sights, corner->vertex, before, corner->way, kept.x);
+    /* NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): equal to the last bit */
     if (corner->vertex == FROE_NONE && memcmp(kept.x, corner->ray.x, sizeof kept.x) != 0) {
         spot.vertex = VIEW_KEPT;
         memcpy(kept.x, corner->ray.x, sizeof kept.x);
