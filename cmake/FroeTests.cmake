@@ -167,7 +167,7 @@ if(FROE_HAS_CLI)
   file(GLOB transcripts CONFIGURE_DEPENDS tests/cli/*.test)
   foreach(transcript ${transcripts})
     get_filename_component(name ${transcript} NAME_WE)
-    if(name MATCHES "^(memory|limits)$" AND FROE_SANITIZE) # a sanitizer cannot start within limits of memory
+    if(name MATCHES "^(memory|limits|malicious)$" AND FROE_SANITIZE) # a sanitizer cannot start within limits of memory
       continue()
     endif()
     froe_test(cli ${name} ${PROJECT_SOURCE_DIR}/scripts/transcript ${transcript})
