@@ -60,13 +60,18 @@ froe_status view_graph_new(const froe_allocator *alloc, uint32_t nodes, graph_ar
     return FROE_OK;
 }
 
-void view_graph_free(const froe_allocator *alloc, view_graph *g) {
+void view_graph_drop(const froe_allocator *alloc, view_graph *g) {
     const size_t nodes = g->count, arcs = g->arc_count;
     support_free(alloc, g->out_starts, (nodes + 2) * sizeof *g->out_starts);
     support_free(alloc, g->in_starts, (nodes + 2) * sizeof *g->in_starts);
     support_free(alloc, g->outs, (arcs + 1) * sizeof *g->outs);
     support_free(alloc, g->ins, (arcs + 1) * sizeof *g->ins);
-    support_free(alloc, g->late, nodes + 1);
+    g->out_starts = g->in_starts = g->outs = g->ins = NULL;
+}
+
+void view_graph_free(const froe_allocator *alloc, view_graph *g) {
+    view_graph_drop(alloc, g);
+    support_free(alloc, g->late, (size_t)g->count + 1);
     *g = (view_graph){0};
 }
 

@@ -29,6 +29,8 @@ typedef struct view_graph {
 froe_status view_graph_new(const froe_allocator *alloc, uint32_t nodes, graph_arc *arcs, size_t arc_count,
                            view_graph *out);
 void view_graph_free(const froe_allocator *alloc, view_graph *graph);
+/** Frees the arcs, where only `late` is still asked for. */
+void view_graph_drop(const froe_allocator *alloc, view_graph *graph);
 /** Makes nodes late until no cycle is left; a `fixed` node (NULL: none is) only where all of
  * its cycle are. FROE_E_MEMORY. Not recursive (Tarjan 1972 with a stack of its own). */
 froe_status view_graph_break(const froe_allocator *alloc, view_graph *graph, const uint8_t *fixed);

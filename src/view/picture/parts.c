@@ -21,11 +21,15 @@ void view_parts_free(view_parts *p) {
     support_free(alloc, p->node_of_patch, ((size_t)p->v->surface->patch_count + 1) * sizeof *p->node_of_patch);
     support_free(alloc, p->node_of, ((size_t)p->v->piece_count + 1) * sizeof *p->node_of);
     array_free(alloc, &p->nodes);
-    array_free(alloc, &p->parts);
-    array_free(alloc, &p->kinds);
-    array_free(alloc, &p->points);
     array_free(alloc, &p->ring);
     print_free(&p->press);
+    view_parts_drop(p);
+}
+
+void view_parts_drop(view_parts *p) {
+    array_free(&p->v->alloc, &p->parts);
+    array_free(&p->v->alloc, &p->kinds);
+    array_free(&p->v->alloc, &p->points);
 }
 
 /* ----------------------------------------------------------------------- prints -- */

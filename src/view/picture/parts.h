@@ -51,6 +51,8 @@ typedef struct view_parts {
 froe_status view_parts_new(view_parts *parts, const froe_visibility *v, const froe_projection *view, uint32_t *places,
                            bool cull_back);
 void view_parts_free(view_parts *parts);
+/** Frees the parts, where only nodes are still asked for. */
+void view_parts_drop(view_parts *parts);
 /** Makes nodes and parts anew, as `split` says. */
 froe_status view_parts_make(view_parts *parts, view_sightlines *sights);
 /** Appends the ring of a visible piece on the page. */

@@ -76,5 +76,8 @@ froe_status view_plan_whole(view_painter *p) {
     p->order = support_calloc(&p->picture->alloc, p->parts.nodes.count + 1, sizeof *p->order);
     if (!p->order) return FROE_E_MEMORY;
     const bool among = p->options->interleave > 0 || p->options->interleave_points > 0;
-    return among ? view_interleave(p) : view_sort_nodes(p, &p->graph, p->order);
+    status = among ? view_interleave(p) : view_sort_nodes(p, &p->graph, p->order);
+    view_parts_drop(&p->parts);
+    view_graph_drop(&p->picture->alloc, &p->graph);
+    return status;
 }

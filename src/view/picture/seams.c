@@ -148,7 +148,7 @@ bool view_own_meets(const view_seams *s, const print_point *ring, size_t count) 
 bool view_seam_covers(const view_seams *s, uint32_t visible, uint32_t node) {
     const uint32_t other = s->parts->node_of[visible];
     return s->place[other] > s->place[node] && s->run[other] != s->run[node] &&
-           !(s->clear && s->clear[s->parts->v->pieces[visible].patch]);
+           !(s->clear && s->clear[s->parts->nodes.data[other].patch]);
 }
 
 /* ---------------------------------------------------------------------- strips -- */

@@ -224,7 +224,7 @@ static froe_status begin_painting(whole_painter *g) {
     if (status) return status;
     for (uint32_t i = 0; i < surface->scene->object_count; i++) /* threads only read them */
         if (surface_has(surface, i)) (void)view_facing(p->sights, i);
-    if (!pieces) view_drop_corners(p->v); /* visible pieces are on the page now */
+    if (!pieces) view_drop_pieces(p->v); /* visible pieces are on the page now */
     for (unsigned i = 0; i < g->worker_count && !status; i++) status = begin_worker(g, g->workers + i);
     return status;
 }

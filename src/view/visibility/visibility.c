@@ -306,19 +306,19 @@ froe_status froe_visibility_new(const froe_tree *tree, const froe_surface *surfa
     }
 }
 
-void view_drop_corners(froe_visibility *v) {
+void view_drop_pieces(froe_visibility *v) {
     view_sightlines_drop(&v->sights);
     array_free(&v->alloc, &v->corners);
     array_free(&v->alloc, &v->kept_rays);
+    support_free(&v->alloc, v->pieces, ((size_t)v->piece_count + 1) * sizeof *v->pieces);
+    v->pieces = NULL;
 }
 
 void froe_visibility_free(froe_visibility *v) {
     if (!v) return;
     const froe_allocator alloc = v->alloc;
+    view_drop_pieces(v);
     if (v->sights.surface) view_sightlines_free(&v->sights);
-    if (v->pieces) support_free(&alloc, v->pieces, ((size_t)v->piece_count + 1) * sizeof *v->pieces);
-    array_free(&alloc, &v->corners);
-    array_free(&alloc, &v->kept_rays);
     support_free(&alloc, v->patch_starts, ((size_t)v->surface->patch_count + 1) * sizeof *v->patch_starts);
     view_drop_intervals(v);
     array_free(&alloc, &v->crossings);
