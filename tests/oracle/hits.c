@@ -55,6 +55,8 @@ static oracle_triangle triangle_of(const froe_projection *view, const double *co
     for (int c = 0; c < 3; c++) before_camera(view, vertex[c], corner[c], &t.depth[c]);
     for (int c = 0; c < 3; c++) cross(corner[(c + 1) % 3], corner[(c + 2) % 3], t.normal[c]);
     t.volume = dot(corner[0], t.normal[0]);
+    const double size = dot(corner[0], corner[0]) * dot(corner[1], corner[1]) * dot(corner[2], corner[2]);
+    t.edge_on = !view->eye.parallel && fabs(t.volume) <= 1e-12 * sqrt(size);
     find_box(&t, view, corner);
     return t;
 }
@@ -90,7 +92,7 @@ oracle_triangles oracle_triangles_new(const froe_scene *scene, const froe_surfac
             oracle_triangle *t = all.at + all.count;
             *t = triangle_of(view, vertex);
             t->object = i, t->patch = patch;
-            all.count += !cull_back || is_front(t, view->eye.parallel);
+            all.count += !t->edge_on && (!cull_back || is_front(t, view->eye.parallel));
         }
     }
     if (view->eye.parallel) step_back(&all);
@@ -124,7 +126,8 @@ double oracle_depth(const oracle_triangles *triangles, size_t i, const double pa
     ray_at(triangles->view, page, ray);
     for (int c = 0; c < 3; c++) {
         const double *n = t->normal[c], at = dot(n, ray);
-        const double unsure = 1e-9 * (fabs(n[0] * ray[0]) + fabs(n[1] * ray[1]) + fabs(n[2]));
+        /* Amid the page ray[0] and ray[1] are differences of nearly equal numbers: their errors are relative to 1. */
+        const double unsure = 1e-9 * (fabs(n[0]) * (fabs(ray[0]) + 1) + fabs(n[1]) * (fabs(ray[1]) + 1) + fabs(n[2]));
         left += at > unsure;
         right += at < -unsure;
     }

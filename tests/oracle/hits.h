@@ -29,6 +29,7 @@ typedef struct oracle_triangle {
     double volume;       /**< a . (b x c): eyes at a point only */
     double lo[2], hi[2]; /**< on the page */
     uint32_t object, patch;
+    bool edge_on; /**< the eye lies in its plane but for rounding: it has no area on the page; eyes at a point only */
 } oracle_triangle;
 
 typedef struct oracle_triangles {
