@@ -98,6 +98,31 @@ static void ask_both(const folder *f, froe_shards *shards, froe_query *q, const 
          compare_values(&alone, &found));
 }
 
+/* Frees the lists. */
+static void compare_counts(froe_status listed, froe_finds *found, froe_status counted, const uint64_t *counts) {
+    if (listed != counted) abort();
+    for (size_t i = 0; i < POINTS && !listed; i++)
+        if (counts[i] != found->starts[i + 1] - found->starts[i]) abort();
+    if (!listed) froe_finds_free(found);
+}
+
+static void count_all(const folder *f, froe_shards *s) {
+    froe_finds found;
+    froe_find above[POINTS];
+    uint64_t counts[POINTS];
+    froe_status listed = froe_shards_locate(s, f->x, POINTS, NULL, &found, NULL);
+    compare_counts(listed, &found, froe_shards_locate_count(s, f->x, POINTS, NULL, counts, NULL), counts);
+    listed = froe_shards_near(s, f->x, POINTS, NEIGHBOURS, 1, NULL, &found, NULL);
+    compare_counts(listed, &found, froe_shards_near_count(s, f->x, POINTS, NEIGHBOURS, 1, NULL, counts, NULL), counts);
+    listed = froe_shards_ray_all(s, f->x, f->way, POINTS, INFINITY, NULL, &found, NULL);
+    compare_counts(listed, &found, froe_shards_ray_count(s, f->x, f->way, POINTS, INFINITY, NULL, counts, NULL),
+                   counts);
+    listed = froe_shards_vertical(s, f->x, POINTS, 1, NULL, above, NULL);
+    if (listed != froe_shards_vertical_count(s, f->x, POINTS, 1, NULL, counts, NULL)) abort();
+    for (size_t i = 0; i < POINTS && !listed; i++)
+        if (counts[i] != (above[i].object != FROE_NONE)) abort();
+}
+
 static void ask_again(const folder *f, froe_shards *shards) {
     froe_find finds[POINTS];
     froe_finds found;
@@ -134,6 +159,7 @@ static void compare(const folder *f, froe_scene *scene) {
     if (froe_build(scene, &o, &tree, &why) == FROE_OK) {
         if (froe_query_new(tree, &q, NULL)) abort();
         ask_both(f, shards, q, scene);
+        count_all(f, shards);
         froe_query_free(q);
         froe_tree_free(tree);
     }

@@ -53,6 +53,11 @@ static bool is_first(const mpi_query *q) {
     return q->above || q->below || (q->command == MPI_RAY && !q->all);
 }
 
+/* Does the library count? Whether a ray meets something is told by what it meets. */
+static bool is_counted(const mpi_query *q) {
+    return q->count && (q->command != MPI_RAY || q->all);
+}
+
 /* Boxes are rows of their corners as they are. */
 static bool takes_rows(const mpi_query *q) {
     return q->command == MPI_RANGE && q->shape == FROE_SHAPE_BOX && !q->count;
@@ -81,21 +86,37 @@ static bool lay_arguments(const mpi_query *q, const double *rows, size_t width, 
 
 static froe_status ask(const mpi_query *q, froe_shards *shards, const double *rows, const arguments *a, size_t count,
                        mpi_answers *out, froe_diagnostic *diag) {
+    const froe_batch_options *o = &q->batch;
     switch (q->command) {
     case MPI_RANGE:
-        if (takes_rows(q)) return froe_shards_boxes(shards, rows, count, &q->batch, &out->lists, diag);
-        return q->count ? froe_shards_count(shards, a->ranges, count, &q->batch, out->counts, diag)
-                        : froe_shards_range(shards, a->ranges, count, &q->batch, &out->lists, diag);
+        if (takes_rows(q)) return froe_shards_boxes(shards, rows, count, o, &out->lists, diag);
+        return froe_shards_range(shards, a->ranges, count, o, &out->lists, diag);
     case MPI_RAY:
-        return q->all
-                   ? froe_shards_ray_all(shards, a->origins, a->directions, count, q->t_max, &q->batch, &out->lists,
-                                         diag)
-                   : froe_shards_ray(shards, a->origins, a->directions, count, q->t_max, &q->batch, out->firsts, diag);
+        if (q->all)
+            return froe_shards_ray_all(shards, a->origins, a->directions, count, q->t_max, o, &out->lists, diag);
+        return (q->count ? froe_shards_ray_any : froe_shards_ray)(shards, a->origins, a->directions, count, q->t_max, o,
+                                                                  out->firsts, diag);
     case MPI_NEAR:
-        return froe_shards_near(shards, rows, count, q->k, q->within, &q->batch, &out->lists, diag);
+        return froe_shards_near(shards, rows, count, q->k, q->within, o, &out->lists, diag);
     default:
-        return is_first(q) ? froe_shards_vertical(shards, rows, count, q->above ? 1 : -1, &q->batch, out->firsts, diag)
-                           : froe_shards_locate(shards, rows, count, &q->batch, &out->lists, diag);
+        return is_first(q) ? froe_shards_vertical(shards, rows, count, q->above ? 1 : -1, o, out->firsts, diag)
+                           : froe_shards_locate(shards, rows, count, o, &out->lists, diag);
+    }
+}
+
+static froe_status ask_counts(const mpi_query *q, froe_shards *shards, const double *rows, const arguments *a,
+                              size_t count, uint64_t *counts, froe_diagnostic *diag) {
+    const froe_batch_options *o = &q->batch;
+    switch (q->command) {
+    case MPI_RANGE:
+        return froe_shards_count(shards, a->ranges, count, o, counts, diag);
+    case MPI_RAY:
+        return froe_shards_ray_count(shards, a->origins, a->directions, count, q->t_max, o, counts, diag);
+    case MPI_NEAR:
+        return froe_shards_near_count(shards, rows, count, q->k, q->within, o, counts, diag);
+    default:
+        return is_first(q) ? froe_shards_vertical_count(shards, rows, count, q->above ? 1 : -1, o, counts, diag)
+                           : froe_shards_locate_count(shards, rows, count, o, counts, diag);
     }
 }
 
@@ -104,10 +125,14 @@ froe_status mpi_query_ask(const mpi_ranks *ranks, const mpi_query *q, froe_shard
     arguments a = {0};
     *out = (mpi_answers){0};
     bool room = lay_arguments(q, rows, width, count, &a);
-    if (q->command == MPI_RANGE && q->count) room = (out->counts = calloc(count + 1, sizeof *out->counts)) && room;
-    if (is_first(q)) room = (out->firsts = calloc(count + 1, sizeof *out->firsts)) && room;
+    if (is_counted(q))
+        room = (out->counts = calloc(count + 1, sizeof *out->counts)) && room;
+    else if (is_first(q))
+        room = (out->firsts = calloc(count + 1, sizeof *out->firsts)) && room;
     froe_status status = mpi_agree(ranks, room ? FROE_OK : support_fail_memory(diag), diag);
-    if (!status) status = ask(q, shards, rows, &a, count, out, diag);
+    if (!status)
+        status = out->counts ? ask_counts(q, shards, rows, &a, count, out->counts, diag)
+                             : ask(q, shards, rows, &a, count, out, diag);
     free(a.ranges), free(a.origins), free(a.directions);
     return status;
 }

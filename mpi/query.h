@@ -28,7 +28,7 @@ const cli_column *mpi_query_columns(const mpi_query *q);
 /** The names of the columns of answers, *count of them. */
 const char *const *mpi_query_names(const mpi_query *q, size_t *count);
 
-/** Answers of a batch: how many each has, or one object each, or lists. */
+/** Answers of a batch: how many each has, or one object each, or lists. --count of first hits has objects. */
 typedef struct mpi_answers {
     uint64_t *counts;  /**< NULL: objects */
     froe_find *firsts; /**< NULL: lists */

@@ -2,7 +2,7 @@
 #include "folder.h"
 #include "record.h"
 #include "shard.h"
-#include "share.h"
+#include "shards/ask/share.h"
 #include "support/fail.h"
 #include "support/floats.h"
 #include <errno.h>

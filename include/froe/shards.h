@@ -142,9 +142,6 @@ FROE_API froe_status froe_shards_range(froe_shards *shards, const froe_range *ra
 /** Of exact boxes alone: 2 dim doubles each, lower corner, then upper. */
 FROE_API froe_status froe_shards_boxes(froe_shards *shards, const double *boxes, size_t count,
                                        const froe_batch_options *options, froe_finds *out, froe_diagnostic *diag);
-/** How many objects meet each range; counts: `count` of them, the caller's. On failure they may hold anything. */
-FROE_API froe_status froe_shards_count(froe_shards *shards, const froe_range *ranges, size_t count,
-                                       const froe_batch_options *options, uint64_t *counts, froe_diagnostic *diag);
 /** One object that meets each range; finds: `count` of them, the caller's, as for the following functions. */
 FROE_API froe_status froe_shards_any(froe_shards *shards, const froe_range *ranges, size_t count,
                                      const froe_batch_options *options, froe_find *finds, froe_diagnostic *diag);
@@ -186,6 +183,29 @@ FROE_API froe_status froe_shards_ray_all(froe_shards *shards, const double *orig
 /** The k objects nearest to points among those within `bound`, nearest first, equal distances by tag. */
 FROE_API froe_status froe_shards_near(froe_shards *shards, const double *points, size_t count, size_t k, double bound,
                                       const froe_batch_options *options, froe_finds *out, froe_diagnostic *diag);
+
+/* How many answers the questions above have; counts: `count` of them, the caller's, which may hold anything after a
+ * failure. Of several processes (froe_shards_share()) numbers alone go from one to another. */
+
+/** How many objects meet each range. */
+FROE_API froe_status froe_shards_count(froe_shards *shards, const froe_range *ranges, size_t count,
+                                       const froe_batch_options *options, uint64_t *counts, froe_diagnostic *diag);
+/** How many froe_shards_locate() finds. */
+FROE_API froe_status froe_shards_locate_count(froe_shards *shards, const double *points, size_t count,
+                                              const froe_batch_options *options, uint64_t *counts,
+                                              froe_diagnostic *diag);
+/** 1: there is a segment above (direction 1) or below (-1); 0: there is none. */
+FROE_API froe_status froe_shards_vertical_count(froe_shards *shards, const double *points, size_t count, int direction,
+                                                const froe_batch_options *options, uint64_t *counts,
+                                                froe_diagnostic *diag);
+/** How many froe_shards_ray_all() finds. */
+FROE_API froe_status froe_shards_ray_count(froe_shards *shards, const double *origins, const double *directions,
+                                           size_t count, double t_max, const froe_batch_options *options,
+                                           uint64_t *counts, froe_diagnostic *diag);
+/** How many froe_shards_near() finds: k at most. */
+FROE_API froe_status froe_shards_near_count(froe_shards *shards, const double *points, size_t count, size_t k,
+                                            double bound, const froe_batch_options *options, uint64_t *counts,
+                                            froe_diagnostic *diag);
 
 /** Two objects that meet; a.tag <= b.tag. */
 typedef struct froe_found_pair {

@@ -165,7 +165,7 @@ static void asking(floats_run *r, void *user) {
     froe_shards *shards;
     froe_finds finds;
     froe_find one[3];
-    uint64_t counts[2];
+    uint64_t counts[3] = {0};
     const froe_tree *tree;
     (void)user;
     for (size_t i = 0; i < 2; i++) ranges[i].points = boxes + 4 * i;
@@ -191,6 +191,14 @@ static void asking(floats_run *r, void *user) {
     note_finds(r, &finds);
     MUST(r, froe_shards_near(shards, points, 3, 5, INFINITY, NULL, &finds, NULL));
     note_finds(r, &finds);
+    MUST(r, froe_shards_locate_count(shards, points, 3, NULL, counts, NULL));
+    floats_note(r, counts, sizeof counts);
+    MUST(r, froe_shards_vertical_count(shards, points, 3, 1, NULL, counts, NULL));
+    floats_note(r, counts, sizeof counts);
+    MUST(r, froe_shards_ray_count(shards, points, directions, 3, 4, NULL, counts, NULL));
+    floats_note(r, counts, sizeof counts);
+    MUST(r, froe_shards_near_count(shards, points, 3, 5, 2, NULL, counts, NULL));
+    floats_note(r, counts, sizeof counts);
     MUST(r, froe_shards_pairs(shards, true, NULL, note_pair, r, NULL));
     froe_shards_close(shards);
 }

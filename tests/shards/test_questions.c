@@ -308,21 +308,30 @@ static void compare_ranges(world *w) {
     free(ranges), free(points), free(offsets);
 }
 
+/* How many answers each question has. */
+static void compare_counts(const froe_answers *tree, const uint64_t *counts) {
+    for (size_t i = 0; i < tree->queries; i++) assert_int_equal(counts[i], tree->starts[i + 1] - tree->starts[i]);
+}
+
 static void compare_points(world *w) {
     double *points = random_points(w, QUESTIONS);
-    static const size_t some[] = {1, 3, 20};
+    uint64_t counts[QUESTIONS];
+    static const size_t some[] = {1, 3, 20, 0};
     static const double bounds[] = {INFINITY, 4, 1, 0};
     froe_answers answers;
     froe_finds finds;
     assert_int_equal(froe_batch_locate(w->query, points, QUESTIONS, NULL, &answers, NULL), FROE_OK);
     assert_int_equal(froe_shards_locate(w->shards, points, QUESTIONS, NULL, &finds, NULL), FROE_OK);
+    assert_int_equal(froe_shards_locate_count(w->shards, points, QUESTIONS, NULL, counts, NULL), FROE_OK);
+    compare_counts(&answers, counts);
     compare_finds(w, &answers, &finds, false);
-    for (size_t i = 0; i < 12; i++) {
-        const size_t k = some[i % 3];
-        assert_int_equal(froe_batch_near(w->query, points, QUESTIONS / 4, k, bounds[i / 3], NULL, &answers, NULL),
-                         FROE_OK);
-        assert_int_equal(froe_shards_near(w->shards, points, QUESTIONS / 4, k, bounds[i / 3], NULL, &finds, NULL),
-                         FROE_OK);
+    for (size_t i = 0; i < 16; i++) {
+        const size_t k = some[i % 4], n = QUESTIONS / 4;
+        const double bound = bounds[i / 4];
+        assert_int_equal(froe_batch_near(w->query, points, n, k, bound, NULL, &answers, NULL), FROE_OK);
+        assert_int_equal(froe_shards_near(w->shards, points, n, k, bound, NULL, &finds, NULL), FROE_OK);
+        assert_int_equal(froe_shards_near_count(w->shards, points, n, k, bound, NULL, counts, NULL), FROE_OK);
+        compare_counts(&answers, counts);
         compare_finds(w, &answers, &finds, true);
     }
     for (int way = -1; way <= 1 && w->dim == 2; way += 2) {
@@ -330,8 +339,10 @@ static void compare_points(world *w) {
         froe_find found[QUESTIONS];
         assert_int_equal(froe_batch_vertical(w->query, points, QUESTIONS, way, NULL, objects, NULL), FROE_OK);
         assert_int_equal(froe_shards_vertical(w->shards, points, QUESTIONS, way, NULL, found, NULL), FROE_OK);
+        assert_int_equal(froe_shards_vertical_count(w->shards, points, QUESTIONS, way, NULL, counts, NULL), FROE_OK);
         for (size_t i = 0; i < QUESTIONS; i++) {
             assert_int_equal(found[i].object != FROE_NONE, objects[i] != FROE_NONE);
+            assert_int_equal(counts[i], objects[i] != FROE_NONE);
             if (objects[i] != FROE_NONE) assert_int_equal(found[i].tag, tag_of(w, objects[i]));
         }
     }
@@ -351,6 +362,7 @@ static void compare_rays(world *w) {
     for (int e = 0; e < 3; e++) {
         froe_hit hits[QUESTIONS];
         froe_find first[QUESTIONS], any[QUESTIONS];
+        uint64_t counts[QUESTIONS];
         froe_answers answers;
         froe_finds finds;
         assert_int_equal(froe_batch_ray(w->query, origins, directions, QUESTIONS, ends[e], NULL, hits, NULL), FROE_OK);
@@ -369,6 +381,9 @@ static void compare_rays(world *w) {
                          FROE_OK);
         assert_int_equal(froe_shards_ray_all(w->shards, origins, directions, QUESTIONS, ends[e], NULL, &finds, NULL),
                          FROE_OK);
+        assert_int_equal(froe_shards_ray_count(w->shards, origins, directions, QUESTIONS, ends[e], NULL, counts, NULL),
+                         FROE_OK);
+        compare_counts(&answers, counts);
         compare_finds(w, &answers, &finds, true);
     }
     free(origins), free(directions);

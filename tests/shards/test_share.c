@@ -159,14 +159,38 @@ enum {
     RAY = NEAREST,
     RAY_ANY,
     RAY_ALL,
-    ALL
+    COUNT_LOCATE,
+    COUNT_ABOVE,
+    COUNT_BELOW,
+    COUNT_RAYS,
+    COUNT_NEAR,
+    ALL = COUNT_NEAR + 6
 };
+
+static const size_t some[] = {1, 3, 20}; /* neighbours */
+
+static froe_status ask_counts(asking *a, const double *points, const double *directions) {
+    const size_t n = a->count;
+    switch (a->kind) {
+    case COUNT_LOCATE:
+        return froe_shards_locate_count(a->shards, points, n, NULL, a->counts, &a->diag);
+    case COUNT_ABOVE:
+    case COUNT_BELOW:
+        if (a->q->dim != 2) return FROE_OK;
+        return froe_shards_vertical_count(a->shards, points, n, a->kind == COUNT_ABOVE ? 1 : -1, NULL, a->counts,
+                                          &a->diag);
+    case COUNT_RAYS:
+        return froe_shards_ray_count(a->shards, points, directions, n, 3, NULL, a->counts, &a->diag);
+    default:
+        return froe_shards_near_count(a->shards, points, n, some[(a->kind - COUNT_NEAR) % 3],
+                                      a->kind < COUNT_NEAR + 3 ? INFINITY : 2, NULL, a->counts, &a->diag);
+    }
+}
 
 static froe_status ask(asking *a) {
     const size_t dim = (size_t)a->q->dim, n = a->count;
     const double *points = a->q->points + a->first * dim, *directions = a->q->directions + a->first * dim;
     const froe_range *ranges = a->q->ranges + a->first;
-    static const size_t some[] = {1, 3, 20};
     froe_shards *s = a->shards;
     switch (a->kind) {
     case RANGES:
@@ -190,8 +214,9 @@ static froe_status ask(asking *a) {
     case RAY_ALL:
         return froe_shards_ray_all(s, points, directions, n, 3, NULL, &a->finds, &a->diag);
     default:
-        return froe_shards_near(s, points, n, some[(a->kind - NEAR) % 3], a->kind < NEAR + 3 ? INFINITY : 2, NULL,
-                                &a->finds, &a->diag);
+        return a->kind < COUNT_LOCATE ? froe_shards_near(s, points, n, some[(a->kind - NEAR) % 3],
+                                                         a->kind < NEAR + 3 ? INFINITY : 2, NULL, &a->finds, &a->diag)
+                                      : ask_counts(a, points, directions);
     }
 }
 
@@ -363,7 +388,7 @@ static void memory_is_refused_to_one(void **state) {
     assert_non_null(q);
     make_questions(q, 2, 7);
     build_shared(2, 7, 7);
-    static const int kinds[] = {BOXES, RANGES, ABOVE, NEAR + 1, RAY_ALL};
+    static const int kinds[] = {BOXES, RANGES, ABOVE, NEAR + 1, RAY_ALL, COUNT_LOCATE, COUNT_NEAR + 1};
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) {
         size_t calls = 1;
         for (size_t fail_at = 0; fail_at <= calls; fail_at += fail_at < 60 ? 1 : 7) {
@@ -383,6 +408,36 @@ static void memory_is_refused_to_one(void **state) {
             }
             free_answers(workers, 3);
         }
+    }
+    free(q);
+}
+
+/* Bytes that go to thread 0, which has all questions of a kind, from thread 1, which has none. */
+static size_t bytes_of_answers(const questions *q, int kind) {
+    office o = {.spoils = false};
+    worker workers[2] = {{.count = QUESTIONS}, {.count = 0}};
+    run_workers(&o, workers, 2, q, kind, kind + 1);
+    for (int r = 0; r < 2; r++) assert_int_equal(workers[r].status, FROE_OK);
+    free_answers(workers, 2);
+    return o.foreign;
+}
+
+/* An answer takes 12 bytes, 20 with a value; a number of answers takes 4. */
+static void numbers_of_answers_are_sent_without_the_answers(void **state) {
+    (void)state;
+    static const int pairs[][2] = {{RANGES, COUNTS},
+                                   {ABOVE, COUNT_ABOVE},
+                                   {NEAR + 2, COUNT_NEAR + 2},
+                                   {RAY_ALL, COUNT_RAYS},
+                                   {LOCATE, COUNT_LOCATE}};
+    questions *q = calloc(1, sizeof *q);
+    assert_non_null(q);
+    make_questions(q, 2, 10);
+    build_shared(2, 2, 10);
+    for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
+        const size_t lists = bytes_of_answers(q, pairs[i][0]), counts = bytes_of_answers(q, pairs[i][1]);
+        assert_true(counts > 0 && counts < QUESTIONS * 2 * sizeof(uint64_t));
+        assert_true(counts < lists);
     }
     free(q);
 }
@@ -427,6 +482,7 @@ int main(void) {
         cmocka_unit_test(threads_get_the_answers_of_one),
         cmocka_unit_test(a_bad_question_is_one_of_its_own_thread),
         cmocka_unit_test(memory_is_refused_to_one),
+        cmocka_unit_test(numbers_of_answers_are_sent_without_the_answers),
         cmocka_unit_test(a_range_of_more_points_than_have_come_is_refused),
         cmocka_unit_test(what_is_no_process_is_refused),
     };

@@ -9,7 +9,7 @@
  *                                of each question: how many, 4 bytes
  *                                of each answer its tag; then of each its object, 4 bytes; then, where answers have
  *                                values, of each its value; where they are only counted, none of these */
-#include "share.h"
+#include "shards/ask/share.h"
 #include "support/fail.h"
 #include "support/floats.h"
 

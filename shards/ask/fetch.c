@@ -2,7 +2,7 @@
  *
  *     words that ask        shard and object of each
  *     words that answer     a record of each, in the same order */
-#include "share.h"
+#include "shards/ask/share.h"
 #include "support/fail.h"
 #include <stdlib.h>
 

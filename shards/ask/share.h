@@ -10,8 +10,8 @@
  * MPI. A process that fails says so in the next exchange, which then ends the call in all of them. */
 #ifndef FROE_SHARDS_SHARE_H
 #define FROE_SHARDS_SHARE_H
-#include "ask.h"
-#include "record.h"
+#include "shards/ask/ask.h"
+#include "shards/record.h"
 
 /** An object of another process's shard. */
 typedef struct shards_fetched {

@@ -2,7 +2,7 @@
  *
  * The bound of a shard is a double that is at most each of its values, rounded, so that a shard whose bound is larger
  * than the value of the k-th answer has nothing to add: its exact values are larger as well. */
-#include "ask.h"
+#include "shards/ask/ask.h"
 #include "support/fail.h"
 #include <math.h>
 
@@ -22,8 +22,17 @@ typedef struct rounds {
     size_t *which;
     bool *alone;
     froe_finds finds; /* so far */
+    uint64_t *counts; /* instead of these, of questions that are counted */
     size_t active;
 } rounds;
+
+/* Has question i its answers, if the next shard has none below a bound? */
+static bool is_answered(const rounds *r, size_t i, double bound) {
+    if (r->counts) return r->counts[i] >= r->q->k;
+    const size_t found = r->finds.starts ? r->finds.starts[i + 1] - r->finds.starts[i] : 0;
+    if (r->q->any && found) return true;
+    return found >= r->q->k && found && bound > r->finds.items[r->finds.starts[i] + r->q->k - 1].value;
+}
 
 /* The shard that question i is put to next, if there is one: behind the last by bound, then number. */
 static bool find_next(const rounds *r, size_t i) {
@@ -44,9 +53,7 @@ static bool find_next(const rounds *r, size_t i) {
         least = 0;
         next = r->s->first;
     }
-    const size_t found = r->finds.starts ? r->finds.starts[i + 1] - r->finds.starts[i] : 0;
-    if (next == FROE_NONE || (state->begun && !r->q->k) || (r->q->any && found)) return false;
-    if (found >= r->q->k && found && least > r->finds.items[r->finds.starts[i] + r->q->k - 1].value) return false;
+    if (next == FROE_NONE || (state->begun && !r->q->k) || is_answered(r, i, least)) return false;
     *state = (question_state){.bound = least, .shard = next, .begun = true};
     return true;
 }
@@ -88,20 +95,22 @@ static froe_status join_round(rounds *r, shards_gather *found) {
  * other processes wait to hear of. */
 static froe_status ask_round(rounds *r, shards_call *call, froe_status status, bool *more, froe_diagnostic *diag) {
     shards_gather found = {.values = true, .alloc = r->s->alloc};
-    call->take = shards_gather_take;
-    call->take_user = &found;
+    call->take = r->counts ? shards_add_count : shards_gather_take;
+    call->take_user = r->counts ? (void *)r->counts : &found;
     call->upto = 1 - (double)r->active / (double)(r->q->count + 1);
     status = shards_call_all(call, status, r->shard_starts, r->which, r->alone, more, diag);
-    if (!status && (found.list.count || !r->finds.starts) && join_round(r, &found)) status = support_fail_memory(diag);
+    const bool joins = !r->counts && (found.list.count || !r->finds.starts);
+    if (!status && joins && join_round(r, &found)) status = support_fail_memory(diag);
     array_free(&found.alloc, &found.list);
     if (!status) assign_round(r, call);
     return status;
 }
 
-froe_status shards_rounds(froe_shards *s, const shards_question *q, const froe_batch_options *options, froe_finds *out,
-                          froe_diagnostic *diag) {
+/* All rounds, into counts or finds. */
+static froe_status go_rounds(froe_shards *s, const shards_question *q, const froe_batch_options *options,
+                             uint64_t *counts, froe_finds *out, froe_diagnostic *diag) {
     shards_call call;
-    rounds r = {.s = s, .q = q};
+    rounds r = {.s = s, .q = q, .counts = counts};
     bool more = true;
     froe_status status = shards_call_begin(s, q, options, &call, diag);
     if (status) return status;
@@ -120,7 +129,18 @@ froe_status shards_rounds(froe_shards *s, const shards_question *q, const froe_b
     if (r.alone) support_free(&s->alloc, r.alone, q->count * sizeof *r.alone);
     if (status)
         froe_finds_free(&r.finds);
-    else
+    else if (out)
         *out = r.finds;
     return status;
+}
+
+froe_status shards_rounds(froe_shards *s, const shards_question *q, const froe_batch_options *options, froe_finds *out,
+                          froe_diagnostic *diag) {
+    return go_rounds(s, q, options, NULL, out, diag);
+}
+
+froe_status shards_rounds_count(froe_shards *s, const shards_question *q, const froe_batch_options *options,
+                                uint64_t *counts, froe_diagnostic *diag) {
+    if (q->count) memset(counts, 0, q->count * sizeof *counts);
+    return go_rounds(s, q, options, counts, NULL, diag);
 }

@@ -1,71 +1,10 @@
-/* reach.c: one shard asked, all shards in reach asked, and what they found; see ask.h. */
-#include "ask.h"
-#include "record.h"
-#include "share.h"
+/* reach.c: one shard asked, and all shards in reach; see ask.h. */
+#include "shards/ask/ask.h"
+#include "shards/ask/share.h"
+#include "shards/record.h"
 #include "support/fail.h"
 #include "support/floats.h"
 #include <math.h>
-#include <stdlib.h>
-
-/* ------------------------------------------------------------------- gather -- */
-
-bool shards_gather_take(void *gather, size_t i, const froe_find *find) {
-    shards_gather *g = gather;
-    return array_push(&g->alloc, &g->list, (shards_placed){i, *find});
-}
-
-static int by_tag(const void *a, const void *b) {
-    const froe_find *x = a, *y = b;
-    if (x->tag != y->tag) return x->tag < y->tag ? -1 : 1;
-    if (x->shard != y->shard) return x->shard < y->shard ? -1 : 1;
-    return (x->object > y->object) - (x->object < y->object);
-}
-
-void shards_sort_by_tag(froe_find *items, size_t count) {
-    qsort(items, count, sizeof *items, by_tag);
-}
-
-/* Merges from below, which keeps the order of equal values: a shard tells them in their exact order. */
-static void sort_by_value(froe_find *items, froe_find *room, size_t count) {
-    for (size_t width = 1; width < count; width *= 2) {
-        for (size_t first = 0; first < count; first += 2 * width) {
-            const size_t middle = width < count - first ? first + width : count;
-            const size_t end = width < count - middle ? middle + width : count;
-            for (size_t to = first, a = first, b = middle; to < end; to++)
-                room[to] = b == end || (a < middle && items[a].value <= items[b].value) ? items[a++] : items[b++];
-        }
-        memcpy(items, room, count * sizeof *items);
-    }
-}
-
-froe_status shards_gather_finds(shards_gather *g, size_t questions, froe_finds *out) {
-    froe_finds f = {.questions = questions, .alloc = g->alloc};
-    const size_t starts = (questions + 2) * sizeof *f.starts, items = (g->list.count + 1) * sizeof *f.items;
-    froe_find *room = g->values ? support_realloc(&g->alloc, NULL, 0, items) : NULL;
-    f.starts = support_calloc(&g->alloc, 1, starts);
-    f.items = support_calloc(&g->alloc, 1, items);
-    const bool made = f.starts && f.items && (room || !g->values);
-    if (made) {
-        size_t *at = f.starts + 1; /* [i + 1] counts first; then it is where question i goes on */
-        for (size_t i = 0; i < g->list.count; i++) at[g->list.data[i].question + 1]++;
-        for (size_t i = 0; i < questions; i++) at[i + 1] += at[i];
-        for (size_t i = 0; i < g->list.count; i++) f.items[at[g->list.data[i].question]++] = g->list.data[i].find;
-        for (size_t i = 0; i < questions; i++) {
-            const size_t count = f.starts[i + 1] - f.starts[i];
-            if (g->values)
-                sort_by_value(f.items + f.starts[i], room, count);
-            else
-                shards_sort_by_tag(f.items + f.starts[i], count);
-        }
-        *out = f;
-    } else {
-        if (f.starts) support_free(&g->alloc, f.starts, starts);
-        if (f.items) support_free(&g->alloc, f.items, items);
-    }
-    if (room) support_free(&g->alloc, room, items);
-    array_free(&g->alloc, &g->list);
-    return made ? FROE_OK : FROE_E_MEMORY;
-}
 
 /* ---------------------------------------------------------------- one shard -- */
 
@@ -273,4 +212,13 @@ froe_status shards_reach(froe_shards *s, const shards_question *q, const froe_ba
     status = shards_call_all(&call, status, r.shard_starts, r.which, r.alone, &more, diag);
     free_reached(s, q, &r);
     return status ? status : shards_call_end(&call, diag);
+}
+
+froe_status shards_find_all(froe_shards *s, const shards_question *q, const froe_batch_options *options,
+                            froe_finds *out, froe_diagnostic *diag) {
+    shards_gather found = {.values = q->bound != NULL, .alloc = s->alloc};
+    froe_status status = shards_reach(s, q, options, shards_gather_take, &found, diag);
+    if (!status && shards_gather_finds(&found, q->count, out)) status = support_fail_memory(diag);
+    array_free(&found.alloc, &found.list);
+    return status;
 }

@@ -17,7 +17,7 @@
  * keep the order that it tells them in. */
 #ifndef FROE_SHARDS_ASK_H
 #define FROE_SHARDS_ASK_H
-#include "folder.h"
+#include "shards/folder.h"
 
 typedef struct shards_question shards_question;
 
@@ -66,9 +66,15 @@ typedef bool shards_take_fn(void *user, size_t i, const froe_find *find);
 /** Asks questions of every shard that they reach. */
 froe_status shards_reach(froe_shards *s, const shards_question *q, const froe_batch_options *options,
                          shards_take_fn *take, void *user, froe_diagnostic *diag);
+/** The same, as answers; those with values by value, ties undecided. */
+froe_status shards_find_all(froe_shards *s, const shards_question *q, const froe_batch_options *options,
+                            froe_finds *out, froe_diagnostic *diag);
 /** Asks questions with bounds, shard by shard: k answers or more of each, by value, ties undecided. */
 froe_status shards_rounds(froe_shards *s, const shards_question *q, const froe_batch_options *options, froe_finds *out,
                           froe_diagnostic *diag);
+/** The same of questions that are counted: all that shards have told, or at least k. */
+froe_status shards_rounds_count(froe_shards *s, const shards_question *q, const froe_batch_options *options,
+                                uint64_t *counts, froe_diagnostic *diag);
 
 /** One batch of questions to one shard. A bad question is no failure yet: `limit` becomes its number, from where on
  * questions are left out, and `bad` tells what is wrong with it; so the first bad one is found among all shards. */
@@ -111,6 +117,8 @@ typedef struct shards_gather {
     froe_allocator alloc;
 } shards_gather;
 bool shards_gather_take(void *gather, size_t i, const froe_find *find); /**< a shards_take_fn */
+/** A shards_take_fn of questions that are counted: adds to count i of an array of uint64_t. */
+bool shards_add_count(void *counts, size_t i, const froe_find *find);
 /** Answers question by question, each by tag, or by value; equal values in the order that they were taken in, which is
  * the exact one of answers of the same shard. Frees what was gathered. Behind the starts stands how many items there is
  * room for, so that some may be left out later. FROE_E_MEMORY. */

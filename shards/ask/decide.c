@@ -2,8 +2,8 @@
  *
  * They become a tree of their own, in the order of their tags, which is asked the same question. It compares exact
  * values, and goes by its ids where these are equal, that is, by tags. */
-#include "ask.h"
-#include "share.h"
+#include "shards/ask/ask.h"
+#include "shards/ask/share.h"
 #include "support/fail.h"
 
 /* The object's form has fewer corners than its kind where it has no length or area; the last corner then stands for
