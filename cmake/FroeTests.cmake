@@ -132,7 +132,9 @@ endif()
 
 target_link_options(test_base_pages PRIVATE -Wl,--wrap=mremap)
 target_link_options(test_tree_reading PRIVATE -Wl,--wrap=read)
-foreach(call mkdir write pwrite fsync rename renameat2 unlinkat rmdir)
+target_link_options(test_files_shared PRIVATE -Wl,--wrap=flock)
+target_link_options(test_shards_drafts PRIVATE -Wl,--wrap=flock)
+foreach(call mkdir fopen fflush write pwrite fsync rename renameat2 unlinkat rmdir)
   target_link_options(test_shards_faults PRIVATE -Wl,--wrap=${call})
 endforeach()
 

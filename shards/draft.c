@@ -5,13 +5,15 @@
  * The draft is locked as long as its program lives. One without a lock was left by a program that was killed, and is
  * emptied and used again. The old folder is locked before it gets the name of the draft, so that nobody takes it for
  * one while it is removed. A lock is of a folder and not of its name: who has got one looks whether the name still
- * means that folder. What has come to its place is locked no more. Where the system cannot exchange two folders, the
- * old one is moved aside before the new one takes its place; a kill between these two steps leaves the old one as
- * .NAME.building. */
+ * means that folder. What has come to its place is locked no more. Where the file system has no locks, a draft belongs
+ * to the program that has made it, and one that is there already is refused. Where the system cannot exchange two
+ * folders, the old one is moved aside before the new one takes its place; a kill between these two steps leaves the
+ * old one as .NAME.building. */
 #define _GNU_SOURCE 1 /* renameat2, realpath */
 #include "manifest.h"
 #include "support/fail.h"
 #include "support/floats.h"
+#include "support/writer.h"
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
@@ -162,16 +164,18 @@ static bool is_at(int folder, const char *path) {
 }
 
 /* Makes the draft, or takes over one that a killed program left. Returns an errno; EWOULDBLOCK: it is in use,
- * ENOTEMPTY: it holds what no program of froe left there. */
+ * ENOTEMPTY: it holds what no program of froe left there, ENOLCK: the file system has no locks, and one is there. */
 static int make_draft(froe_shard_draft *d) {
     const char *slash = strrchr(d->target, '/');
     snprintf(d->folder, sizeof d->folder, "%.*s.%s.building", (int)(slash + 1 - d->target), d->target, slash + 1);
     while (true) {
-        if (mkdir(d->folder, 0777) && errno != EEXIST) return errno;
+        const bool made = !mkdir(d->folder, 0777);
+        if (!made && errno != EEXIST) return errno;
         d->lock = open(d->folder, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
         if (d->lock < 0 && errno != ENOENT) return errno;
         if (d->lock < 0) continue; /* another program has just ended */
-        if (flock(d->lock, LOCK_EX | LOCK_NB)) return errno;
+        const int error = flock(d->lock, LOCK_EX | LOCK_NB) ? errno : 0;
+        if (error && !(support_no_locks(error) && made)) return support_no_locks(error) ? ENOLCK : error;
         if (is_at(d->lock, d->folder)) break;
         close(d->lock); /* it was brought to its place, or removed */
         d->lock = -1;
@@ -196,6 +200,12 @@ froe_status froe_shard_draft_begin(const char *path, const froe_allocator *alloc
     if (!error && !status) error = make_draft(d);
     if (error == EWOULDBLOCK)
         status = support_fail(diag, FROE_E_IO, "%s: Another program is building this folder.", support_short(path));
+    else if (error == ENOLCK)
+        status =
+            support_fail(diag, FROE_E_IO,
+                         "%s: Its draft beside it, whose name ends in .building, may be in use, as the file system "
+                         "has no locks. Remove it if no program builds the folder.",
+                         support_short(path));
     else if (error)
         status = support_fail_file(diag, "written", path, error);
     if (!status) {

@@ -148,19 +148,36 @@ static bool is_own(int file) {
     return !fstat(file, &info) && S_ISREG(info.st_mode) && info.st_nlink == 1 && info.st_uid == geteuid();
 }
 
+/* Opens the file of that name, or makes it. Returns its descriptor, or -1 and errno. */
+static int open_or_make(const char *path, mode_t mode, bool *made) {
+    const int flags = O_WRONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
+    int file = open(path, flags | O_CREAT | O_EXCL, mode);
+    *made = file >= 0;
+    if (file >= 0 || errno != EEXIST) return file;
+    file = open(path, flags);
+    if (file < 0 && errno == ENOENT) errno = EINTR; /* it went away meanwhile: once more */
+    return file;
+}
+
 /* A file beside the target that other processes find, empty and locked. Returns its descriptor, or -1 and errno;
- * EWOULDBLOCK: another program writes it. EEXIST: something that is no file of this user's has its name. */
+ * EWOULDBLOCK: another program writes it. EEXIST: something that is no file of this user's has its name. ENOLCK: the
+ * file system has no locks, so that nobody knows whether another program writes it. */
 static int create_shared(struct support_writer_room *room, mode_t mode) {
     const size_t length = folder_length(room->target);
     snprintf(room->temporary, sizeof room->temporary, "%.*s.%s.writing", (int)length, room->target,
              room->target + length);
     while (true) {
-        const int file = open(room->temporary, O_WRONLY | O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, mode);
+        bool made;
+        const int file = open_or_make(room->temporary, mode, &made);
         int error = file < 0 || flock(file, LOCK_EX | LOCK_NB) ? errno : 0;
         if (!error &&
             !is_at(file, room->temporary)) { /* another program has just brought it to its place, or removed it */
             close(file);
             continue;
+        }
+        if (file >= 0 && support_no_locks(error)) {
+            error = ENOLCK;
+            if (made) unlink(room->temporary);
         }
         if (!error && !is_own(file)) error = EEXIST;
         if (!error && ftruncate(file, 0)) error = errno;
@@ -206,10 +223,13 @@ static int open_file(support_writer *w) {
     if (named < 0 && !exists && errno != ENOENT) return errno;
     if (exists && S_ISDIR(old.st_mode)) return EISDIR;
     const bool replaced = named < 0 && (!exists || S_ISREG(old.st_mode));
-    if (replaced) /* the new file is never open to more readers than the old one was */
-        w->file = (w->shared ? create_shared : create_beside)(w->room, exists ? old.st_mode & 0777 : 0666);
-    else
-        w->file = exists ? open(w->path, O_WRONLY | O_NOCTTY | O_CLOEXEC) : fcntl(named, F_DUPFD_CLOEXEC, 0);
+    const mode_t mode = exists ? old.st_mode & 0777 : 0666; /* open to no more readers than the old file was */
+    if (replaced && w->shared) {
+        w->file = create_shared(w->room, mode);
+        w->shared = w->file >= 0 || errno != ENOLCK;
+    }
+    if (replaced && !w->shared) w->file = create_beside(w->room, mode);
+    if (!replaced) w->file = exists ? open(w->path, O_WRONLY | O_NOCTTY | O_CLOEXEC) : fcntl(named, F_DUPFD_CLOEXEC, 0);
     if (w->file < 0) return errno;
     error = replaced && exists ? keep_access(w->file, &old) : 0;
     if (error) {
@@ -247,7 +267,7 @@ froe_status support_writer_open_shared(support_writer *w, const char *path, cons
 }
 
 const char *support_writer_draft(const support_writer *w) {
-    return *w->room->temporary ? w->room->temporary : NULL;
+    return w->shared && *w->room->temporary ? w->room->temporary : NULL;
 }
 
 froe_status support_writer_close(support_writer *w, froe_status status) {

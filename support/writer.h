@@ -11,6 +11,7 @@
  * it is. */
 #ifndef FROE_SUPPORT_WRITER_H
 #define FROE_SUPPORT_WRITER_H
+#include <errno.h>
 #include <froe/froe.h>
 
 typedef struct support_writer {
@@ -21,7 +22,7 @@ typedef struct support_writer {
     size_t filled; /**< bytes of the room's buffer */
     int file;      /**< the descriptor */
     int error;     /**< the first errno; nothing is written after it */
-    bool shared;   /**< by several processes */
+    bool shared;   /**< by several processes, which lock it */
 } support_writer;
 
 /** Begins a file; on success support_writer_close() must follow, and `path` must last until then. FROE_E_IO,
@@ -29,18 +30,23 @@ typedef struct support_writer {
 froe_status support_writer_open(support_writer *writer, const char *path, const froe_allocator *alloc,
                                 froe_diagnostic *diag);
 /** The same for a file that several processes write at places of their own. It grows as FOLDER/.NAME.writing, which is
- * locked as long as the writer lives. What a killed program left has no lock, and is used again. FROE_E_IO, too:
- * another program writes the file. */
+ * locked as long as the writer lives. What a killed program left has no lock, and is used again. Where the file system
+ * has no locks, it is as of support_writer_open(). FROE_E_IO, too: another program writes the file. */
 froe_status support_writer_open_shared(support_writer *writer, const char *path, const froe_allocator *alloc,
                                        froe_diagnostic *diag);
-/** Where the others write it; lives as long as the writer. NULL: it is no regular file, and support_writer_put() alone
- * writes it. */
+/** Where the others write it; lives as long as the writer. NULL: it is no regular file, or the file system has no
+ * locks, and support_writer_put() alone writes it. */
 const char *support_writer_draft(const support_writer *writer);
 /** Appends bytes. False once something could not be written, which support_writer_close() reports. */
 bool support_writer_put(support_writer *writer, const void *bytes, size_t count);
 /** With FROE_OK: brings the file to its place. Otherwise removes it. Returns `status`, or FROE_E_IO when something
  * could not be written. */
 froe_status support_writer_close(support_writer *writer, froe_status status);
+
+/** Does flock() fail so because the file system has no locks, as Lustre without its option? */
+static inline bool support_no_locks(int error) {
+    return error == ENOSYS || error == ENOLCK || error == EOPNOTSUPP;
+}
 
 /** All of a file at once. */
 froe_status support_write(const char *path, const void *bytes, size_t count, const froe_allocator *alloc,

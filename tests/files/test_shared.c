@@ -2,12 +2,23 @@
  * one left. */
 #include "support/memory.h"
 #include "support/writer.h"
+#include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
+
+/* The linker leads flock() here: with an error, as where the file system has no locks. */
+static int lock_error;
+int __real_flock(int file, int how);
+int __wrap_flock(int file, int how);
+int __wrap_flock(int file, int how) {
+    if (!lock_error) return __real_flock(file, how);
+    errno = lock_error;
+    return -1;
+}
 
 static void spill(const char *path, const char *text) {
     FILE *file = fopen(path, "w");
@@ -136,6 +147,31 @@ static void what_is_no_file_has_no_draft(void **state) {
     assert_int_equal(support_writer_close(&w, FROE_OK), FROE_OK);
 }
 
+/* One process writes it alone, under a name of its own; a file that another one left stays, since it may be in use. */
+static void without_locks_there_is_no_draft(void **state) {
+    (void)state;
+    static const int errors[] = {ENOSYS, ENOLCK, EOPNOTSUPP};
+    for (size_t i = 0; i < 2 * sizeof errors / sizeof *errors; i++) {
+        const bool left = i % 2;
+        support_writer w, other;
+        spill("lockless.txt", "old");
+        (void)unlink(".lockless.txt.writing");
+        if (left) spill(".lockless.txt.writing", "in use");
+        lock_error = errors[i / 2];
+        assert_int_equal(support_writer_open_shared(&w, "lockless.txt", NULL, NULL), FROE_OK);
+        assert_null(support_writer_draft(&w));
+        assert_int_equal(access(".lockless.txt.writing", F_OK), left ? 0 : -1);
+        assert_true(support_writer_put(&w, "new", 3));
+        assert_text("lockless.txt", "old");
+        assert_int_equal(support_writer_open_shared(&other, "lockless.txt", NULL, NULL), FROE_OK);
+        assert_int_equal(support_writer_close(&other, FROE_E_INPUT), FROE_E_INPUT);
+        assert_int_equal(support_writer_close(&w, FROE_OK), FROE_OK);
+        lock_error = 0;
+        assert_text("lockless.txt", "new");
+        if (left) assert_text(".lockless.txt.writing", "in use");
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(processes_write_one_file_at_their_places),
@@ -145,6 +181,7 @@ int main(void) {
         cmocka_unit_test(links_in_the_place_of_the_draft_are_not_followed),
         cmocka_unit_test(what_is_no_file_of_its_own_is_no_draft),
         cmocka_unit_test(what_is_no_file_has_no_draft),
+        cmocka_unit_test(without_locks_there_is_no_draft),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -26,6 +26,8 @@ static void count_call(void) {
     }
 
 COUNTED(int, mkdir, (const char *path, mode_t mode), (path, mode))
+COUNTED(FILE *, fopen, (const char *path, const char *mode), (path, mode))
+COUNTED(int, fflush, (FILE * file), (file))
 COUNTED(ssize_t, write, (int file, const void *bytes, size_t count), (file, bytes, count))
 COUNTED(ssize_t, pwrite, (int file, const void *bytes, size_t count, off_t place), (file, bytes, count, place))
 COUNTED(int, fsync, (int file), (file))
