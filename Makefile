@@ -67,7 +67,8 @@ faults: deps-test ## every allocation and every writing call of every command fa
 coverage: deps-coverage ## which branches do the tests take? Fails below scripts/coverage.thresholds
 	@cmake --preset coverage
 	@cmake --build --preset coverage --parallel $(JOBS)
-	@cmake -E rm -rf build/coverage/counts
+	@cmake -E rm -rf build/coverage/counts && mkdir build/coverage/counts
+	@git describe --always --abbrev=8 --dirty >build/coverage/counts/commit
 	-@ctest --preset coverage --quiet --parallel $(JOBS) --label-exclude 'project|docs|fuzz'
 	@scripts/coverage build/coverage
 

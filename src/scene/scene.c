@@ -41,7 +41,7 @@ static void store_free(const froe_allocator *alloc, struct scene_store *store) {
 froe_status froe_scene_new(int dim, const froe_allocator *caller, froe_scene **out) {
     BASE_FLOATS_OWN;
     if (!out || dim < 2 || dim > FROE_MAX_DIM) return FROE_E_ARG;
-    if (num_rounding_check(NULL)) return FROE_E_UNSUPPORTED; /* one way: processors that cannot be set are rare */
+    if (num_rounding_check(NULL)) return FROE_E_UNSUPPORTED;
     froe_allocator alloc = support_allocator(caller);
     froe_scene *s = support_calloc(&alloc, 1, sizeof *s);
     if (!s) return FROE_E_MEMORY;

@@ -317,7 +317,7 @@ static froe_status open_bytes(opening *o, const froe_allocator *alloc, froe_tree
 
 static froe_status check_machine(froe_diagnostic *diag) {
     const froe_status status = file_check_machine(diag);
-    return status ? status : num_rounding_check(diag); /* one way: machines that fail are not those that tests run on */
+    return status ? status : num_rounding_check(diag);
 }
 
 static froe_status open_path(opening *o, bool mapped, const froe_allocator *caller, froe_tree **out) {
@@ -349,6 +349,6 @@ froe_status froe_tree_open_memory(const void *bytes, size_t count, const froe_al
     if ((count && !bytes) || !out) return support_fail_null(diag, __func__);
     const froe_allocator alloc = support_allocator(caller);
     froe_status status = check_machine(diag);
-    if (!status) status = copy_bytes(&o, bytes, count, &alloc); /* one way: see check_machine() */
+    if (!status) status = copy_bytes(&o, bytes, count, &alloc);
     return status ? status : open_bytes(&o, &alloc, out);
 }

@@ -82,7 +82,7 @@ froe_status froe_tree_write(const froe_tree *tree, froe_write_fn *fn, void *user
     bool done;
     if (!tree || !fn) return support_fail_null(diag, __func__);
     froe_status status = file_check_machine(diag);
-    if (!status) status = write_tree(tree, fn, user, &done, diag); /* one way: see check_machine() in open.c */
+    if (!status) status = write_tree(tree, fn, user, &done, diag);
     if (status || done) return status;
     return support_fail(diag, FROE_E_IO, "The function that receives the bytes of the tree has stopped.");
 }
@@ -98,7 +98,6 @@ froe_status froe_tree_save(const froe_tree *tree, const char *path, froe_diagnos
     bool done; /* as the writer says */
     if (!tree || !path) return support_fail_null(diag, __func__);
     froe_status status = file_check_machine(diag);
-    /* one way: see check_machine() in open.c */
     if (!status) status = support_writer_open(&out, path, &tree->alloc, diag);
     if (status) return status;
     status = write_tree(tree, put_to_file, &out, &done, diag);

@@ -147,10 +147,37 @@ static void a_gap_that_no_doubles_hold_takes_rows(void **state) {
         }
 }
 
+/* The point 2^-p on the first axis lies 2^(-3 p - 2 q) above the triangle of 0, (2^q, -2^-p) and 2^q, 2^-p on the next
+ * axes: its nearest point is inside. The last of the rows ends at about 2^-4200 of the normal. */
+static void a_gap_that_no_rows_hold_has_no_plane(void **state) {
+    static const int powers[][2] = {{300, 300}, {900, 600}, {1000, 700}, {1074, 1023}, {1074, 1020}};
+    num_context *context = *state;
+    unsigned found = 0, none = 0;
+    for (size_t i = 0; i < sizeof powers / sizeof *powers; i++)
+        for (int swap = 0; swap < 2; swap++) {
+            const double small = ldexp(1, -powers[i][0]), large = ldexp(1, powers[i][1]);
+            const double at[3] = {small}, corners[9] = {0, 0, 0, large, -small, 0, 0, large, small};
+            const geom_body point = geom_body_at(3, at);
+            const geom_body triangle = {.form = FROE_POLYGON, .dim = 3, .count = 3, .coords = corners};
+            bool corner;
+            const size_t mark = exact_mark();
+            const exact_body x = exact_body_of(&point), y = exact_body_of(&triangle);
+            assert_int_equal(exact_contact(&x, &y, &corner), 0); /* they do not meet */
+            exact_release(mark);
+            context->first = NUM_FILTER;
+            const int rows =
+                check_plane(context, swap ? &triangle : &point, swap ? &point : &triangle, "far below doubles");
+            assert_int_equal(rows > 0, 3 * powers[i][0] + 2 * powers[i][1] < 4200);
+            found += rows > 0, none += !rows;
+        }
+    assert_true(found && none);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(planes_are_between_nasty_bodies),
         cmocka_unit_test(a_gap_that_no_doubles_hold_takes_rows),
+        cmocka_unit_test(a_gap_that_no_rows_hold_has_no_plane),
     };
     return cmocka_run_group_tests_name("geom/apart", tests, context_open, context_close);
 }

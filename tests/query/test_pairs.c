@@ -2,6 +2,7 @@
  * batches. */
 #include "geom/meet/contact.h"
 #include "query/context.h"
+#include "query/pairs/pair_lists.h"
 #include "query/tours.h"
 
 static uint64_t decisions, counts[GEOM_CONTACTS], corners;
@@ -309,6 +310,32 @@ static void every_allocation_of_a_batch_may_fail(void **state) {
     froe_tree_free(tree);
 }
 
+/* 16 for each object and 2^20 more, but less than 2^32: their places are numbers of 32 bits. */
+static void no_more_pairs_are_gathered_than_lists_have_room_for(void **state) {
+    static const struct {
+        uint32_t objects, most;
+    } cases[] = {{0, 1 << 20},
+                 {1, 16 + (1 << 20)},
+                 {(1 << 28) - (1 << 16) - 1, UINT32_MAX - 15},
+                 {(1 << 28) - (1 << 16), UINT32_MAX},
+                 {1 << 30, UINT32_MAX}};
+    test_memory m;
+    const froe_allocator alloc = test_memory_begin(&m);
+    pair_lists lists;
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        assert_int_equal(pair_lists_take(&lists, &alloc, cases[i].objects, 2), FROE_OK);
+        assert_int_equal(atomic_load(&lists.left), cases[i].most);
+        pair_lists_give(&lists);
+    }
+    assert_int_equal(pair_lists_take(&lists, &alloc, 9, 2), FROE_OK);
+    for (uint32_t i = 0; i < 9 * 16 + (1 << 20); i++)
+        assert_int_equal(pair_lists_add(&lists, 1, i % 8, 8, FROE_MEET_CROSS), FROE_OK);
+    assert_int_equal(pair_lists_add(&lists, 1, 0, 8, FROE_MEET_CROSS), FROE_E_LIMIT);
+    pair_lists_give(&lists);
+    test_memory_end(&m);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(pairs_in_generated_scenes),
@@ -321,6 +348,7 @@ int main(void) {
         cmocka_unit_test(pairs_are_told_in_order_with_any_number_of_threads),
         cmocka_unit_test(the_first_bad_question_of_a_batch_is_named),
         cmocka_unit_test(every_allocation_of_a_batch_may_fail),
+        cmocka_unit_test(no_more_pairs_are_gathered_than_lists_have_room_for),
     };
     int failed = cmocka_run_group_tests_name("query/pairs", tests, NULL, NULL);
     print_message("%llu decisions: %llu cross, %llu touch (%llu in a corner alone), %llu overlap\n",

@@ -172,5 +172,5 @@ int geom_apart(num_context *context, const geom_body *a, const geom_body *b, dou
     cut_into_rows(&s, coefficients);
     for (int count = 1; count < GEOM_FINE_ROWS; count *= 2)
         if (is_between(&s, count)) return count;
-    return is_between(&s, GEOM_FINE_ROWS) ? GEOM_FINE_ROWS : 0; /* one way: as above */
+    return is_between(&s, GEOM_FINE_ROWS) ? GEOM_FINE_ROWS : 0;
 }

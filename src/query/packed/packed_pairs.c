@@ -15,7 +15,6 @@
 #include "query/segment.h"
 #include <string.h>
 
-enum { PAIRS_EACH = 16, PAIRS_MORE = 1 << 20 }; /* gathered for each object at most, and some more */
 enum { NODES_PER_JOB = 512 };
 
 typedef struct packed_search {
@@ -227,11 +226,8 @@ static froe_status pair_run(void *user, unsigned worker, size_t job) {
 froe_status packed_pairs(query_workers *workers, bool shared, froe_pair_fn *fn, void *user) {
     const froe_query *q = workers->queries[0];
     const uint32_t objects = q->tree->scene->object_count;
-    const uint64_t most = (uint64_t)objects * PAIRS_EACH + PAIRS_MORE;
     packed_search s = {.workers = workers, .shared = shared};
-    /* one way: so many objects take 64 GB */
-    const uint32_t room = most < UINT32_MAX ? (uint32_t)most : UINT32_MAX;
-    froe_status status = pair_lists_take(&s.lists, &q->alloc, objects, workers->count, room);
+    froe_status status = pair_lists_take(&s.lists, &q->alloc, objects, workers->count);
     base_task *task = &workers->task;
     const size_t jobs = ((size_t)q->tree->node_count + NODES_PER_JOB - 1) / NODES_PER_JOB;
     if (!status) status = base_run(task, 0.8, jobs, pair_run, &s);

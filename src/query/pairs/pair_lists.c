@@ -6,10 +6,10 @@
 enum { PAIRS_AT_ONCE = 1024 }; /* pairs that a thread takes from the common stock at a time */
 #define PAIR_OBJECT ((1u << PAIR_KIND) - 1)
 
-froe_status pair_lists_take(pair_lists *out, const froe_allocator *alloc, uint32_t objects, unsigned threads,
-                            uint32_t most) {
+froe_status pair_lists_take(pair_lists *out, const froe_allocator *alloc, uint32_t objects, unsigned threads) {
+    const uint64_t most = (uint64_t)objects * PAIRS_EACH + PAIRS_MORE;
     *out = (pair_lists){.alloc = alloc, .objects = objects, .threads = threads};
-    atomic_init(&out->left, most);
+    atomic_init(&out->left, most < UINT32_MAX ? (unsigned)most : UINT32_MAX);
     while (objects >> out->shift >= PAIR_PARTS) out->shift++;
     out->lists = support_calloc(alloc, threads, sizeof *out->lists);
     return out->lists ? FROE_OK : FROE_E_MEMORY;

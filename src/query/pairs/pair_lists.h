@@ -14,7 +14,7 @@
 #include "support/array.h"
 #include <froe/query.h>
 
-enum { PAIR_PARTS = 256 };
+enum { PAIR_PARTS = 256, PAIRS_EACH = 16, PAIRS_MORE = 1 << 20 };
 
 typedef struct pair_item {
     uint32_t a, b; /**< b with the kind above its PAIR_KIND bits */
@@ -39,9 +39,9 @@ typedef struct pair_lists {
     uint32_t *sorted;              /**< ... the b of all pairs */
 } pair_lists;
 
-/** For pairs of at most 2^30 objects; no more than `most` of them. FROE_E_MEMORY. */
-froe_status pair_lists_take(pair_lists *out, const froe_allocator *alloc, uint32_t objects, unsigned threads,
-                            uint32_t most);
+/** For pairs of at most 2^30 objects: PAIRS_EACH for each object, and PAIRS_MORE, but less than 2^32.
+ * FROE_E_MEMORY. */
+froe_status pair_lists_take(pair_lists *out, const froe_allocator *alloc, uint32_t objects, unsigned threads);
 void pair_lists_give(pair_lists *lists);
 /** Adds a pair, in either order. FROE_E_LIMIT: there are too many; FROE_E_MEMORY. */
 froe_status pair_lists_add(pair_lists *lists, unsigned thread, uint32_t a, uint32_t b, froe_meeting kind);
