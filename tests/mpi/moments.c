@@ -1,7 +1,7 @@
 /* moments.c: a program like froe-mpi in which something happens at a moment that a test names.
  *
- *     FROE_MOMENT="RANK FUNCTION NUMBER COMMAND"   before a rank calls a function for the NUMBER-th time, it runs a command
- *                                                  of the shell, whose parent process, $PPID, is the rank
+ *     FROE_MOMENT="RANK FUNCTION NUMBER COMMAND"   before a rank calls a function for the NUMBER-th time, it runs a
+ *                                                  command of the shell, whose parent process, $PPID, is the rank
  *     FROE_NO_LOCKS=1                              flock() fails, as where the file system has no locks
  *
  * The linker leads calls of the functions below here (--wrap, cmake/FroeMpi.cmake). */
