@@ -15,7 +15,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { PART = 16 << 20 }; /* bytes of rows that are read at once */
+enum { PART = 2 << 20 }; /* bytes of rows that are read at once: those of all ranks are to stay in the cache */
 
 typedef struct row_file {
     const char *path;

@@ -6,7 +6,7 @@
 /** Objects of rows, as the core's own reader gives them; false stops. `first`: the number of the first row in the whole
  * file, from 0. Without tags of their own, objects have none here. */
 typedef bool mpi_rows_fn(void *user, const froe_objects *batch, uint64_t first);
-/** Collective. Calls fn for the rows of this rank, some 10^5 at a time; the status is this rank's own. They are copied,
+/** Collective. Calls fn for the rows of this rank, some 10^4 at a time; the status is this rank's own. They are copied,
  * a part at a time, to a file .froe-*.csv in `folder`. A record is one line: quotation marks are refused. FROE_E_IO,
  * FROE_E_UNSUPPORTED, and the failures of froe_read_batches(), of which the message says from which row on the part
  * is. */

@@ -1,7 +1,7 @@
 /* test_questions.c: folders of 1, 2, 7 and 64 shards answer every question as a single tree does, also where cuts go
  * through corners of objects and of questions. With a number as argument: so many objects of every kind, in all of
  * these folders, and a row of Markdown for each folder that says what was compared. A pattern of names as a second
- * argument: these tests alone ("*space"). A kind as a third: its objects alone ("ball"). */
+ * argument: these tests alone ("*space"). A kind as a third: its objects alone ("ball"), or "all" kinds mixed. */
 #include "shards/folders.h"
 #include "shards/plan.h"
 #include <froe/shard_parts.h>
@@ -523,7 +523,7 @@ static void compare_everything(int dim, froe_kind kind, bool areas) {
     static const int shards[] = {7, -7, -2, -64, 1};
     const size_t folders = thorough || areas || kind == FROE_KIND_COUNT ? 5 : 2;
     const size_t count = object_count;
-    if (only && (kind == FROE_KIND_COUNT || strcmp(only, froe_kind_name(kind)))) return;
+    if (only && strcmp(only, kind == FROE_KIND_COUNT ? "all" : froe_kind_name(kind))) return;
     if (areas) object_count -= object_count % EDGES;
     for (size_t i = 0; i < folders; i++) compare_in_folder(dim, kind, areas, shards[i], 1 + i + 10 * (uint64_t)kind);
     object_count = count;
