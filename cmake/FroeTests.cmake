@@ -41,7 +41,11 @@ function(froe_test area name)
   math(EXPR limit "30 * ${slower} * ${seconds}")
   set(counts "") # which branches this test takes: scripts/coverage
   if(FROE_COVERAGE)
-    set(counts ";LLVM_PROFILE_FILE=set:${PROJECT_BINARY_DIR}/counts/${area}-${name}-%m.profraw")
+    set(each %m) # all programs of a test are one file; where they limit their own memory, each is one
+    if("${area}/${name}" MATCHES "^cli/(limits|malicious)$")
+      set(each %p)
+    endif()
+    set(counts ";LLVM_PROFILE_FILE=set:${PROJECT_BINARY_DIR}/counts/${area}-${name}-${each}.profraw")
   endif()
   add_test(NAME ${area}/${name} COMMAND ${ARGN} WORKING_DIRECTORY ${scratch})
   set_tests_properties(${area}/${name} PROPERTIES LABELS ${area} TIMEOUT ${limit} ${first}
@@ -135,7 +139,7 @@ target_link_options(test_tree_reading PRIVATE -Wl,--wrap=read)
 target_link_options(test_files_shared PRIVATE -Wl,--wrap=flock)
 target_link_options(test_shards_drafts PRIVATE -Wl,--wrap=flock)
 target_link_options(test_tree_machine PRIVATE -Wl,--wrap=num_rounding_check -Wl,--wrap=file_check_machine)
-foreach(call mkdir fopen fflush write pwrite fsync rename renameat2 unlinkat rmdir)
+foreach(call mkdir fopen fflush fwrite write pwrite fsync rename renameat2 unlinkat rmdir)
   target_link_options(test_shards_faults PRIVATE -Wl,--wrap=${call})
 endforeach()
 
