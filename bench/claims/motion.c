@@ -39,10 +39,12 @@ static froe_motion *passing(size_t n, size_t m) {
     uint64_t state = 1;
     for (size_t i = 0; i < n; i++) {
         const double t = ((double)i + 0.5) / (double)n, e = 0.01 * bench_unit(&state) / (double)n;
-        if (i < m)
-            put_moving(ends + 8 * i, bench_unit(&state), -1 + 0.9 * t, 0.1 / (double)n, e, bench_unit(&state) - 0.5, 0);
-        else
+        if (i < m) {
+            const double go = bench_unit(&state) - 0.5, x = bench_unit(&state);
+            put_moving(ends + 8 * i, x, -1 + 0.9 * t, 0.1 / (double)n, e, go, 0);
+        } else {
             put_moving(ends + 8 * i, -2 - t, 1 + t, 5 + 2 * t, e, 0, 0);
+        }
     }
     froe_motion *motion = straight(ends, n);
     free(ends);
