@@ -3,7 +3,7 @@
  *     bench_follow [EVENTS [SEED [augmented]]]       default: 1,000,000 events, seeds from 1 on
  *
  * Over all kinds of motion that the tests know, with other seeds. Ends with 1 at the first difference. */
-#include "kinetic/patterns.h"
+#include "support/patterns.h"
 #include <inttypes.h>
 #include <stdio.h>
 #include <time.h>

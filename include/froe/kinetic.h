@@ -41,27 +41,29 @@ FROE_API froe_status froe_motion_new(const froe_motion_options *options, const f
                                      froe_diagnostic *diag);
 FROE_API void froe_motion_free(froe_motion *motion);
 
-/** A rigid body in space: at times[i] its centre is at coords[3 i ..], and it is turned by the quaternion
- * turns[4 i ..] = x, y, z, w. Between two times the centre moves as a vertex does (froe_moving), and the turn goes
- * along a rational arc: with u from 0 to 1 in proportion to time, by the quaternion
+/** A rigid body. In space, at times[i] its centre is at coords[3 i ..], and it is turned by the quaternion
+ * turns[4 i ..] = x, y, z, w; in the plane, the centre is at coords[2 i ..], and the turn is turns[2 i ..] = z, w: the
+ * sine and the cosine of half of its angle, counterclockwise. Between two times the centre moves as a vertex does
+ * (froe_moving), and the turn goes along a rational arc: with u from 0 to 1 in proportion to time, by the quaternion
  *     q(u) = (1 - u) q0 + u q1,   divided by its length.
  * It passes the same orientations as a spherical interpolation ("slerp"), about one axis, and is ahead of it or behind
  * by at most 0.04 degrees where q0 and q1 are 30 degrees apart, 0.3 at 60 and 1 at 90. Of q1 and -q1, which turn alike,
- * that one counts whose product with q0 is positive. */
+ * that one counts whose product with q0 is positive. Each place of the body stays exactly as far from the centre as it
+ * is in the body, whatever the lengths of q0 and q1. */
 typedef struct froe_body {
     size_t size;            /**< set by froe_body_defaults() */
     size_t count;           /**< times, at least 1 */
     const double *times;    /**< strictly increasing */
-    const double *coords;   /**< of the centre: x, y, z for each time */
+    const double *coords;   /**< of the centre: x, y (and z) for each time */
     const double *controls; /**< as in froe_moving; NULL: straight */
-    const double *turns;    /**< x, y, z, w for each time; NULL: it does not turn */
+    const double *turns;    /**< (x, y,) z, w for each time; NULL: it does not turn */
 } froe_body;
 FROE_DEFAULTS(froe_body, froe_body_defaults);
 /** Adds a body, which is nothing but a place for vertices (froe_moving.bodies); *id: 0, 1, ... FROE_E_INPUT: a number
  * is NaN or infinite; times do not increase; the square of a quaternion's length, x x + y y + z z + w w in doubles from
  * left to right, is not within 2^-20 of 1; two turns that follow one another are half a turn apart, which does not tell
- * the way: their product, computed alike, is within 2^-20 of 0. FROE_E_UNSUPPORTED: the motion is of the plane.
- * FROE_E_ARG, FROE_E_OPTIONS, FROE_E_LIMIT, FROE_E_MEMORY. */
+ * the way: their product, computed alike, is within 2^-20 of 0. FROE_E_ARG, FROE_E_OPTIONS, FROE_E_LIMIT,
+ * FROE_E_MEMORY. */
 FROE_API froe_status froe_motion_add_body(froe_motion *motion, const froe_body *body, uint32_t *id,
                                           froe_diagnostic *diag);
 
@@ -74,7 +76,7 @@ FROE_API froe_status froe_motion_add_body(froe_motion *motion, const froe_body *
  * Segment j joins the vertices vertices[2 j] and vertices[2 j + 1] of the batch; segments may share vertices.
  * In space there are three numbers for each time, and triangle j has the corners vertices[3 j] to vertices[3 j + 2]. A
  * vertex of a body has one time, which does not matter: its coordinates are those in the body, from the centre, before
- * the turn. The corners of a triangle are all of one body, or of none. */
+ * the turn. The corners of a triangle, and the ends of a segment, are all of one body, or of none. */
 typedef struct froe_moving {
     size_t size;              /**< set by froe_moving_defaults() */
     size_t vertex_count;      /**< flight plans */
@@ -142,7 +144,7 @@ FROE_API froe_moving_knot froe_motion_knot(const froe_motion *motion, uint32_t v
 /** One instant of a body. */
 typedef struct froe_body_knot {
     double time, at[3], control[3]; /**< as of a vertex */
-    double turn[4];                 /**< x, y, z, w: as given, or negated */
+    double turn[4];                 /**< x, y, z, w: as given, or negated; in the plane x and y are 0 */
 } froe_body_knot;
 FROE_API size_t froe_motion_body_knot_count(const froe_motion *motion, uint32_t body);
 /** REQUIRES: body and knot in range. O(1). */
@@ -208,12 +210,12 @@ typedef bool froe_contact_fn(void *user, const froe_contact *contact);
 
 /** All contacts between moving objects, in the order of their beginnings (low, high, a, b). None is missed, however
  * short, grazing ones included: candidates come from boxes in space and time, times from the roots of exact polynomials
- * (degree up to 4 in the plane; in space 3, with bodies that turn 5, along parabolas 6, of a body and a triangle whose
- * corners fly along parabolas each for itself 8). Triangles may lie in one plane, and may have no area, at an instant
- * or always. Objects that share a vertex always meet there, and are left out (but see `neighbours`), as are two of one
- * body. options NULL: the defaults. FROE_E_OPTIONS: from > to, or outside the window. FROE_E_LIMIT: two things happen
- * within 2^-2047 of the time between two knots. FROE_E_UNSUPPORTED: neighbours in the plane. FROE_E_MEMORY,
- * FROE_E_CANCELLED. O(n log^2 n + candidates). */
+ * (degree up to 4 in the plane, 6 with bodies; in space 3, with bodies that turn 5, along parabolas 6, of a body and a
+ * triangle whose corners fly along parabolas each for itself 8). Triangles may lie in one plane, and may have no area,
+ * at an instant or always. Objects that share a vertex always meet there, and are left out (but see `neighbours`), as
+ * are two of one body. options NULL: the defaults. FROE_E_OPTIONS: from > to, or outside the window. FROE_E_LIMIT: two
+ * things happen within 2^-2047 of the time between two knots. FROE_E_UNSUPPORTED: neighbours in the plane.
+ * FROE_E_MEMORY, FROE_E_CANCELLED. O(n log^2 n + candidates). */
 FROE_API froe_status froe_motion_contacts(const froe_motion *motion, const froe_contact_options *options,
                                           froe_contact_fn *fn, void *user, froe_diagnostic *diag);
 
@@ -270,12 +272,11 @@ FROE_DEFAULTS(froe_kinetic_options, froe_kinetic_defaults);
 /** The partition at the first odd tick of the window; in space of triangles, as seen from above, along z. They must
  * not meet, and those that share vertices must have nothing else in common: froe_kinetic_advance() ends before the
  * first contact (froe_contact_options.neighbours). In space the partition is made anew where the plans of more than one
- * triangle in eight take other pieces at a tick. Bodies are refused with FROE_E_UNSUPPORTED
- * (froe_motion_without_bodies() replaces them), as are questions but those straight up and down; a snapshot answers the
- * others. The motion must outlive it. Until it is freed, plans are
- * changed and objects added by the functions below only. FROE_E_ARG: motion, options or out is NULL. FROE_E_OPTIONS:
- * the order is not one, or the options are not from froe_kinetic_defaults(). FROE_E_INPUT: two triangles meet at the
- * start; both are named.
+ * triangle in eight take other pieces at a tick. Bodies are followed in the plane, exactly; in space they are refused
+ * with FROE_E_UNSUPPORTED (froe_motion_without_bodies() replaces them), as are questions but those straight up and
+ * down; a snapshot answers the others. The motion must outlive it. Until it is freed, plans are changed and objects
+ * added by the functions below only. FROE_E_ARG: motion, options or out is NULL. FROE_E_OPTIONS: the order is not one,
+ * or the options are not from froe_kinetic_defaults(). FROE_E_INPUT: two triangles meet at the start; both are named.
  * FROE_E_UNSUPPORTED, FROE_E_MEMORY, FROE_E_CANCELLED. In space, unless `unchecked`, the failures of
  * froe_motion_contacts(), and its time.
  * Expected O(n log^2 n + k log n) for n segments with k crossings. */
@@ -347,7 +348,7 @@ FROE_API double froe_kinetic_next(const froe_kinetic *kinetic);
 FROE_API froe_status froe_kinetic_update(froe_kinetic *kinetic, froe_diagnostic *diag);
 /** Gives a vertex another plan from now on, as in froe_moving: `count` times, coordinates and controls (NULL: linear).
  * Where it is now may change: then its segments leave here and appear there. The failures of froe_motion_add, and then
- * nothing is changed. */
+ * nothing is changed. FROE_E_UNSUPPORTED: the vertex belongs to a body. */
 FROE_API froe_status froe_kinetic_replan(froe_kinetic *kinetic, uint32_t vertex, size_t count, const double *times,
                                          const double *coords, const double *controls, froe_diagnostic *diag);
 /** Takes an object out, for good. FROE_E_ARG: there is no such object. */

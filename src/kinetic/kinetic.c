@@ -211,7 +211,7 @@ froe_status froe_kinetic_new(froe_motion *motion, const froe_kinetic_options *op
         return support_fail(diag, FROE_E_UNSUPPORTED, "The order of a partition in space changes in epochs alone.");
     if (options->ghosts && (options->unchecked || motion->dim == 2))
         return support_fail(diag, FROE_E_OPTIONS, "Ghosts are triangles in space, whose contacts are looked for.");
-    if (motion->bodies.count) return refuse_bodies(diag);
+    if (motion->dim == 3 && motion->bodies.count) return refuse_bodies(diag);
     froe_allocator memory = support_allocator(alloc);
     froe_kinetic *k;
     if (kinetic_new_at(motion, &memory, options, 1, &k)) return support_fail_memory(diag);
@@ -345,7 +345,7 @@ froe_status froe_kinetic_update(froe_kinetic *k, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!k) return support_fail_null(diag, __func__);
     const uint32_t first = object_count(k);
-    if (k->now.motion->bodies.count) return refuse_bodies(diag);
+    if (now_is_in_space(&k->now) && k->now.motion->bodies.count) return refuse_bodies(diag);
     if (grow_tables(k)) return support_fail_memory(diag);
     froe_status status = kinetic_begin(k, diag);
     for (uint32_t o = first; o < object_count(k) && !status; o++) {
@@ -400,6 +400,10 @@ froe_status froe_kinetic_replan(froe_kinetic *k, uint32_t vertex, size_t count, 
     BASE_FLOATS_OWN;
     if (!k || vertex >= k->tree.vertices.count) return support_fail(diag, FROE_E_ARG, "There is no vertex %u.", vertex);
     const double now = now_time_of(&k->now, k->now.tick);
+    const uint32_t body = k->now.motion->plans.data[vertex].body;
+    if (body != FROE_NONE)
+        return support_fail(diag, FROE_E_UNSUPPORTED, "Vertex %u flies with body %u, and takes no plan of its own.",
+                            vertex, body);
     double life[2] = {now, now}; /* to the end of the last life of a segment at the vertex */
     froe_status status = kinetic_begin(k, diag), settled;
     if (status) return status;

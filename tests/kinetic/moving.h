@@ -34,8 +34,8 @@ typedef struct moving_data {
     uint32_t vertices[2 * MOVING_MOST];
 } moving_data;
 
-static void moving_plan(const moving_kind *kind, fuzz_source *r, moving_data *d, size_t v, const int at[2],
-                        const int speed[2]) {
+static inline void moving_plan(const moving_kind *kind, fuzz_source *r, moving_data *d, size_t v, const int at[2],
+                               const int speed[2]) {
     int w[2] = {speed[0], speed[1]}, p[2] = {at[0], at[1]};
     int legs = kind->legs ? kind->legs : 1;
     size_t first = d->starts[v];
@@ -56,7 +56,8 @@ static void moving_plan(const moving_kind *kind, fuzz_source *r, moving_data *d,
 }
 
 /* From d beside the centre to d turned by 90 degrees, and so on; the control point is the corner of the square. */
-static void moving_turn(const moving_kind *kind, moving_data *d, size_t v, const int at[2], const int centre[2]) {
+static inline void moving_turn(const moving_kind *kind, moving_data *d, size_t v, const int at[2],
+                               const int centre[2]) {
     int arm[2] = {at[0] - centre[0], at[1] - centre[1]};
     const size_t first = d->starts[v], legs = (size_t)kind->legs;
     for (size_t i = first; i <= first + legs; i++) {
@@ -72,7 +73,7 @@ static void moving_turn(const moving_kind *kind, moving_data *d, size_t v, const
 }
 
 /** A motion of this kind; the caller frees it. */
-static froe_motion *moving_new(const moving_kind *kind, uint64_t seed, const froe_allocator *alloc) {
+static inline froe_motion *moving_new(const moving_kind *kind, uint64_t seed, const froe_allocator *alloc) {
     moving_data *d = calloc(1, sizeof *d);
     fuzz_source r = {seed};
     int speed[2] = {0, 0}, at[2][2] = {{0, 0}, {0, 0}};

@@ -162,11 +162,6 @@ static void bad_bodies_are_refused_by_name(void **state) {
     assert_int_equal(froe_motion_add_body(m, &b, NULL, NULL), FROE_OK);
     assert_true(froe_motion_body_knot(m, 1, 1).turn[3] == 0.8f);
     froe_motion_free(m);
-    froe_motion_options o = froe_motion_defaults();
-    o.begin = 0, o.end = 8;
-    assert_int_equal(froe_motion_new(&o, NULL, &m, NULL), FROE_OK);
-    assert_refused(m, &good, FROE_E_UNSUPPORTED, "The plane has no bodies.");
-    froe_motion_free(m);
 }
 
 static void bad_vertices_of_bodies_are_refused(void **state) {

@@ -6,8 +6,8 @@
 
 #include <cmocka.h>
 
-#include "kinetic/patterns.h"
 #include "support/memory.h"
+#include "support/patterns.h"
 
 static bool augmented; /* all tests run in both variants */
 

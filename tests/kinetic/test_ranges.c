@@ -10,6 +10,7 @@
 #include "kinetic/moving.h"
 #include "support/memory.h"
 #include "support/sanitized.h"
+#include "support/turning.h"
 
 /* What is compared: each event, and when it happened between two doubles. */
 typedef struct told {
@@ -85,10 +86,10 @@ typedef struct sums {
     uint64_t windows, stopped, events, kinds[FROE_EVENT_KINDS];
 } sums;
 
-/* Are events and trees of both the same throughout? In thirds, one of which ends where the visitor stops. */
-static bool compare_runs(const moving_kind *kind, uint64_t seed, unsigned threads, manner how, sums *all) {
+/* Are events and trees of both the same throughout? In thirds, one of which ends where the visitor stops. The motion is
+ * freed. */
+static bool compare_motion(froe_motion *m, uint64_t seed, unsigned threads, manner how, sums *all) {
     const froe_allocator alloc = support_allocator(NULL);
-    froe_motion *m = moving_new(kind, seed, NULL);
     froe_kinetic *const k[2] = {start(m, 1, seed, ONE), start(m, threads, seed, how)};
     record r[2] = {{.stop = SIZE_MAX}, {.stop = SIZE_MAX}};
     bool same = true;
@@ -110,6 +111,21 @@ static bool compare_runs(const moving_kind *kind, uint64_t seed, unsigned thread
     }
     froe_motion_free(m);
     return same;
+}
+
+static bool compare_runs(const moving_kind *kind, uint64_t seed, unsigned threads, manner how, sums *all) {
+    return compare_motion(moving_new(kind, seed, NULL), seed, threads, how, all);
+}
+
+/* Bodies that turn, among segments that fly by themselves. */
+static void test_bodies_turn_in_ranges_as_in_one_partition(void **state) {
+    (void)state;
+    static const turning_kind many = {
+        .name = "many bodies", .bodies = 8, .each = 5, .free = 20, .grid = 9000, .size = 500, .speed = 3000, .legs = 3};
+    sums all = {0};
+    for (uint64_t seed = 1; seed <= (SANITIZED ? 1 : 2); seed++)
+        if (!compare_motion(turning_new(&many, seed), seed, 3, RANGES, &all)) fail_msg("seed %u", (unsigned)seed);
+    assert_true(all.windows > all.stopped && all.kinds[FROE_EVENT_TURN] && all.kinds[FROE_EVENT_CONTACT]);
 }
 
 /* On two to eight threads. */
@@ -225,6 +241,7 @@ static void test_one_partition_otherwise(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_events_and_trees_do_not_depend_on_threads),
+        cmocka_unit_test(test_bodies_turn_in_ranges_as_in_one_partition),
         cmocka_unit_test(test_ranges_need_their_guards),
         cmocka_unit_test(test_ranges_need_to_stop_at_what_is_wide),
         cmocka_unit_test(test_cancelled),

@@ -6,7 +6,7 @@
 
 /* -------------------------------------------------------- polynomials over Z -- */
 
-enum { MOST_DEGREE = 40, CLOSE = 56 };
+enum { MOST_DEGREE = 64, CLOSE = 56 };
 
 typedef struct poly { /* degree -1: zero */
     int degree;
@@ -172,10 +172,9 @@ static bool has_roots(const poly *f, const mpq_t from, const mpq_t to) {
 
 /* ------------------------------------------------------- segments in motion -- */
 
-/* Coordinates of one vertex: x[k] / w, polynomials in t with a common denominator. */
+/* Coordinates of one vertex: x[k] / w, polynomials in t with a common denominator, which is positive. */
 typedef struct curve {
-    poly x[2];
-    mpz_t w; /* > 0 */
+    poly x[2], w;
 } curve;
 
 static void add_term(mpq_t c[3], const mpq_t factor, const mpq_t u0, int u1, const mpq_t v0, int v1) {
@@ -239,6 +238,8 @@ static size_t piece_at(const froe_motion *m, uint32_t vertex, double t) {
 /* Is one object on one side of the other along an axis, by the hulls of the pieces that are in force at t? */
 static bool hulls_apart(const froe_motion *m, const uint32_t v[4], double t) {
     double lo[2][2], hi[2][2];
+    for (int n = 0; n < 4; n++)
+        if (froe_motion_vertex_body(m, v[n]) != FROE_NONE) return false;
     for (int n = 0; n < 4; n++) lo[n / 2][n % 2] = INFINITY, hi[n / 2][n % 2] = -INFINITY;
     for (int n = 0; n < 4; n++) {
         size_t i = piece_at(m, v[n], t);
@@ -256,35 +257,122 @@ static bool hulls_apart(const froe_motion *m, const uint32_t v[4], double t) {
     return false;
 }
 
+/* Rational polynomials become whole by a common factor. */
+static void take_whole(curve *out, mpq_t x[2][5], mpq_t w[5]) {
+    mpq_t *const from[3] = {x[0], x[1], w};
+    poly *const to[3] = {&out->x[0], &out->x[1], &out->w};
+    mpz_t scale;
+    mpz_init_set_ui(scale, 1);
+    for (int n = 0; n < 3; n++)
+        for (int j = 0; j < 5; j++) mpz_lcm(scale, scale, mpq_denref(from[n][j]));
+    for (int n = 0; n < 3; n++) {
+        for (int j = 0; j < 5; j++) {
+            mpz_divexact(to[n]->c[j], scale, mpq_denref(from[n][j]));
+            mpz_mul(to[n]->c[j], to[n]->c[j], mpq_numref(from[n][j]));
+        }
+        poly_trim(to[n], 4);
+    }
+    mpz_clear(scale);
+}
+
+/* out += factor a b */
+static void add_product(mpq_t out[5], int factor, mpq_t a[5], mpq_t b[5]) {
+    mpq_t term, by;
+    mpq_inits(term, by, NULL);
+    mpq_set_si(by, factor, 1);
+    for (int i = 0; i < 5; i++)
+        for (int j = 0; i + j < 5; j++) {
+            mpq_mul(term, a[i], b[j]);
+            mpq_mul(term, term, by);
+            mpq_add(out[i + j], out[i + j], term);
+        }
+    mpq_clears(term, by, NULL);
+}
+
+static void numbers(mpq_t *all, int count, bool make) {
+    for (int i = 0; i < count; i++)
+        if (make)
+            mpq_init(all[i]);
+        else
+            mpq_clear(all[i]);
+}
+
+/* Component k of the quaternion at the time t: q0 + (t - t0) (q1 - q0) / (t1 - t0). */
+static void set_turn(mpq_t c[5], const froe_body_knot *p, const froe_body_knot *q, int k) {
+    mpq_t step, start;
+    mpq_inits(step, start, NULL);
+    mpq_set_d(c[0], p->turn[k]);
+    if (q) {
+        mpq_set_d(c[1], q->turn[k]);
+        mpq_sub(c[1], c[1], c[0]);
+        mpq_set_d(step, q->time), mpq_set_d(start, p->time);
+        mpq_sub(step, step, start);
+        mpq_div(c[1], c[1], step);
+        mpq_mul(step, start, c[1]);
+        mpq_sub(c[0], c[0], step);
+    }
+    mpq_clears(step, start, NULL);
+}
+
+/* With q = (z, w), a place (u, v) in a body goes to (w w - z z) u - 2 z w v and 2 z w u + (w w - z z) v, over |q|^2. */
+static void curve_in_body(curve *out, const froe_motion *m, uint32_t vertex, double t) {
+    const uint32_t body = froe_motion_vertex_body(m, vertex);
+    const size_t count = froe_motion_body_knot_count(m, body);
+    size_t i = 0;
+    while (i + 2 < count && froe_motion_body_knot(m, body, i + 1).time <= t) i++;
+    const froe_body_knot a = froe_motion_body_knot(m, body, i), b = froe_motion_body_knot(m, body, i + (count > 1));
+    const froe_moving_knot p = {a.time, {a.at[0], a.at[1]}, {a.control[0], a.control[1]}};
+    const froe_moving_knot q = {b.time, {b.at[0], b.at[1]}, {0}}, in = froe_motion_knot(m, vertex, 0);
+    mpq_t z[5], w[5], cosine[5], sine[5], square[5], place[2][5], centre[2][5], x[2][5];
+    mpq_t *const all[] = {z, w, cosine, sine, square, place[0], place[1], centre[0], centre[1], x[0], x[1]};
+    for (size_t n = 0; n < sizeof all / sizeof *all; n++) numbers(all[n], 5, true);
+    set_turn(z, &a, count > 1 ? &b : NULL, 2), set_turn(w, &a, count > 1 ? &b : NULL, 3);
+    add_product(cosine, 1, w, w), add_product(cosine, -1, z, z), add_product(sine, 2, z, w);
+    add_product(square, 1, w, w), add_product(square, 1, z, z);
+    for (int k = 0; k < 2; k++) {
+        mpq_set_d(place[k][0], in.at[k]);
+        set_coordinate(centre[k], &p, count > 1 ? &q : NULL, k);
+        add_product(x[k], 1, centre[k], square);
+    }
+    for (int k = 0; k < 2; k++) {
+        add_product(x[k], 1, k ? sine : cosine, place[0]);
+        add_product(x[k], k ? 1 : -1, k ? cosine : sine, place[1]);
+    }
+    take_whole(out, x, square);
+    for (size_t n = 0; n < sizeof all / sizeof *all; n++) numbers(all[n], 5, false);
+}
+
 static void curve_set(curve *out, const froe_motion *m, uint32_t vertex, double t) {
+    if (froe_motion_vertex_body(m, vertex) != FROE_NONE) {
+        curve_in_body(out, m, vertex, t);
+        return;
+    }
     size_t count = froe_motion_knot_count(m, vertex), i = piece_at(m, vertex, t);
     froe_moving_knot p = froe_motion_knot(m, vertex, i), q = p;
     if (count > 1) q = froe_motion_knot(m, vertex, i + 1);
-    mpq_t c[2][3];
-    mpz_set_ui(out->w, 1);
-    for (int k = 0; k < 2; k++) {
-        for (int j = 0; j < 3; j++) mpq_init(c[k][j]);
-        set_coordinate(c[k], &p, count > 1 ? &q : NULL, k);
-        for (int j = 0; j < 3; j++) mpz_lcm(out->w, out->w, mpq_denref(c[k][j]));
-    }
-    for (int k = 0; k < 2; k++) {
-        for (int j = 0; j < 3; j++) {
-            mpz_divexact(out->x[k].c[j], out->w, mpq_denref(c[k][j]));
-            mpz_mul(out->x[k].c[j], out->x[k].c[j], mpq_numref(c[k][j]));
-            mpq_clear(c[k][j]);
-        }
-        poly_trim(&out->x[k], 2);
-    }
+    mpq_t c[2][5], w[5];
+    mpq_t *const all[3] = {c[0], c[1], w};
+    for (int n = 0; n < 3; n++) numbers(all[n], 5, true);
+    for (int k = 0; k < 2; k++) set_coordinate(c[k], &p, count > 1 ? &q : NULL, k);
+    mpq_set_ui(w[0], 1, 1);
+    take_whole(out, c, w);
+    for (int n = 0; n < 3; n++) numbers(all[n], 5, false);
 }
 
 /* (b - a) times both denominators */
 static void difference(poly *out, const curve *a, const curve *b, int k) {
-    for (int i = 0; i < 3; i++) {
+    poly left, right;
+    poly_init(&left), poly_init(&right);
+    poly_mul(&left, &b->x[k], &a->w);
+    poly_mul(&right, &a->x[k], &b->w);
+    const int most = left.degree > right.degree ? left.degree : right.degree;
+    for (int i = 0; i <= most; i++) {
         mpz_set_ui(out->c[i], 0);
-        if (i <= b->x[k].degree) mpz_mul(out->c[i], b->x[k].c[i], a->w);
-        if (i <= a->x[k].degree) mpz_submul(out->c[i], a->x[k].c[i], b->w);
+        if (i <= left.degree) mpz_set(out->c[i], left.c[i]);
+        if (i <= right.degree) mpz_sub(out->c[i], out->c[i], right.c[i]);
     }
-    poly_trim(out, 2);
+    poly_trim(out, most);
+    poly_clear(&left), poly_clear(&right);
 }
 
 /* The turn of a, b, c. */
@@ -469,8 +557,7 @@ static void tell_stretch(const stretch *s, story *tale, bool first) {
 static void stretch_set(stretch *s, const froe_motion *m, const uint32_t v[4], double from, double to) {
     curve c[4];
     for (int i = 0; i < 4; i++) {
-        mpz_init(c[i].w);
-        poly_init(&c[i].x[0]), poly_init(&c[i].x[1]);
+        poly_init(&c[i].x[0]), poly_init(&c[i].x[1]), poly_init(&c[i].w);
         curve_set(&c[i], m, v[i], from);
     }
     for (int i = 0; i < 2; i++) {
@@ -496,8 +583,7 @@ static void stretch_set(stretch *s, const froe_motion *m, const uint32_t v[4], d
     s->sturm = chain_of(&s->all);
     poly_clear(&product), poly_clear(&part);
     for (int i = 0; i < 4; i++) {
-        mpz_clear(c[i].w);
-        poly_clear(&c[i].x[0]), poly_clear(&c[i].x[1]);
+        poly_clear(&c[i].x[0]), poly_clear(&c[i].x[1]), poly_clear(&c[i].w);
     }
 }
 
@@ -529,11 +615,17 @@ void oracle_contacts_clear(oracle_contacts *c) {
 }
 
 static double next_knot(const froe_motion *m, const uint32_t v[4], double from, double to) {
-    for (int i = 0; i < 4; i++)
+    for (int i = 0; i < 4; i++) {
+        const uint32_t body = froe_motion_vertex_body(m, v[i]);
+        for (size_t k = 0; k < froe_motion_body_knot_count(m, body); k++) {
+            double t = froe_motion_body_knot(m, body, k).time;
+            if (t > from && t < to) to = t;
+        }
         for (size_t k = 0; k < froe_motion_knot_count(m, v[i]); k++) {
             double t = froe_motion_knot(m, v[i], k).time;
             if (t > from && t < to) to = t;
         }
+    }
     return to;
 }
 

@@ -96,8 +96,11 @@ static int germ_det_sign(const germ *a, const germ *b, const germ *c, const germ
     return sign;
 }
 
-static double germ_near(const germ *a) {
-    return mpz_get_d(a->c[0][0]);
+/* a / b but for rounding, however long they are. */
+static double quotient_near(const mpz_t a, const mpz_t b) {
+    long up, down;
+    const double top = mpz_get_d_2exp(&up, a), bottom = mpz_get_d_2exp(&down, b);
+    return ldexp(top / bottom, (int)(up - down));
 }
 
 static void point_init(germ_point *p) {
@@ -140,39 +143,130 @@ static void blend(mpq_t out[3], mpq_t p[3], mpq_t q[3], const mpq_t a, const mpq
     mpq_clear(step), mpq_clear(term);
 }
 
-/* De Casteljau's algorithm, with the share of the way as a polynomial of degree 1. */
-static void fly(flight *f, const froe_motion *m, uint32_t vertex, double time) {
-    const size_t count = froe_motion_knot_count(m, vertex);
-    size_t knot = 0;
-    while (knot + 2 < count && froe_motion_knot(m, vertex, knot + 1).time <= time) knot++;
-    const froe_moving_knot from = froe_motion_knot(m, vertex, knot);
-    for (int k = 0; k < 2; k++) {
-        mpq_set_d(f->c[k][0], from.at[k]);
-        mpq_set_ui(f->c[k][1], 0, 1), mpq_set_ui(f->c[k][2], 0, 1);
-    }
-    if (count == 1) return;
-    const froe_moving_knot to = froe_motion_knot(m, vertex, knot + 1);
-    mpq_t share, speed, length, p[5][3];
-    mpq_init(share), mpq_init(speed), mpq_init(length);
-    for (int n = 0; n < 5; n++)
-        for (int i = 0; i < 3; i++) mpq_init(p[n][i]);
-    mpq_set_d(length, to.time), mpq_set_d(speed, from.time), mpq_sub(length, length, speed);
+/* The share of the way between two knots that has passed at a time, and by how much it grows. */
+static void share_of(mpq_t share, mpq_t speed, double from, double to, double time) {
+    mpq_t length;
+    mpq_init(length);
+    mpq_set_d(length, to), mpq_set_d(speed, from), mpq_sub(length, length, speed);
     mpq_set_d(share, time), mpq_sub(share, share, speed), mpq_div(share, share, length);
     mpq_inv(speed, length);
+    mpq_clear(length);
+}
+
+/* De Casteljau's algorithm, with the share of the way as a polynomial of degree 1. `to` NULL: it stands still. */
+static void fly_between(flight *f, const froe_moving_knot *from, const froe_moving_knot *to, double time) {
     for (int k = 0; k < 2; k++) {
-        mpq_set_d(p[0][0], from.at[k]), mpq_set_d(p[2][0], to.at[k]);
-        if (isnan(from.control[0])) {
+        mpq_set_d(f->c[k][0], from->at[k]);
+        mpq_set_ui(f->c[k][1], 0, 1), mpq_set_ui(f->c[k][2], 0, 1);
+    }
+    if (!to) return;
+    mpq_t share, speed, p[5][3];
+    mpq_init(share), mpq_init(speed);
+    for (int n = 0; n < 5; n++)
+        for (int i = 0; i < 3; i++) mpq_init(p[n][i]);
+    share_of(share, speed, from->time, to->time, time);
+    for (int k = 0; k < 2; k++) {
+        mpq_set_d(p[0][0], from->at[k]), mpq_set_d(p[2][0], to->at[k]);
+        if (isnan(from->control[0])) {
             blend(f->c[k], p[0], p[2], share, speed);
             continue;
         }
-        mpq_set_d(p[1][0], from.control[k]);
+        mpq_set_d(p[1][0], from->control[k]);
         blend(p[3], p[0], p[1], share, speed);
         blend(p[4], p[1], p[2], share, speed);
         blend(f->c[k], p[3], p[4], share, speed);
     }
     for (int n = 0; n < 5; n++)
         for (int i = 0; i < 3; i++) mpq_clear(p[n][i]);
-    mpq_clear(share), mpq_clear(speed), mpq_clear(length);
+    mpq_clear(share), mpq_clear(speed);
+}
+
+/* out += sign a b, up to the square. */
+static void add_series(mpq_t out[3], int sign, mpq_t a[3], mpq_t b[3]) {
+    mpq_t term;
+    mpq_init(term);
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; i + j < 3; j++) {
+            mpq_mul(term, a[i], b[j]);
+            if (sign < 0) mpq_neg(term, term);
+            mpq_add(out[i + j], out[i + j], term);
+        }
+    mpq_clear(term);
+}
+
+/* a /= b, up to the square, by long division. */
+static void divide_series(mpq_t a[3], mpq_t b[3]) {
+    mpq_t term;
+    mpq_init(term);
+    for (int i = 0; i < 3; i++) {
+        for (int j = 0; j < i; j++) {
+            mpq_mul(term, a[j], b[i - j]);
+            mpq_sub(a[i], a[i], term);
+        }
+        mpq_div(a[i], a[i], b[0]);
+    }
+    mpq_clear(term);
+}
+
+/* The turn by (w + i z)^2 / |w + i z|^2 as a complex number. */
+static void turn_series(const froe_body_knot *from, const froe_body_knot *to, double time, mpq_t cosine[3],
+                        mpq_t sine[3]) {
+    mpq_t share, speed, step, square[3], q[2][3];
+    mpq_init(share), mpq_init(speed), mpq_init(step);
+    for (int i = 0; i < 3; i++) mpq_init(square[i]), mpq_init(q[0][i]), mpq_init(q[1][i]);
+    if (to) share_of(share, speed, from->time, to->time, time);
+    for (int k = 0; k < 2; k++) {
+        mpq_set_d(q[k][0], from->turn[2 + k]);
+        mpq_set_d(step, (to ? to : from)->turn[2 + k]);
+        mpq_sub(step, step, q[k][0]);
+        mpq_mul(q[k][1], step, speed);
+        mpq_mul(step, step, share);
+        mpq_add(q[k][0], q[k][0], step);
+        add_series(square, 1, q[k], q[k]);
+        add_series(cosine, k ? 1 : -1, q[k], q[k]);
+    }
+    for (int i = 0; i < 2; i++) add_series(sine, 1, q[0], q[1]);
+    divide_series(cosine, square), divide_series(sine, square);
+    for (int i = 0; i < 3; i++) mpq_clear(square[i]), mpq_clear(q[0][i]), mpq_clear(q[1][i]);
+    mpq_clear(share), mpq_clear(speed), mpq_clear(step);
+}
+
+/* A place in a body, up to the square of the time since the instant. */
+static void fly_in_body(flight *f, const froe_motion *m, uint32_t vertex, double time) {
+    const uint32_t body = froe_motion_vertex_body(m, vertex);
+    const size_t count = froe_motion_body_knot_count(m, body);
+    size_t knot = 0;
+    while (knot + 2 < count && froe_motion_body_knot(m, body, knot + 1).time <= time) knot++;
+    const froe_body_knot from = froe_motion_body_knot(m, body, knot);
+    const froe_body_knot to = count > 1 ? froe_motion_body_knot(m, body, knot + 1) : from;
+    const froe_moving_knot centre[2] = {{from.time, {from.at[0], from.at[1]}, {from.control[0], from.control[1]}},
+                                        {to.time, {to.at[0], to.at[1]}, {0}}};
+    const froe_moving_knot place = froe_motion_knot(m, vertex, 0);
+    mpq_t turn[2][3], at[2][3];
+    for (int k = 0; k < 2; k++)
+        for (int i = 0; i < 3; i++) mpq_init(turn[k][i]), mpq_init(at[k][i]);
+    fly_between(f, centre, count > 1 ? centre + 1 : NULL, time);
+    turn_series(&from, count > 1 ? &to : NULL, time, turn[0], turn[1]);
+    for (int k = 0; k < 2; k++) mpq_set_d(at[k][0], place.at[k]);
+    for (int k = 0; k < 2; k++) {
+        add_series(f->c[k], 1, turn[k], at[0]);
+        add_series(f->c[k], k ? 1 : -1, turn[!k], at[1]);
+    }
+    for (int k = 0; k < 2; k++)
+        for (int i = 0; i < 3; i++) mpq_clear(turn[k][i]), mpq_clear(at[k][i]);
+}
+
+static void fly(flight *f, const froe_motion *m, uint32_t vertex, double time) {
+    if (froe_motion_vertex_body(m, vertex) != FROE_NONE) {
+        fly_in_body(f, m, vertex, time);
+        return;
+    }
+    const size_t count = froe_motion_knot_count(m, vertex);
+    size_t knot = 0;
+    while (knot + 2 < count && froe_motion_knot(m, vertex, knot + 1).time <= time) knot++;
+    const froe_moving_knot from = froe_motion_knot(m, vertex, knot);
+    const froe_moving_knot to = count > 1 ? froe_motion_knot(m, vertex, knot + 1) : from;
+    fly_between(f, &from, count > 1 ? &to : NULL, time);
 }
 
 /* The polynomial times the scale, which makes it whole. */
@@ -491,7 +585,7 @@ bool present_is_on(const present *p, uint32_t s, const double at[2]) {
 }
 
 static double near(const present *p, const germ *a) {
-    return germ_near(a) / mpz_get_d(p->scale);
+    return quotient_near(a->c[0][0], p->scale);
 }
 
 bool present_is_near(const present *p, uint32_t s, const double at[2]) {
@@ -617,8 +711,8 @@ bool present_share(present *p, uint32_t segment, const double from[2], const dou
     part i;
     take_query(p, from, &a), take_query(p, to, &b);
     part_init(&i);
-    const bool some = meet(p, segment, &a, &b, &i.at[0]) && germ_near(&i.at[0].den) != 0;
-    if (some) *share = germ_near(&i.at[0].num) / germ_near(&i.at[0].den);
+    const bool some = meet(p, segment, &a, &b, &i.at[0]) && mpz_sgn(i.at[0].den.c[0][0]);
+    if (some) *share = quotient_near(i.at[0].num.c[0][0], i.at[0].den.c[0][0]);
     part_clear(&i);
     point_clear(&a), point_clear(&b);
     return some;

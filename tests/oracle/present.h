@@ -3,6 +3,9 @@
  * two infinitesimals: d, the time since the instant, and e, by which vertical lines are inclined, which is smaller than
  * every power of d. The first coefficient that is not 0 tells the sign: 1, d, d^2, .., e, e d, ..
  *
+ * Where a body turns, only the coefficients up to d^2 are right, which suffices where no more coincides than places at
+ * the instant.
+ *
  * What a segment has in a cell is an interval of the segment, between the solutions of linear inequalities, one for
  * each border of the cell. */
 #ifndef FROE_TESTS_ORACLE_PRESENT_H

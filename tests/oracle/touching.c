@@ -39,7 +39,7 @@ static void on_piece(const froe_moving_knot *p, const froe_moving_knot *q, const
     for (int k = 0; k < 3; k++) {
         mpq_set_d(from, p->at[k]);
         mpq_set_d(out[k], q->at[k]);
-        if (isnan(p->control[0])) {
+        if (isnan(p->control[k])) {
             go_between(from, out[k], s);
             continue;
         }

@@ -6,13 +6,13 @@
 #include "oracle/moving.h"
 
 /* Do the two enclosures of one instant overlap, and is ours as narrow as doubles allow? */
-static inline void judge_same_instant(const double ours[2], mpq_t theirs[2]) {
+static inline void judge_same_instant(const froe_motion *m, const double ours[2], mpq_t theirs[2]) {
     mpq_t low, high;
     mpq_inits(low, high, NULL);
     mpq_set_d(low, ours[0]);
     mpq_set_d(high, ours[1]);
     assert_true(mpq_cmp(low, theirs[1]) <= 0 && mpq_cmp(theirs[0], high) <= 0);
-    assert_true(ours[1] - ours[0] <= 8 * 0x1p-50); /* times up to 8 */
+    assert_true(ours[1] - ours[0] <= froe_motion_window(m).end * 0x1p-50);
     mpq_clears(low, high, NULL);
 }
 
@@ -36,8 +36,8 @@ static inline void judge_pair(const froe_motion *m, const found *f, uint32_t a, 
     assert_int_equal(judge_of_pair(f, a, b, ours), truth->count);
     for (int i = 0; i < truth->count; i++) {
         oracle_contact *c = &truth->list[i];
-        judge_same_instant(ours[i]->begin, c->begin);
-        judge_same_instant(ours[i]->end, c->end);
+        judge_same_instant(m, ours[i]->begin, c->begin);
+        judge_same_instant(m, ours[i]->end, c->end);
         assert_int_equal(ours[i]->instant, c->instant);
         assert_int_equal(ours[i]->since_start, c->since_start);
         assert_int_equal(ours[i]->to_stop, c->to_stop);
@@ -46,6 +46,12 @@ static inline void judge_pair(const froe_motion *m, const found *f, uint32_t a, 
         t->from_start += c->since_start;
         t->lasting += !c->instant;
     }
+}
+
+/* Two objects of one body. */
+static inline bool judge_is_left_out(const froe_motion *m, uint32_t a, uint32_t b) {
+    const uint32_t body = froe_motion_vertex_body(m, froe_motion_object(m, a).vertices[0]);
+    return body != FROE_NONE && body == froe_motion_vertex_body(m, froe_motion_object(m, b).vertices[0]);
 }
 
 /** All contacts of the motion, by one thread and by three. */
@@ -61,7 +67,8 @@ static inline void judge_contacts(const froe_motion *m, judged_contacts *t) {
     oracle_contacts truth;
     oracle_contacts_init(&truth);
     for (uint32_t a = 0; a < froe_motion_object_count(m); a++)
-        for (uint32_t b = a + 1; b < froe_motion_object_count(m); b++) judge_pair(m, &f, a, b, &truth, t);
+        for (uint32_t b = a + 1; b < froe_motion_object_count(m); b++)
+            if (!judge_is_left_out(m, a, b)) judge_pair(m, &f, a, b, &truth, t);
     oracle_contacts_clear(&truth);
 }
 #endif

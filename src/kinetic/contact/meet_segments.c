@@ -3,9 +3,10 @@
  * Two closed segments p0p1 and q0q1 meet iff the signs of twelve polynomials in time allow it: of the four turns
  *     o0 = [p0 p1 q0], o1 = [p0 p1 q1], o2 = [q0 q1 p0], o3 = [q0 q1 p1]     (degree up to 4)
  * o0 o1 <= 0 and o2 o3 <= 0, and where all four are 0 also their bounding boxes overlap, which is up to the differences
- * of coordinates (degree up to 2).
+ * of coordinates (degree up to 2). Where bodies turn, both have degree up to 6 (strokes.h).
  *
  * Error bounds first: most pairs stay apart for a simple reason. Then exactly. */
+#include "kinetic/contact/strokes.h"
 #include "kinetic/contact/walk.h"
 
 enum { TURNS = 4, GAPS = 8 /* the polynomials, in this order */ };
@@ -43,13 +44,21 @@ static bool all_alike(const num_ball_poly *f, int count) {
     return sign != NUM_UNSURE;
 }
 
+static bool is_turning(const motion_piece piece[4]) {
+    return piece[0].corner || piece[2].corner;
+}
+
 static bool surely_apart(const froe_motion *m, walk_room *w, const motion_piece piece[4]) {
     motion_ball_curve v[4];
     num_ball_poly gap[GAPS], turn[TURNS];
-    for (int i = 0; i < 4; i++) motion_span_ball(m, &piece[i], w->from, w->to, &v[i]);
-    gaps_ball(NULL, v, v + 2, gap);
+    if (is_turning(piece)) {
+        strokes_near(m, piece, w->from, w->to, gap, turn);
+    } else {
+        for (int i = 0; i < 4; i++) motion_span_ball(m, &piece[i], w->from, w->to, &v[i]);
+        gaps_ball(NULL, v, v + 2, gap);
+    }
     if (all_alike(gap, 4) || all_alike(gap + 4, 4)) return true;
-    turns_ball(NULL, v, v + 2, gap, turn);
+    if (!is_turning(piece)) turns_ball(NULL, v, v + 2, gap, turn);
     for (int i = 0; i < TURNS; i++) w->sign[i] = (signed char)num_ball_poly_sign_throughout(&turn[i]);
     return (w->sign[0] != NUM_UNSURE && w->sign[0] == w->sign[1]) ||
            (w->sign[2] != NUM_UNSURE && w->sign[2] == w->sign[3]);
@@ -61,11 +70,15 @@ static bool surely_apart(const froe_motion *m, walk_room *w, const motion_piece 
 static bool list_events(const froe_motion *m, const meeting *g, const motion_piece piece[4]) {
     walk_room *w = g->w;
     motion_dyadic_curve v[4];
-    for (int i = 0; i < 4; i++) motion_span_dyadic(g->arena, m, &piece[i], w->from, w->to, &v[i]);
-    gaps_dyadic(g->arena, v, v + 2, w->f + TURNS);
-    turns_dyadic(g->arena, v, v + 2, w->f + TURNS, w->f);
+    if (is_turning(piece)) {
+        strokes_exact(g->arena, m, piece, w->from, w->to, w->f + TURNS, w->f);
+    } else {
+        for (int i = 0; i < 4; i++) motion_span_dyadic(g->arena, m, &piece[i], w->from, w->to, &v[i]);
+        gaps_dyadic(g->arena, v, v + 2, w->f + TURNS);
+        turns_dyadic(g->arena, v, v + 2, w->f + TURNS, w->f);
+    }
     bool flat = true;
-    for (int i = 0; i < TURNS + GAPS; i++) num_poly_trim(&w->f[i], i < TURNS ? 4 : 2);
+    for (int i = 0; i < TURNS + GAPS; i++) num_poly_trim(&w->f[i], w->f[i].degree);
     for (int i = 0; i < TURNS; i++) flat = flat && w->f[i].degree < 0;
     bool told = true;
     for (int i = flat ? TURNS : 0; i < (flat ? TURNS + GAPS : TURNS) && told && w->from < w->to; i++)

@@ -138,10 +138,14 @@ void motion_span_dyadic(num_arena *arena, const froe_motion *m, const motion_pie
                         motion_dyadic_curve *out);
 void motion_span_ball(const froe_motion *m, const motion_piece *piece, double from, double to, motion_ball_curve *out);
 
-/* Bodies. All above is then about the centre, but for motion_extend(). A quaternion x, y, z, w that turns in proportion
- * to q, as polynomials in shares of the time:  q[i] = c[i][0] + c[i][1] s.  Returns the degree, 0 or 1. */
+/* Bodies. All above is then about the centre, but for motion_near() and motion_extend(). A quaternion x, y, z, w that
+ * turns in proportion to q, as polynomials in shares of the time:  q[i] = c[i][0] + c[i][1] s.  Returns the degree, 0
+ * or 1. */
 int motion_turn_dyadic(num_arena *arena, const froe_motion *m, const motion_piece *piece, double from, double to,
                        num_dyadic c[4][2]);
+/** The same in ticks counted from `tick`. */
+int motion_tick_turn_dyadic(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick,
+                            num_dyadic c[4][2]);
 int motion_turn_ball(const froe_motion *m, const motion_piece *piece, double from, double to, num_ball c[4][2]);
 
 /** A vertex of a body between two times. With u from 0 to 1 in proportion to time it is at

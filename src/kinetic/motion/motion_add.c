@@ -212,7 +212,8 @@ static froe_status take_corner(const plan_adding *a, uint32_t j, uint32_t k, mot
     const motion_plan *plan = m->plans.data + o->vertices[k];
     if (m->plans.data[o->vertices[0]].body != plan->body)
         return support_fail_at(a->diag, FROE_E_INPUT, j, (uint32_t)v, FROE_NONE,
-                               "triangle %u: Its corners do not belong to the same body.", j);
+                               "%s %u: Its %s do not belong to the same body.", motion_noun(m), j,
+                               m->dim == 2 ? "ends" : "corners");
     if (plan->body != FROE_NONE) plan = &m->bodies.data[plan->body].plan;
     return check_cover(a, plan, (uint32_t)v, j, o->birth, o->death);
 }
@@ -282,18 +283,26 @@ static double product_of_turns(const double *p, const double *q) {
     return p[0] * q[0] + p[1] * q[1] + p[2] * q[2] + p[3] * q[3];
 }
 
-/* Turn i of a body; of q and -q, that which is nearer to the one before. */
+static froe_status fail_length(const plan_adding *a, const plan_input *p, const double *q, size_t i) {
+    if (a->motion->dim == 2)
+        return support_fail(a->diag, FROE_E_INPUT, "body %u: The pair of turn %zu, %g %g, has not the length 1.",
+                            p->vertex, i, q[2], q[3]);
+    return support_fail(a->diag, FROE_E_INPUT,
+                        "body %u: The quaternion of turn %zu, %g %g %g %g, has not the length 1.", p->vertex, i, q[0],
+                        q[1], q[2], q[3]);
+}
+
+/* Turn i of a body, in the plane z and w; of q and -q, that which is nearer to the one before. */
 static froe_status take_turn(plan_adding *a, const plan_input *p, const double *q, size_t i, motion_turn *out) {
     static const char *const names[4] = {"x of turn", "y of turn", "z of turn", "w of turn"};
     const double near = 0x1p-20;
     froe_status status = FROE_OK;
-    for (size_t k = 0; k < 4 && !status; k++) status = take_number(a, p, i, names[k], q[k], &out->q[k]);
+    const size_t first = a->motion->dim == 2 ? 2 : 0;
+    *out = (motion_turn){{0}};
+    for (size_t k = first; k < 4 && !status; k++) status = take_number(a, p, i, names[k], q[k - first], &out->q[k]);
     if (status) return status;
     const double square = product_of_turns(out->q, out->q);
-    if (!(fabs(square - 1) <= near))
-        return support_fail(a->diag, FROE_E_INPUT,
-                            "body %u: The quaternion of turn %zu, %g %g %g %g, has not the length 1.", p->vertex, i,
-                            q[0], q[1], q[2], q[3]);
+    if (!(fabs(square - 1) <= near)) return fail_length(a, p, out->q, i);
     const double along = i ? product_of_turns(out[-1].q, out->q) : 1;
     if (fabs(along) <= near)
         return support_fail(a->diag, FROE_E_INPUT,
@@ -306,9 +315,9 @@ static froe_status take_turn(plan_adding *a, const plan_input *p, const double *
 froe_status froe_motion_add_body(froe_motion *m, const froe_body *body, uint32_t *id, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     static const double upright[4] = {0, 0, 0, 1};
+    const size_t each = m && m->dim == 2 ? 2 : 4;
     if (!m || !body) return support_fail_null(diag, __func__);
     if (body->size != sizeof *body) return support_fail_defaults(diag, "froe_body_defaults");
-    if (m->dim != 3) return support_fail(diag, FROE_E_UNSUPPORTED, "The plane has no bodies.");
     if (!body->times || !body->coords) return support_fail_null(diag, __func__);
     plan_adding a = begin_adding(m, NULL, diag);
     const plan_input input = {body->count, body->times, body->coords, body->controls, (uint32_t)m->bodies.count,
@@ -322,7 +331,8 @@ froe_status froe_motion_add_body(froe_motion *m, const froe_body *body, uint32_t
     out->turns = m->turns.count;
     froe_status status = take_plan(&a, &input, &out->plan);
     for (size_t i = 0; i < body->count && !status; i++)
-        status = take_turn(&a, &input, body->turns ? body->turns + 4 * i : upright, i, m->turns.data + out->turns + i);
+        status = take_turn(&a, &input, body->turns ? body->turns + each * i : upright + 4 - each, i,
+                           m->turns.data + out->turns + i);
     if (status) return status;
     commit(&a);
     m->turns.count += body->count;

@@ -383,7 +383,8 @@ froe_status froe_motion_without_bodies(const froe_motion *motion, double deviati
                                        froe_motion **out, double *reached, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!motion || !out) return support_fail_null(diag, __func__);
-    if (motion->dim == 2) return support_fail(diag, FROE_E_UNSUPPORTED, "The plane has no bodies.");
+    if (motion->dim == 2)
+        return support_fail(diag, FROE_E_UNSUPPORTED, "Bodies of the plane are followed as they are.");
     if (!(deviation > 0) || !isfinite(deviation))
         return support_fail(diag, FROE_E_ARG, "A deviation of %g is not a number above 0.", deviation);
     const froe_allocator memory = support_allocator(alloc);

@@ -122,6 +122,11 @@ int motion_turn_dyadic(num_arena *arena, const froe_motion *m, const motion_piec
     return turn_curve_dyadic(arena, m, piece, num_dyadic_sub(arena, a, begin), num_dyadic_sub(arena, b, a), c);
 }
 
+int motion_tick_turn_dyadic(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick,
+                            num_dyadic c[4][2]) {
+    return turn_curve_dyadic(arena, m, piece, dyadic_ticks(arena, m, tick), dyadic_ticks(arena, m, 1), c);
+}
+
 int motion_turn_ball(const froe_motion *m, const motion_piece *piece, double from, double to, num_ball c[4][2]) {
     const num_ball a = num_ball_from(from), b = num_ball_from(to);
     return turn_curve_ball(NULL, m, piece, num_ball_sub(a, num_ball_from(m->begin)), num_ball_sub(b, a), c);
@@ -156,17 +161,6 @@ static num_ball share_of_piece(const froe_motion *m, const motion_piece *piece, 
     return divide_place(w.b, num_ball_add(w.a, w.b));
 }
 
-double motion_near(const froe_motion *m, const motion_piece *piece, int64_t tick, double *out) {
-    num_ball share = share_of_piece(m, piece, ball_ticks(m, tick));
-    double error = 0;
-    for (int k = 0; k < m->dim; k++) {
-        const num_ball x = along(piece, share, share, k);
-        out[k] = x.x;
-        if (!(x.e <= error)) error = x.e < (double)INFINITY ? x.e : (double)INFINITY; /* NaN, too */
-    }
-    return error;
-}
-
 static void extend(num_ball x, double *lo, double *hi) {
     double low = nextafter(x.x - x.e, -DBL_MAX), high = nextafter(x.x + x.e, DBL_MAX);
     if (!(low >= *lo)) *lo = low >= -DBL_MAX ? low : -DBL_MAX;
@@ -195,6 +189,20 @@ static num_ball turned(const num_ball p[4], const num_ball q[4], const double *v
     sum = num_ball_add(sum, num_ball_mul(num_ball_sub(mixed[0], mixed[3]), num_ball_from(v[i])));
     sum = num_ball_add(sum, num_ball_mul(num_ball_add(mixed[1], mixed[2]), num_ball_from(v[j])));
     return divide_place(sum, whole);
+}
+
+double motion_near(const froe_motion *m, const motion_piece *piece, int64_t tick, double *out) {
+    num_ball share = share_of_piece(m, piece, ball_ticks(m, tick));
+    double error = 0;
+    num_ball turn[4];
+    if (piece->corner) quaternion_at(piece, share, turn);
+    for (int k = 0; k < m->dim; k++) {
+        num_ball x = along(piece, share, share, k);
+        if (piece->corner) x = num_ball_add(x, turned(turn, turn, piece->corner, k));
+        out[k] = x.x;
+        if (!(x.e <= error)) error = x.e < (double)INFINITY ? x.e : (double)INFINITY; /* NaN, too */
+    }
+    return error;
 }
 
 /* The arc of a vertex of a body between two shares lies between its ends and where its tangents meet. */
@@ -236,7 +244,7 @@ void motion_extend(const froe_motion *m, const motion_piece *piece, double from,
     for (int k = 0; k < 3; k++) arm_lo[k] = centre_lo[k] = DBL_MAX, arm_hi[k] = centre_hi[k] = -DBL_MAX;
     extend_by_flight(m, piece, s, t, centre_lo, centre_hi);
     extend_by_turn(piece, s, t, arm_lo, arm_hi);
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < m->dim; k++) {
         extend((num_ball){bound_sum(centre_lo[k], arm_lo[k]), 0}, &lo[k], &hi[k]);
         extend((num_ball){bound_sum(centre_hi[k], arm_hi[k]), 0}, &lo[k], &hi[k]);
     }

@@ -1,5 +1,6 @@
 /* poly.c: polynomials in time. */
 #include "kinetic/motion/poly.h"
+#include "kinetic/motion/lines.h"
 
 static num_dyadic minus_exact(num_dyadic a) {
     a.sign = -a.sign;
@@ -58,6 +59,10 @@ static num_wide minus_wide(num_wide a) {
     } while (0)
 
 void exact_vertex(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick, exact_point *out) {
+    if (piece->corner) {
+        exact_vertex_in(arena, m, piece, tick, true, out);
+        return;
+    }
     motion_dyadic_curve curve;
     motion_curve_dyadic(arena, m, piece, tick, &curve);
     CURVE_TO_POINT(curve, out);
@@ -65,6 +70,10 @@ void exact_vertex(num_arena *arena, const froe_motion *m, const motion_piece *pi
 
 void exact_vertex_at(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick,
                      exact_point *out) {
+    if (piece->corner) {
+        exact_vertex_in(arena, m, piece, tick, false, out);
+        return;
+    }
     num_dyadic at[4];
     motion_dyadic(arena, m, piece, tick, at);
     out->x.degree = out->y.degree = out->z.degree = out->w.degree = 0;
@@ -74,6 +83,14 @@ void exact_vertex_at(num_arena *arena, const froe_motion *m, const motion_piece 
 
 void exact_crossing(num_arena *arena, const exact_point p[4], exact_point *out) {
     cross_lines_exact(arena, p, out);
+}
+
+int exact_compare_points(num_arena *arena, const exact_point *p, const exact_point *q, bool both) {
+    return compare_points_exact(arena, p, q, both);
+}
+
+void exact_claim_points(num_arena *arena, const exact_point *p, const exact_point *q, int axis, poly_exact *out) {
+    claim_points_exact(arena, p, q, axis, out);
 }
 
 void exact_turn(num_arena *arena, const exact_point v[3], poly_exact *out) {
@@ -101,15 +118,15 @@ int wide_variations(const poly_wide *p, int64_t low, int power, int *sign) {
 }
 
 int short_order_sign(const short_point *v, const int count[2], bool both) {
-    return compare_points_short(NULL, v, count, both);
+    return compare_named_short(NULL, v, count, both);
 }
 
 int wide_order_sign(const wide_point *v, const int count[2], bool both) {
-    return compare_points_wide(NULL, v, count, both);
+    return compare_named_wide(NULL, v, count, both);
 }
 
 int exact_order_sign(num_arena *arena, const exact_point *v, const int count[2], bool both) {
-    return compare_points_exact(arena, v, count, both);
+    return compare_named_exact(arena, v, count, both);
 }
 
 int short_turn_sign(const short_point v[3]) {

@@ -48,11 +48,15 @@ void exact_crossing(num_arena *arena, const exact_point p[4], exact_point *out);
 void wide_order(const wide_point *v, const int count[2], int axis, poly_wide *out);
 void exact_order(num_arena *arena, const exact_point *v, const int count[2], int axis, poly_exact *out);
 
+/** The same of two points, whose denominators may have any sign. */
+void exact_claim_points(num_arena *arena, const exact_point *p, const exact_point *q, int axis, poly_exact *out);
+
 #define POLY_PARALLEL 2 /**< no order: lines do not cross */
 /** -1, 0, 1 as p is before, at or behind q just after time 0, in x, then, if `both`, in y. */
 int short_order_sign(const short_point *v, const int count[2], bool both);
 int wide_order_sign(const wide_point *v, const int count[2], bool both);
 int exact_order_sign(num_arena *arena, const exact_point *v, const int count[2], bool both);
+int exact_compare_points(num_arena *arena, const exact_point *p, const exact_point *q, bool both);
 
 /** > 0: the vertex v[2] is on the left of v[0] v[1]. */
 void wide_turn(const wide_point v[3], poly_wide *out);

@@ -54,6 +54,11 @@ void now_look_up(now_state *now, uint32_t vertex) {
     c->last = bend->piece.last < m->last_tick ? bend->piece.last : m->last_tick | 1;
     c->base = now->tick;
     c->degree = (uint32_t)bend->piece.degree;
+    if (bend->piece.corner) {
+        *c = (now_course){.base = c->base, .last = c->last, .degree = NOW_TURNING};
+        bend->tick = INT64_MIN;
+        return;
+    }
     motion_ball_curve p;
     const int degree = bend->piece.degree;
     double x[3], y[3];
@@ -75,6 +80,7 @@ int64_t now_course_last(now_state *now, uint32_t vertex) {
 double now_speed(now_state *now, uint32_t vertex) {
     const now_course *c = now_course_of(now, vertex);
     const now_bend *bend = now->bends.data + vertex;
+    if (c->degree == NOW_TURNING) return now_turning_speed(now, vertex);
     double x = fabs(c->x[1]), y = fabs(c->y[1]);
     if (c->degree == 2) x += 2 * span_of(c) * fabs(bend->x), y += 2 * span_of(c) * fabs(bend->y);
     return (x > y ? x : y) * (1 + 0x1p-20);

@@ -4,7 +4,7 @@
  * Vertices whose pieces last from the same instant to the same instant share their denominator, as most do. Then it is
  * left out, for no order and no side depends on a common scale. The width of results follows from the width of the
  * vertices at this tick; the formulas are those of poly_body.inc. */
-#include "kinetic/now/now.h"
+#include "kinetic/now/turning.h"
 
 enum { SHORT_BITS = 126, WIDE_BITS = NUM_WIDE_BITS - 1, VERTICES = 8 };
 
@@ -16,6 +16,7 @@ typedef struct judge_cast {
     uint32_t vertex[VERTICES];
     motion_whole_curve curve[VERTICES];
     int count, degree, place, weight;
+    bool turning; /* one of them is of a body */
 } judge_cast;
 
 static const motion_piece *piece_of(const judge_cast *c, int i) {
@@ -25,8 +26,9 @@ static const motion_piece *piece_of(const judge_cast *c, int i) {
 static void cast_vertex(judge_cast *c, uint32_t vertex) {
     now_course_of(c->now, vertex);
     c->vertex[c->count] = vertex;
-    int degree = piece_of(c, c->count++)->degree;
-    c->degree = degree > c->degree ? degree : c->degree;
+    const motion_piece *piece = piece_of(c, c->count++);
+    c->turning = c->turning || piece->corner;
+    c->degree = piece->degree > c->degree ? piece->degree : c->degree;
 }
 
 /* How many vertices are behind it: 1 or 4. */
@@ -97,6 +99,7 @@ static void drop_weights(judge_cast *c) {
 static bool cast_integers(judge_cast *c) {
     const froe_motion *m = c->now->motion;
     const int64_t tick = c->now->tick;
+    if (c->turning) return false;
     for (int i = 0; i < c->count; i++) {
         motion_whole_curve *v = c->curve + i;
         num_short at[4];
@@ -213,9 +216,31 @@ static int judge_wide(const judge_cast *c, const judge_question *ask) {
     return ask->what == JUDGE_TURN ? wide_turn_sign(v) : wide_lines_sign(v);
 }
 
+/* The polynomial of a question about sides or lines, where bodies turn. */
+static void turning_polynomial(const judge_cast *c, const judge_question *ask, poly_exact *out) {
+    if (ask->what == JUDGE_TURN)
+        now_turning_side(c->now, c->vertex, c->along, out);
+    else
+        now_turning_lines(c->now, c->vertex, c->along, out);
+}
+
+static int judge_turning(const judge_cast *c, const judge_question *ask) {
+    poly_exact side;
+    exact_point p[2];
+    c->now->context.arena.top = 0;
+    if (ask->what != JUDGE_ORDER) {
+        turning_polynomial(c, ask, &side);
+        return exact_sign(&side);
+    }
+    for (int i = 0; i < 2; i++)
+        now_turning_point(c->now, c->vertex + (i ? ask->count[0] : 0), ask->count[i], c->along, p + i);
+    return exact_compare_points(&c->now->context.arena, p, p + 1, ask->both);
+}
+
 static int judge_dyadic(const judge_cast *c, const judge_question *ask) {
     num_arena *arena = &c->now->context.arena;
     exact_point v[VERTICES];
+    if (c->turning) return judge_turning(c, ask);
     dyadic_points(c, v);
     if (ask->what == JUDGE_ORDER) return exact_order_sign(arena, v, ask->count, ask->both);
     if (ask->what == JUDGE_VOLUME) return exact_volume_sign(arena, v);
@@ -280,6 +305,18 @@ static void cast_claim(judge_cast *c, const now_claim *claim, int count[2]) {
     }
 }
 
+static void turning_claim(const judge_cast *c, const now_claim *claim, const int count[2], int axis, poly_exact *out) {
+    exact_point p[2];
+    c->now->context.arena.top = 0;
+    if (claim->q.b == NAME_NONE || claim->p.b == NAME_SEGMENT) {
+        const judge_question ask = {.what = claim->q.b == NAME_NONE ? JUDGE_LINES : JUDGE_TURN};
+        turning_polynomial(c, &ask, out);
+        return;
+    }
+    for (int i = 0; i < 2; i++) now_turning_point(c->now, c->vertex + (i ? count[0] : 0), count[i], true, p + i);
+    exact_claim_points(&c->now->context.arena, p, p + 1, axis, out);
+}
+
 void now_claim_exact(now_state *now, const now_claim *claim, int axis, poly_exact *out) {
     if (claim->above == NOW_ALONG) {
         now_along_exact(now, claim, out);
@@ -289,8 +326,10 @@ void now_claim_exact(now_state *now, const now_claim *claim, int axis, poly_exac
     int count[2];
     exact_point v[VERTICES];
     cast_claim(&c, claim, count);
-    dyadic_points(&c, v);
-    if (claim->q.b == NAME_NONE)
+    if (!c.turning) dyadic_points(&c, v);
+    if (c.turning)
+        turning_claim(&c, claim, count, axis, out);
+    else if (claim->q.b == NAME_NONE)
         exact_lines(&now->context.arena, v, out);
     else if (claim->p.b != NAME_SEGMENT)
         exact_order(&now->context.arena, v, count, axis, out);

@@ -1,6 +1,7 @@
 /* near.c: claims as polynomials in doubles. Half a unit in the last place is 2^-53. Each bound counts the roundings of
  * its formula and rounds up to a power of two, which leaves room for those of the bounds themselves. */
 #include "kinetic/now/near.h"
+#include "kinetic/now/turning.h"
 
 /* -------------------------------------------------------------- polynomials -- */
 
@@ -167,8 +168,43 @@ static void find_along(now_state *now, const now_claim *claim, double span, near
     if (sign < 0) negate(out);
 }
 
+/* |x| < 2^this, x != 0. */
+static int top_of(num_dyadic x) {
+    return 64 * (x.exponent + (int)x.count) - __builtin_clzll(x.limbs[x.count - 1]);
+}
+
+/* The exact polynomial in doubles, times a power of two that makes its largest term about 1. What is too small for a
+ * double beside that is far below the error. */
+static void round_exact(num_arena *arena, const poly_exact *p, double span, near_poly *out) {
+    int top = INT32_MIN, wide;
+    frexp(span, &wide);
+    for (int i = 0; i <= p->degree; i++)
+        if (p->c[i].sign && top_of(p->c[i]) + i * wide > top) top = top_of(p->c[i]) + i * wide;
+    const num_dyadic one = num_dyadic_scaled(arena, 1, 1, 0);
+    double power = 1;
+    *out = (near_poly){.degree = p->degree};
+    for (int i = 0; i <= p->degree; i++, power *= span) {
+        if (p->c[i].sign)
+            out->c[i] = power * num_dyadic_quotient(
+                                    arena, num_dyadic_mul(arena, p->c[i], num_dyadic_scaled(arena, 1, 1, -top)), one);
+        out->size += fabs(out->c[i]);
+    }
+    out->size *= 1 + 0x1p-40;
+    out->error = out->size * 0x1p-46 + 0x1p-400; /* a product and up to ten of powers */
+}
+
+static void find_turning(now_state *now, const now_claim *claim, int axis, double span, near_poly *out) {
+    poly_exact exact;
+    now_claim_exact(now, claim, axis, &exact);
+    round_exact(&now->context.arena, &exact, span, out);
+}
+
 void near_find(now_state *now, const now_claim *claim, int axis, double span, near_claim *out) {
     out->has_turn[0] = out->has_turn[1] = false;
+    if (now_is_turning_claim(now, claim)) {
+        find_turning(now, claim, axis, span, &out->value);
+        return;
+    }
     if (claim->q.b == NAME_NONE) {
         near_point v[4], step[2];
         lines_turn(now, claim->p, span, v, step, &out->value);

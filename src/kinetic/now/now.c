@@ -1,6 +1,7 @@
 /* now.c: places, order and sides just after a tick: in doubles with error bounds, then exactly. */
 #include "kinetic/now/now.h"
 #include "geom/selftest.h"
+#include "kinetic/now/turning.h"
 #include <math.h>
 
 froe_status now_new(froe_motion *motion, const froe_allocator *alloc, now_state *out) {
@@ -105,6 +106,12 @@ void now_exact_named(now_state *now, name_point p, bool along, exact_point *out)
     exact_point v[4];
     const bool vertex = p.b == NAME_VERTEX;
     now->context.arena.top = 0;
+    if (now_is_turning_name(now, p)) {
+        uint32_t end[4];
+        const int count = now_vertices_of(now, p, end);
+        now_turning_point(now, end, count, along, out);
+        return;
+    }
     for (int i = 0; i < (vertex ? 1 : 4); i++) {
         const uint32_t end = vertex ? p.a : now->segments.data[i < 2 ? p.a : (uint32_t)p.b].end[i % 2];
         if (along)
@@ -157,6 +164,7 @@ now_spot now_spot_of(now_state *now, name_point p) {
 /* Do two vertices have the same x for as long as their pieces last? */
 static bool is_above_for_good(now_state *now, uint32_t p, uint32_t q) {
     const motion_piece *a = &now->bends.data[p].piece, *b = &now->bends.data[q].piece;
+    if (a->corner || b->corner) return false; /* exact numbers tell */
     if (a->degree != b->degree || a->from->at[0] != b->from->at[0] || a->to->at[0] != b->to->at[0]) return false;
     if (!a->degree) return true;
     if (a->from->time != b->from->time || a->to->time != b->to->time) return false;

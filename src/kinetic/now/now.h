@@ -8,7 +8,8 @@
  * ordered by x and then y, as if all vertical lines were slightly inclined (see num/sheared.h): x + eps y.
  *
  * It speaks for now.c (places, order, sides, claims), course.c (pieces of plans in doubles), judge.c (order and sides
- * exactly), along.c (order along a segment), failure.c (when a claim fails) and limit.c (places for output). */
+ * exactly), turning.c (where bodies turn), along.c (order along a segment), failure.c (when a claim fails) and limit.c
+ * (places for output). */
 #ifndef FROE_KINETIC_NOW_H
 #define FROE_KINETIC_NOW_H
 #include "kinetic/motion/poly.h"
@@ -22,20 +23,23 @@ typedef struct now_course {
     int64_t base, last; /**< ticks of the piece for which it holds; base > last: not looked up yet */
     double x[2], y[2];
     double error;    /**< no coordinate is further off while it holds */
-    uint32_t degree; /**< 0, 1 or 2 */
+    uint32_t degree; /**< 0, 1 or 2, or NOW_TURNING: it is of a body in the plane, and the rest is 0 */
 } now_course;
+enum { NOW_TURNING = 3 };
+
+/** Roughly where a point is: no coordinate is further off than `error`. */
+typedef struct now_spot {
+    double x, y, error;
+} now_spot;
 
 /** What is needed less often: the place of the piece, and the coefficients of s^2. */
 typedef struct now_bend {
     double x, y;
     double z[3], error; /**< in space: the height, as x and y of a course, and how far off it is at most */
     motion_piece piece;
+    int64_t tick; /**< of a body in the plane: the last at which its place was asked for, which is `spot` */
+    now_spot spot;
 } now_bend;
-
-/** Roughly where a point is: no coordinate is further off than `error`. */
-typedef struct now_spot {
-    double x, y, error;
-} now_spot;
 
 enum { NOW_TOP = 190 }; /* products of five differences stay below 2^1000, wherever the motion is */
 
@@ -173,6 +177,11 @@ int now_above(now_state *now, uint32_t s, uint32_t t);
  * for as long as the pieces last. */
 int now_over(now_state *now, uint32_t object, uint32_t vertex);
 
+/* turning.c */
+/** As now_vertex_spot() and now_speed(), of a vertex whose piece of its body has been looked up. */
+now_spot now_turning_spot(now_state *now, uint32_t vertex);
+double now_turning_speed(now_state *now, uint32_t vertex);
+
 /* course.c */
 /** Looks up the piece that the present tick belongs to. */
 void now_look_up(now_state *now, uint32_t vertex);
@@ -184,6 +193,7 @@ static inline const now_course *now_course_of(now_state *now, uint32_t vertex) {
 }
 static inline now_spot now_vertex_spot(now_state *now, uint32_t vertex) {
     const now_course *c = now_course_of(now, vertex);
+    if (c->degree == NOW_TURNING) return now_turning_spot(now, vertex);
     double s = (double)(now->tick - c->base), bend[2] = {0, 0};
     if (c->degree == 2) bend[0] = now->bends.data[vertex].x, bend[1] = now->bends.data[vertex].y;
     return (now_spot){c->x[0] + s * (c->x[1] + s * bend[0]), c->y[0] + s * (c->y[1] + s * bend[1]), c->error};

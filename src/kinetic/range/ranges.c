@@ -78,11 +78,13 @@ static void extend_by_knot(const motion_knot *knot, bool curved, double low[3], 
 /* Where a vertex comes between two times, in x. */
 static void extend_by_plan(const froe_motion *m, uint32_t vertex, double from, double to, double low[3],
                            double high[3]) {
-    const motion_knot *first = m->knots.data + m->plans.data[vertex].first;
+    const motion_plan *plan = m->plans.data + vertex;
+    const bool own = plan->body == FROE_NONE;
+    const motion_knot *first = m->knots.data + (own ? plan : &m->bodies.data[plan->body].plan)->first;
     motion_piece piece = motion_piece_at_time(m, vertex, from);
     for (;;) {
         const bool ends = piece.last != MOTION_FAR && piece.to->time < to;
-        if (ends && piece.from->time >= from) { /* all of it */
+        if (own && ends && piece.from->time >= from) { /* all of it */
             for (int i = 0; i < 2; i++) extend_by_knot(piece.from, i, low, high);
             extend_by_knot(piece.to, false, low, high);
         } else {

@@ -4,8 +4,8 @@
  * an end and another segment, or the crossings of three segments, come together; which of them was on the left before,
  * which is higher, from which side they come, and in which order the segments cut makes 16 + 24 + 12 + 8 + 12 + 2
  * patterns. */
-#ifndef FROE_TESTS_KINETIC_PATTERNS_H
-#define FROE_TESTS_KINETIC_PATTERNS_H
+#ifndef FROE_TESTS_SUPPORT_PATTERNS_H
+#define FROE_TESTS_SUPPORT_PATTERNS_H
 #include "kinetic/kinetic.h"
 #include "kinetic/moving.h"
 #include <math.h>
