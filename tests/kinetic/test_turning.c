@@ -15,11 +15,13 @@
 #include "support/sanitized.h"
 #include "support/turning.h"
 
-static froe_kinetic *start(froe_motion *m, uint64_t seed) {
+/* Seeds below 0: with an augmented partition. */
+static froe_kinetic *start(froe_motion *m, int seed) {
     froe_kinetic_options o = froe_kinetic_defaults();
     froe_kinetic *k = NULL;
     froe_diagnostic why = {0};
-    o.seed = seed;
+    o.seed = (uint64_t)abs(seed);
+    o.augmented = seed < 0;
     if (froe_kinetic_new(m, &o, NULL, &k, &why)) fail_msg("%s", why.message);
     return k;
 }
@@ -116,12 +118,12 @@ static void trees_are_those_made_from_scratch_after_every_event(void **state) {
     const uint64_t most = SANITIZED ? 15 : 70;
     pattern_counter counter = {0};
     for (size_t i = 0; i < TURNING_KINDS; i++)
-        for (uint64_t seed = 1; seed <= 2; seed++) {
-            froe_motion *m = turning_new(turning_kinds + i, seed);
+        for (int seed = -1; seed <= 1; seed += 2) {
+            froe_motion *m = turning_new(turning_kinds + i, 3);
             froe_kinetic *k = start(m, seed);
             froe_diagnostic why = {0};
             if (following_run(k, most, &counter, &why))
-                fail_msg("%s %d at %.12g: %s", turning_kinds[i].name, (int)seed, froe_kinetic_time(k), why.message);
+                fail_msg("%s %d at %.12g: %s", turning_kinds[i].name, seed, froe_kinetic_time(k), why.message);
             const froe_kinetic_stats s = froe_kinetic_statistics(k);
             assert_int_equal(s.stuck, 0);
             if (!turning_kinds[i].quarters && !turning_kinds[i].still) assert_int_equal(s.restarts, 0);

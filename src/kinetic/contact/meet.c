@@ -14,7 +14,7 @@ froe_status meet_find(const froe_motion *m, meet_worker *worker, uint32_t p, uin
 }
 
 /* In the plane, and nothing turns. */
-static bool is_short(const froe_motion *m) {
+static bool is_turnless(const froe_motion *m) {
     return m->dim == 2 && !m->bodies.count;
 }
 
@@ -26,14 +26,14 @@ static size_t widest(const froe_motion *m) {
     enum { SPARE_BITS = 64, CUT_BITS = 32 };
     const size_t coordinate = m->top > m->unit ? (size_t)(m->top - m->unit) : 1;
     const size_t time = (m->time_top > m->time_unit ? (size_t)(m->time_top - m->time_unit) : 1) + CUT_BITS;
-    return ((is_short(m) ? 2 * coordinate + 8 * time : 7 * coordinate + 30 * time) + SPARE_BITS) / 64 + 3;
+    return ((is_turnless(m) ? 2 * coordinate + 8 * time : 7 * coordinate + 30 * time) + SPARE_BITS) / 64 + 3;
 }
 
 froe_status meet_worker_new(const froe_motion *m, meet_worker *out) {
     enum { NUMBERS = 500, MORE_NUMBERS = 8000, CHAINS = 4, MORE_CHAINS = 3 };
     /* In space: what one step of a chain needs, and twice as much again: 15 chains of degree 8, or 81 of degree 6, keep
      * less. */
-    const size_t limbs = widest(m), numbers = is_short(m) ? NUMBERS : MORE_NUMBERS;
+    const size_t limbs = widest(m), numbers = is_turnless(m) ? NUMBERS : MORE_NUMBERS;
     const size_t chains = m->dim == 2 ? CHAINS : MORE_CHAINS;
     *out = (meet_worker){.room = support_calloc(&m->alloc, 1, sizeof *out->room)};
     if (!out->room) return FROE_E_MEMORY;

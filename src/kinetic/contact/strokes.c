@@ -66,10 +66,10 @@ typedef struct dyadic_line {
 
 void strokes_near(const froe_motion *m, const motion_piece piece[4], double from, double to, num_ball_poly gap[8],
                   num_ball_poly turn[4]) {
-    between_ball(NULL, m, piece, from, to, gap, turn);
+    between_bars_ball(NULL, m, piece, from, to, gap, turn);
 }
 
 void strokes_exact(num_arena *arena, const froe_motion *m, const motion_piece piece[4], double from, double to,
                    num_poly gap[8], num_poly turn[4]) {
-    between_dyadic(arena, m, piece, from, to, gap, turn);
+    between_bars_dyadic(arena, m, piece, from, to, gap, turn);
 }

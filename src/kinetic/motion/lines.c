@@ -19,29 +19,29 @@ static num_dyadic minus_exact(num_dyadic a) {
 #include "kinetic/motion/arcs_body.inc"
 
 /* How a body is placed, as polynomials, or at the tick. */
-static void pose_at(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick, bool along,
-                    pose_exact *out) {
+static void placing_at(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick, bool along,
+                       placing_exact *out) {
     motion_dyadic_curve centre;
     num_dyadic turn[4][2];
     motion_curve_dyadic(arena, m, piece, tick, &centre);
     const int turning = motion_tick_turn_dyadic(arena, m, piece, tick, turn);
-    pose_of_exact(arena, &centre, along ? piece->degree : 0, turn, along ? turning : 0, out);
+    placing_of_exact(arena, &centre, along ? piece->degree : 0, turn, along ? turning : 0, out);
 }
 
 void exact_vertex_in(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick, bool along,
                      exact_point *out) {
-    pose_exact pose;
-    pose_at(arena, m, piece, tick, along, &pose);
-    point_in_exact(arena, &pose, piece->corner, out);
+    placing_exact placing;
+    placing_at(arena, m, piece, tick, along, &placing);
+    point_in_exact(arena, &placing, piece->corner, out);
     out->z = (poly_exact){.degree = 0};
 }
 
 void exact_line_from(num_arena *arena, const froe_motion *m, const motion_piece end[2], int64_t tick, bool along,
                      exact_line *out) {
     if (end[0].corner && end[0].turn == end[1].turn) {
-        pose_exact pose;
-        pose_at(arena, m, end, tick, along, &pose);
-        line_in_exact(arena, &pose, end[0].corner, end[1].corner, out);
+        placing_exact placing;
+        placing_at(arena, m, end, tick, along, &placing);
+        line_in_exact(arena, &placing, end[0].corner, end[1].corner, out);
         return;
     }
     exact_point p[2];
