@@ -5,8 +5,7 @@
  *      |    +----+---+          one side is border, directed so that the region is on its left. Ends are compared
  *      |    |    |   |          exactly, so the remaining stretches join: every ring closes.
  *      +----+----+---+
- *
- * It speaks for region.c and regions.c (the public call). */
+ */
 #ifndef FROE_VIEW_VISIBILITY_REGION_H
 #define FROE_VIEW_VISIBILITY_REGION_H
 #include "base/radix.h"

@@ -180,8 +180,12 @@ uint32_t view_line_across(view_sightlines *s, int axis, uint32_t i) {
                           FROE_NONE);
 }
 
+static uint32_t tag_of_cut(uint32_t patch, uint32_t node) {
+    return (uint32_t)base_hash(0, patch, node);
+}
+
 uint32_t view_line_of_cut(view_sightlines *s, uint32_t patch, uint32_t node) {
-    const uint32_t tag = (uint32_t)base_hash(0, patch, node);
+    const uint32_t tag = tag_of_cut(patch, node);
     if (!scene_table_reserve(&s->alloc, &s->made, 1)) return FROE_NONE;
     size_t at = scene_table_first(&s->made, tag);
     for (uint32_t id = scene_table_find(&s->made, tag, &at); id != FROE_NONE;
@@ -192,6 +196,33 @@ uint32_t view_line_of_cut(view_sightlines *s, uint32_t patch, uint32_t node) {
     const uint32_t line = add_sight_line(s, VIEW_CUT, patch, node, FROE_NONE);
     if (line != FROE_NONE) scene_table_put(&s->made, at, tag, line);
     return line;
+}
+
+froe_status view_sightlines_keep(view_sightlines *s, uint32_t *numbers) {
+    uint32_t kept = 0, cuts = 0;
+    scene_table_free(&s->alloc, &s->made);
+    for (size_t i = 0; i < s->lines.count; i++) {
+        const view_line l = s->lines.data[i];
+        const bool window = l.kind == VIEW_EDGE && l.c == FROE_NONE;
+        if (l.kind == VIEW_EDGE && !window) s->of_edge[l.c] = numbers[i] ? kept + 1 : 0;
+        if (!numbers[i] && !window) continue;
+        cuts += l.kind == VIEW_CUT;
+        numbers[i] = kept;
+        s->lines.data[kept++] = l;
+    }
+    s->lines.count = kept;
+    array_shrink(&s->alloc, &s->lines);
+    if (!scene_table_reserve(&s->alloc, &s->made, cuts)) return FROE_E_MEMORY;
+    for (uint32_t i = 0; i < kept; i++) {
+        const view_line *l = s->lines.data + i;
+        if (l->kind != VIEW_CUT) continue;
+        const uint32_t tag = tag_of_cut(l->a, l->b);
+        size_t at = scene_table_first(&s->made, tag);
+        for (uint32_t id = scene_table_find(&s->made, tag, &at); id != FROE_NONE;)
+            id = scene_table_find_next(&s->made, tag, &at);
+        scene_table_put(&s->made, at, tag, i);
+    }
+    return FROE_OK;
 }
 
 bool view_is_point(view_sightlines *s, uint32_t edge) {

@@ -41,50 +41,6 @@ static bool keep_side(void *user, const view_stretch *side) {
     return keep_stretch(k, &part);
 }
 
-/* The ray of a corner as images tell it. */
-static void ray_by_images(const view_sightlines *s, uint32_t vertex, view_way before, view_way way, double out[3]) {
-    filter_vector ray;
-    if (vertex == FROE_NONE) {
-        const filter_vector a = view_way_image(s, before), b = view_way_image(s, way);
-        ray = filter_cross(&a, &b);
-    } else {
-        ray = view_ray(s, vertex);
-    }
-    memcpy(out, ray.x, sizeof ray.x);
-}
-
-/* Appends a corner; there is room. */
-static bool keep_corner(froe_visibility *v, const view_corner *corner, view_way before) {
-    view_spot spot = {corner->way, corner->vertex};
-    view_kept_ray kept = {.corner = (uint32_t)v->corners.count};
-    ray_by_images(&v->sights, corner->vertex, before, corner->way, kept.x);
-    /* NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): equal to the last bit */
-    if (corner->vertex == FROE_NONE && memcmp(kept.x, corner->ray.x, sizeof kept.x) != 0) {
-        spot.vertex = VIEW_KEPT;
-        memcpy(kept.x, corner->ray.x, sizeof kept.x);
-        if (!array_push(&v->alloc, &v->kept_rays, kept)) return false;
-    }
-    v->corners.data[v->corners.count++] = spot;
-    return true;
-}
-
-void view_ray_at(const froe_visibility *v, view_turn at, double out[3]) {
-    const view_spot *spot = v->corners.data + at.corner;
-    if (spot->vertex != VIEW_KEPT) {
-        ray_by_images(&v->sights, spot->vertex, at.before, spot->way, out);
-        return;
-    }
-    size_t lo = 0, hi = v->kept_rays.count - 1; /* it is there */
-    while (lo < hi) {
-        const size_t middle = lo + (hi - lo) / 2;
-        if (v->kept_rays.data[middle].corner < at.corner)
-            lo = middle + 1;
-        else
-            hi = middle;
-    }
-    memcpy(out, v->kept_rays.data[lo].x, sizeof v->kept_rays.data[lo].x);
-}
-
 /* Keeps what was found open of the current piece. */
 static froe_status keep_pieces(visibility_search *k) {
     froe_visibility *v = k->v;
@@ -97,25 +53,11 @@ static froe_status keep_pieces(visibility_search *k) {
         const view_corner *ring = s->ring.data + part->first;
         for (uint32_t i = 0; i < part->count; i++) {
             const view_way before = ring[i ? i - 1 : part->count - 1].way;
-            if (!keep_corner(v, ring + i, before)) return FROE_E_MEMORY;
+            if (!view_keep_corner(v, ring + i, before)) return FROE_E_MEMORY;
         }
         if (v->corners.count > INT32_MAX || !array_push(&v->alloc, &k->pieces, k->now)) return FROE_E_MEMORY;
     }
     return FROE_OK;
-}
-
-bool view_ring_of_visible(const froe_visibility *v, view_sightlines *s, uint32_t visible, view_ring *out) {
-    const view_piece *p = v->pieces + visible;
-    const view_spot *spots = v->corners.data + p->first;
-    out->count = 0;
-    if (!array_reserve(&v->alloc, out, p->count)) return false;
-    for (uint32_t i = 0; i < p->count; i++) {
-        view_corner k = {.way = spots[i].way, .vertex = view_vertex_of(spots + i)};
-        k.ray =
-            k.vertex != FROE_NONE ? view_ray(s, k.vertex) : view_meeting(s, spots[i ? i - 1 : p->count - 1].way, k.way);
-        out->data[out->count++] = k;
-    }
-    return true;
 }
 
 static bool is_wanted(const visibility_search *k, uint32_t edge) {
@@ -230,12 +172,13 @@ static froe_status look_from_eye(visibility_search *k, const geom_eye *eye) {
     if (!status) status = view_join_intervals(v, &k->stretches);
     array_free(&v->alloc, &k->stretches);
     if (!status) status = view_join_crossings(v, &k->crosser);
+    if (!status) v->report.lines = v->sights.lines.count;
+    if (!status) status = view_keep_lines(v);
     if (!status) view_tally(v, k->options->cull_back);
     if (!status) {
         froe_predicate_stats *predicates = &v->report.predicates;
         v->report.visible_pieces = v->piece_count;
         v->report.intervals = v->interval_count;
-        v->report.lines = v->sights.lines.count;
         *predicates = v->sights.context.stats;
         predicates->calls = predicates->by_id + predicates->filtered + predicates->refined + predicates->exact;
     }
@@ -304,14 +247,6 @@ froe_status froe_visibility_new(const froe_tree *tree, const froe_surface *surfa
     default:
         return support_fail(diag, status, "More than 2^31 lines, corners or intervals are visible.");
     }
-}
-
-void view_drop_pieces(froe_visibility *v) {
-    view_sightlines_drop(&v->sights);
-    array_free(&v->alloc, &v->corners);
-    array_free(&v->alloc, &v->kept_rays);
-    support_free(&v->alloc, v->pieces, ((size_t)v->piece_count + 1) * sizeof *v->pieces);
-    v->pieces = NULL;
 }
 
 void froe_visibility_free(froe_visibility *v) {

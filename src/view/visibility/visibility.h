@@ -1,8 +1,8 @@
 /* visibility.h: what one eye sees: the internal type.
  *
- * It speaks for visibility.c (pieces front to back, each sent down the beam tree), intervals.c (visible stretches of an
- * edge), wires.c (segments and points), ranks.c (the order within one plane) and tally.c (counts of what is visible and
- * what is not). */
+ * It speaks for visibility.c (pieces front to back, each sent down the beam tree), kept.c (corners and lines of what is
+ * visible), intervals.c (visible stretches of an edge), wires.c (segments and points), ranks.c (the order within one
+ * plane) and tally.c (counts of what is visible and what is not). */
 #ifndef FROE_VIEW_VISIBILITY_VISIBILITY_H
 #define FROE_VIEW_VISIBILITY_VISIBILITY_H
 #include "base/task.h"
@@ -83,6 +83,10 @@ froe_status view_rank_objects(const froe_allocator *alloc, const froe_surface *s
                               uint32_t **ranks);
 /** The place of every piece of the tree, front to back, as in froe_visible. FROE_E_MEMORY. */
 froe_status view_find_places(const froe_visibility *v, const int32_t *priorities, uint32_t *places);
+/** Appends a corner of a visible piece, for which there is room. False without memory. */
+bool view_keep_corner(froe_visibility *v, const view_corner *corner, view_way before);
+/** Frees the lines on which nothing visible ends. FROE_E_MEMORY. */
+froe_status view_keep_lines(froe_visibility *v);
 /** Counts, for the report, what is visible and what is not, and why. */
 void view_tally(froe_visibility *v, bool cull_back);
 /** A whole edge or wire, as far as it lies in the window and is not cut away. *there: something is left, and the eye
