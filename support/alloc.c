@@ -39,7 +39,8 @@ void *support_calloc(const froe_allocator *alloc, size_t count, size_t item_size
     size_t size;
     if (__builtin_mul_overflow(count, item_size, &size)) return NULL;
     void *ptr = support_realloc(alloc, NULL, 0, size ? size : 1);
-    if (ptr) memset(ptr, 0, size ? size : 1);
+    const bool fresh = alloc->fn == malloc_fn && support_pages_serve(size); /* such pages are zero */
+    if (ptr && !fresh) memset(ptr, 0, size ? size : 1);
     return ptr;
 }
 
