@@ -1,9 +1,17 @@
 /* grid.c: the entries of each cell are counted first, then filled in. */
 #include "view/grid.h"
+#include "base/curve.h"
 #include <math.h>
 #include <string.h>
 
 enum { CELLS_LEAST = 8, CELLS_MOST = 4096, ENTRIES_A_THING = 12 };
+
+uint64_t view_grid_place(const froe_projection *view, print_point point) {
+    const double lo[2] = {0, 0}, hi[2] = {view->width, view->height};
+    double at[2] = {point.x, point.y};
+    for (int k = 0; k < 2; k++) at[k] = at[k] > 0 ? at[k] < hi[k] ? at[k] : hi[k] : 0;
+    return base_curve_place(2, at, at, lo, hi);
+}
 
 static uint16_t cell_at(double x, double size, uint32_t cells) {
     const double at = x / size;

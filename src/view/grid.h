@@ -25,6 +25,9 @@ typedef struct view_grid {
     double wide, high; /**< of a cell */
 } view_grid;
 
+/** The place of a point along a curve over the page, on which points that are near each other mostly are near, too. */
+uint64_t view_grid_place(const froe_projection *view, print_point point);
+
 /** The points of thing i. */
 typedef const print_point *view_points_fn(const void *user, size_t i, size_t *points);
 /** The number of cells grows with that of the things, unless large things would need too much memory. FROE_E_MEMORY. */

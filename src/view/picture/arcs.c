@@ -18,7 +18,6 @@ enum { NODES_A_JOB = 1024 };
 /* What all threads share. */
 typedef struct arc_search {
     view_parts *parts;
-    uint32_t *tour;
     arc_box *boxes; /* per part */
     view_grid grid; /* of parts */
     uint64_t most;
@@ -128,7 +127,7 @@ static froe_status find_some_arcs(void *user, unsigned worker, size_t job) {
                  count = left < NODES_A_JOB ? left : NODES_A_JOB;
     froe_status status = FROE_OK;
     for (size_t k = first; k < first + count && !status; k++) {
-        const uint32_t node = s->tour[k];
+        const uint32_t node = p->tour.data[k];
         uint64_t tests = 0;
         for (uint32_t i = p->nodes.data[node].first; i < p->v->piece_count && p->node_of[i] == node && !status; i++)
             status = compare_piece(s, f, i, &tests);
@@ -180,10 +179,9 @@ static froe_status begin_search(arc_search *s, view_sightlines *sights) {
     const froe_allocator *alloc = &parts->v->alloc;
     const double unsure = 1e-9 * (parts->view->width + parts->view->height);
     const size_t part_count = parts->parts.count;
-    s->tour = support_calloc(alloc, parts->nodes.count + 1, sizeof *s->tour);
     s->boxes = support_calloc(alloc, part_count + 1, sizeof *s->boxes);
     s->finders = support_calloc(alloc, s->finder_count, sizeof *s->finders);
-    if (!s->tour || !s->boxes || !s->finders || view_tour(parts, s->tour)) return FROE_E_MEMORY;
+    if (!s->boxes || !s->finders) return FROE_E_MEMORY;
     for (size_t i = 0; i < part_count; i++)
         s->boxes[i] = box_of_arc(parts->points.data + parts->parts.data[i].first, parts->parts.data[i].count, unsure);
     froe_status status = view_grid_new(alloc, parts->view, part_count, arc_points, parts, &s->grid);
@@ -212,7 +210,6 @@ froe_status view_find_arcs(view_parts *parts, view_sightlines *sights, base_task
     }
     *tests = status == FROE_E_BUDGET ? most + 1 : *tests + atomic_load(&s.tests);
     support_free(alloc, s.finders, s.finder_count * sizeof *s.finders);
-    support_free(alloc, s.tour, (parts->nodes.count + 1) * sizeof *s.tour);
     support_free(alloc, s.boxes, (parts->parts.count + 1) * sizeof *s.boxes);
     view_grid_free(alloc, &s.grid);
     return status;

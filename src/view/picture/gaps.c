@@ -4,6 +4,7 @@
  *   ---  ---   --| -- --        depth between the two must be as much as the gap is wide, or neighbours on a curved
  *      |         |              surface would have gaps. Hidden lines of one wall lie behind those of the next:
  *    halo      dashes           drawn twice, their dashes would fill each other's gaps. */
+#include "base/radix.h"
 #include "base/sort.h"
 #include "view/grid.h"
 #include "view/picture/strokes.h"
@@ -22,7 +23,9 @@ typedef struct gapper {
     view_grid grid;
     ARRAY(gap) gaps; /* of the current one */
     ARRAY(uint32_t) order;
-    view_segments out;
+    ARRAY(base_pair) gapped; /* the segments in which others leave gaps, which are few, and their numbers among these */
+    ARRAY(uint32_t) ends;    /* of these: where their parts end */
+    view_segments parts;
 } gapper;
 
 static const print_point *gap_points(const void *user, size_t i, size_t *points) {
@@ -114,7 +117,63 @@ static bool put_part(gapper *g, const view_segment *s, double from, double to) {
         const double u = print_share(g->view, s->space[0], s->space[1], t);
         for (int k = 0; k < 3; k++) part.space[e][k] = s->space[0][k] + u * (s->space[1][k] - s->space[0][k]);
     }
-    return array_push(g->alloc, &g->out, part);
+    return array_push(g->alloc, &g->parts, part);
+}
+
+/* Appends what the gaps leave of a segment. */
+static bool put_parts(gapper *g, uint32_t i) {
+    const view_segment *s = g->in->data + i;
+    const size_t count = g->gaps.count;
+    double last = 0; /* of its share before which all has been decided */
+    bool ok = true;
+    g->order.count = 0;
+    if (!array_reserve(g->alloc, &g->order, 2 * count)) return false;
+    for (uint32_t k = 0; k < count; k++) g->order.data[k] = k;
+    base_merge_sort(g->order.data, g->order.data + count, count, by_gap_start, g);
+    for (size_t k = 0; ok && k < count; k++) {
+        const gap x = g->gaps.data[g->order.data[k]];
+        ok = x.from <= last || put_part(g, s, last, x.from);
+        last = fmax(last, x.to);
+    }
+    return ok && (last >= 1 || put_part(g, s, last, 1)) &&
+           array_push(g->alloc, &g->gapped, (base_pair){i, (uint32_t)g->ends.count}) &&
+           array_push(g->alloc, &g->ends, (uint32_t)g->parts.count);
+}
+
+/* Puts parts in the places of their segments, where they lie: all move as far to the right as parts need room. */
+static bool replace_by_parts(gapper *g, view_segments *segments) {
+    const size_t n = segments->count, gapped = g->gapped.count;
+    size_t room = 0, from = 0, to = 0, parts = 0;
+    if (!array_reserve(g->alloc, &g->gapped, gapped)) return false;
+    base_radix_sort(g->gapped.data, g->gapped.data + gapped, gapped);
+    for (size_t k = 0; k < gapped; k++) {
+        const uint32_t i = g->gapped.data[k].value;
+        parts += g->ends.data[i] - (i ? g->ends.data[i - 1] : 0);
+        if (parts > k + 1 + room) room = parts - k - 1;
+    }
+    if (!gapped || !array_reserve(g->alloc, segments, room)) return !gapped;
+    view_segment *at = segments->data;
+    memmove(at + room, at, n * sizeof *at);
+    for (size_t k = 0; k <= gapped; k++) {
+        const size_t next = k < gapped ? g->gapped.data[k].key : n;
+        memmove(at + to, at + room + from, (next - from) * sizeof *at);
+        to += next - from, from = next + 1;
+        if (k == gapped) break;
+        const uint32_t i = g->gapped.data[k].value;
+        for (uint32_t part = i ? g->ends.data[i - 1] : 0; part < g->ends.data[i]; part++)
+            at[to++] = g->parts.data[part];
+    }
+    segments->count = to;
+    return true;
+}
+
+/* All segments along a curve over the page: their neighbours then mostly are in the caches. NULL: no memory. */
+static base_pair *make_tour(const gapper *g) {
+    const size_t n = g->in->count;
+    base_pair *pairs = support_calloc(g->alloc, 2 * n + 1, sizeof *pairs);
+    for (uint32_t i = 0; pairs && i < n; i++) pairs[i] = (base_pair){view_grid_place(g->view, g->in->data[i].at[0]), i};
+    if (pairs) base_radix_sort(pairs, pairs + n, n);
+    return pairs;
 }
 
 froe_status view_cut_segments(const froe_allocator *alloc, const froe_projection *view, double halo,
@@ -124,32 +183,18 @@ froe_status view_cut_segments(const froe_allocator *alloc, const froe_projection
     g.same[0] = 2.5e-6 * (view->width + view->height);
     g.same[1] = 20 * g.same[0];
     froe_status status = view_grid_new(alloc, view, n, gap_points, segments, &g.grid);
-    bool ok = !status;
-    for (uint32_t i = 0; ok && i < n; i++) {
-        const view_segment *s = segments->data + i;
-        double last = 0; /* of its share before which all has been decided */
-        ok = compare_all(&g, i);
-        const size_t count = g.gaps.count;
-        g.order.count = 0;
-        ok = ok && array_reserve(alloc, &g.order, 2 * count);
-        for (uint32_t k = 0; ok && k < count; k++) g.order.data[k] = k;
-        if (ok) base_merge_sort(g.order.data, g.order.data + count, count, by_gap_start, &g);
-        for (size_t k = 0; ok && k < count; k++) {
-            const gap x = g.gaps.data[g.order.data[k]];
-            ok = x.from <= last || put_part(&g, s, last, x.from);
-            last = fmax(last, x.to);
-        }
-        ok = ok && (last >= 1 || put_part(&g, s, last, 1));
-    }
-    if (!ok && !status) status = FROE_E_MEMORY;
+    base_pair *tour = make_tour(&g);
+    bool ok = !status && tour;
+    for (size_t k = 0; ok && k < n; k++)
+        ok = compare_all(&g, tour[k].value) && (!g.gaps.count || put_parts(&g, tour[k].value));
+    support_free(alloc, tour, (2 * n + 1) * sizeof *tour);
     view_grid_free(alloc, &g.grid);
+    ok = ok && replace_by_parts(&g, segments);
+    if (!ok && !status) status = FROE_E_MEMORY;
     array_free(alloc, &g.gaps);
     array_free(alloc, &g.order);
-    if (status) {
-        array_free(alloc, &g.out);
-        return status;
-    }
-    array_free(alloc, segments);
-    *segments = g.out;
-    return FROE_OK;
+    array_free(alloc, &g.gapped);
+    array_free(alloc, &g.ends);
+    array_free(alloc, &g.parts);
+    return status;
 }

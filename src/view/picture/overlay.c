@@ -18,8 +18,8 @@ typedef struct overlay_member {
     uint32_t place[2];
     print_point at[2];
     double near[2];
+    double space[2][3];
     const view_item *item;
-    bool turned;
     uint16_t kind;
     uint8_t hidden;
 } overlay_member;
@@ -32,7 +32,7 @@ typedef struct overlay_place {
 
 typedef struct overlayer {
     view_sightlines *sights;
-    const froe_projection *view;
+    const view_drawing *drawing;
     const view_chains *chains;
     bool depths;
     ARRAY(overlay_line) lines;
@@ -68,14 +68,13 @@ static int by_line(void *user, uint32_t a, uint32_t b) {
 static bool add_members(overlayer *o, const view_items *items, const overlay_line *l, bool turned) {
     for (uint32_t i = l->first; i < l->end; i++) {
         const view_item *item = items->data + i;
-        overlay_member m = {.item = item, .turned = turned, .kind = item->kind, .hidden = item->hidden};
+        overlay_member m = {.item = item, .kind = item->kind, .hidden = item->hidden};
         for (int e = 0; e < 2; e++) {
             const int from = turned ? !e : e;
             view_mark mark = item->run.end[from];
             mark.way ^= turned;
             m.end[e] = view_end_at(o->sights, o->line, mark);
-            m.at[e] = item->at[from];
-            m.near[e] = item->near[from];
+            m.at[e] = view_item_end(o->drawing, item, from, &m.near[e], m.space[e]);
         }
         if (!array_push(&o->sights->alloc, &o->members, m)) return false;
     }
@@ -160,8 +159,8 @@ static double share_along(const print_point at[2], print_point p) {
 
 /* The point of space that a member has at a place of the page on its line. */
 static void point_of_space(const overlayer *o, const overlay_member *m, print_point at, double out[3]) {
-    const double *from = m->item->space[m->turned], *to = m->item->space[!m->turned];
-    const double t = print_share(o->view, from, to, share_along(m->at, at));
+    const double *from = m->space[0], *to = m->space[1];
+    const double t = print_share(o->drawing->view, from, to, share_along(m->at, at));
     for (int k = 0; k < 3; k++) out[k] = t == 1 ? to[k] : from[k] + t * (to[k] - from[k]);
 }
 
@@ -196,9 +195,10 @@ static bool put_segments(overlayer *o, view_segments *out) {
 
 /* ---------------------------------------------------------------------- calling -- */
 
-froe_status view_overlay(view_sightlines *sights, const froe_projection *view, const view_items *items,
-                         const view_chains *chains, bool depths, view_segments *out) {
-    overlayer o = {.sights = sights, .view = view, .chains = chains, .depths = depths};
+froe_status view_overlay(const view_drawing *drawing, const view_items *items, const view_chains *chains, bool depths,
+                         view_segments *out) {
+    view_sightlines *sights = drawing->sights;
+    overlayer o = {.sights = sights, .drawing = drawing, .chains = chains, .depths = depths};
     overlay_ids lines = {0};
     if (items->count > INT32_MAX) return FROE_E_LIMIT;
     bool ok = true;

@@ -1,13 +1,14 @@
 /* parts.c: nodes, and the parts that they paint on the page. */
 #include "view/picture/parts.h"
-#include "base/curve.h"
 #include "base/radix.h"
+#include "view/grid.h"
 
 froe_status view_parts_new(view_parts *p, const froe_visibility *v, const froe_projection *view, uint32_t *places,
                            bool cull_back) {
     const uint32_t patches = v->surface->patch_count;
     *p = (view_parts){.v = v, .view = view, .places = places, .clear = places != NULL, .cull_back = cull_back};
     p->press = (print_press){.alloc = v->alloc, .view = view};
+    p->plane_of = FROE_NONE;
     p->split = support_calloc(&v->alloc, (size_t)patches + 1, 1);
     p->node_of_patch = support_calloc(&v->alloc, (size_t)patches + 1, sizeof *p->node_of_patch);
     p->node_of = support_calloc(&v->alloc, (size_t)v->piece_count + 1, sizeof *p->node_of);
@@ -21,6 +22,7 @@ void view_parts_free(view_parts *p) {
     support_free(alloc, p->node_of_patch, ((size_t)p->v->surface->patch_count + 1) * sizeof *p->node_of_patch);
     support_free(alloc, p->node_of, ((size_t)p->v->piece_count + 1) * sizeof *p->node_of);
     array_free(alloc, &p->nodes);
+    array_free(alloc, &p->tour);
     array_free(alloc, &p->ring);
     print_free(&p->press);
     view_parts_drop(p);
@@ -43,13 +45,13 @@ static bool add_point_on(view_parts *p, const geom_plane *plane, const double ra
 
 bool view_print_visible(view_parts *p, uint32_t visible, print_ring *out) {
     const view_piece *piece = p->v->pieces + visible;
-    const geom_plane plane = view_plane_of(&p->v->sights, piece->patch);
     bool cut, ok = true;
+    if (p->plane_of != piece->patch) p->plane = view_plane_of(&p->v->sights, p->plane_of = piece->patch);
     print_begin(&p->press);
     for (uint32_t i = 0; ok && i < piece->count; i++) {
         double ray[3];
         view_ray_at(p->v, view_turn_at(p->v, piece, i), ray);
-        ok = add_point_on(p, &plane, ray);
+        ok = add_point_on(p, &p->plane, ray);
     }
     return ok && print_end(&p->press, out, &cut);
 }
@@ -93,6 +95,25 @@ static bool is_drawn(const view_parts *p, view_sightlines *sights, uint32_t obje
     return facing > 0 || (facing < 0 && !p->cull_back);
 }
 
+static bool make_tour(view_parts *p) {
+    const froe_allocator *alloc = &p->v->alloc;
+    const size_t n = p->nodes.count;
+    base_pair *pairs = support_calloc(alloc, 2 * n + 1, sizeof *pairs);
+    print_ring ring = {0};
+    p->tour.count = 0;
+    bool ok = pairs && array_reserve(alloc, &p->tour, n);
+    for (uint32_t i = 0; ok && i < n; i++) {
+        ring.count = 0;
+        ok = view_print_visible(p, p->nodes.data[i].first, &ring);
+        pairs[i] = (base_pair){view_grid_place(p->view, ok && ring.count ? ring.data[0] : (print_point){0, 0}), i};
+    }
+    if (ok) base_radix_sort(pairs, pairs + n, n);
+    for (size_t i = 0; ok && i < n; i++) p->tour.data[p->tour.count++] = pairs[i].value;
+    support_free(alloc, pairs, (2 * n + 1) * sizeof *pairs);
+    array_free(alloc, &ring);
+    return ok;
+}
+
 froe_status view_parts_make(view_parts *p, view_sightlines *sights) {
     const froe_visibility *v = p->v;
     const froe_surface *s = v->surface;
@@ -125,31 +146,10 @@ froe_status view_parts_make(view_parts *p, view_sightlines *sights) {
         if (is_drawn(p, sights, object) && !add_part(p, sights, p->node_of_patch[patch], PART_PIECE, i, p->places[i]))
             return FROE_E_MEMORY;
     }
-    return FROE_OK;
+    return make_tour(p) ? FROE_OK : FROE_E_MEMORY;
 }
 
-/* ------------------------------------------------------------------------- tours -- */
-
-froe_status view_tour(view_parts *p, uint32_t *tour) {
-    const froe_allocator *alloc = &p->v->alloc;
-    const size_t n = p->nodes.count;
-    const double lo[2] = {0, 0}, hi[2] = {p->view->width, p->view->height};
-    base_pair *pairs = support_calloc(alloc, 2 * n + 1, sizeof *pairs);
-    print_ring ring = {0};
-    bool ok = pairs != NULL;
-    for (uint32_t i = 0; ok && i < n; i++) {
-        ring.count = 0;
-        ok = view_print_visible(p, p->nodes.data[i].first, &ring);
-        double at[2] = {ok && ring.count ? ring.data[0].x : 0, ok && ring.count ? ring.data[0].y : 0};
-        for (int k = 0; k < 2; k++) at[k] = at[k] > 0 ? at[k] < hi[k] ? at[k] : hi[k] : 0;
-        pairs[i] = (base_pair){base_curve_place(2, at, at, lo, hi), i};
-    }
-    if (ok) base_radix_sort(pairs, pairs + n, n);
-    for (size_t i = 0; ok && i < n; i++) tour[i] = pairs[i].value;
-    support_free(alloc, pairs, (2 * n + 1) * sizeof *pairs);
-    array_free(alloc, &ring);
-    return ok ? FROE_OK : FROE_E_MEMORY;
-}
+/* ------------------------------------------------------------------------ threads -- */
 
 view_parts view_parts_fork(const view_parts *parts) {
     view_parts out = *parts;

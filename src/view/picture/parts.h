@@ -41,10 +41,13 @@ typedef struct view_parts {
     uint32_t *node_of;       /**< per visible piece */
     ARRAY(paint_node) nodes;
     ARRAY(paint_part) parts;
+    ARRAY(uint32_t) tour; /**< all nodes along a curve over the page: what is near there is mostly near in the caches */
     ARRAY(uint8_t) kinds; /**< per part */
     print_ring points;
     print_press press;
     view_ring ring;
+    geom_plane plane; /**< of the patch whose visible piece was printed last */
+    uint32_t plane_of;
 } view_parts;
 
 /** `sights` are those of the visibility, which may grow. places NULL: nothing is clear. FROE_E_MEMORY. */
@@ -60,8 +63,6 @@ bool view_print_visible(view_parts *parts, uint32_t visible, print_ring *out);
 /** Appends the ring of a tree's piece. */
 bool view_print_piece(view_parts *parts, view_sightlines *sights, uint32_t piece, print_ring *out);
 
-/** All nodes along a curve over the page: what is near there is mostly near in the caches. FROE_E_MEMORY. */
-froe_status view_tour(view_parts *parts, uint32_t *tour);
 /** The same parts for another thread, with scratch of its own, which is freed by view_parts_close(). */
 view_parts view_parts_fork(const view_parts *parts);
 void view_parts_close(view_parts *fork);

@@ -29,13 +29,18 @@ froe_status view_seams_new(view_seams *s, view_parts *parts, const uint32_t *ord
         s->place[order[i]] = i;
         s->run[order[i]] = run;
     }
+    if (!array_reserve(alloc, &s->points, parts->v->corners.count)) return FROE_E_MEMORY; /* most are not cut */
     for (uint32_t i = 0; i < parts->v->piece_count; i++) {
         s->starts.data[s->starts.count++] = (uint32_t)s->points.count;
         if (!view_print_visible(parts, i, &s->points)) return FROE_E_MEMORY;
         if (s->points.count > INT32_MAX) return FROE_E_LIMIT;
     }
     s->starts.data[s->starts.count++] = (uint32_t)s->points.count;
-    return view_grid_new(alloc, parts->view, parts->v->piece_count, seam_points, s, &s->grid);
+    return FROE_OK;
+}
+
+froe_status view_seams_spread(view_seams *s) {
+    return view_grid_new(&s->parts->v->alloc, s->parts->view, s->parts->v->piece_count, seam_points, s, &s->grid);
 }
 
 void view_seams_free(view_seams *s) {

@@ -56,6 +56,8 @@ typedef struct view_seams {
  * patch; these two may be NULL. FROE_E_MEMORY. */
 froe_status view_seams_new(view_seams *seams, view_parts *parts, const uint32_t *order, const uint8_t *breaks,
                            const uint32_t *styles, const uint8_t *clear, double width);
+/** Puts the visible pieces, which are on the page now, into a grid, before anything is looked for. FROE_E_MEMORY. */
+froe_status view_seams_spread(view_seams *seams);
 void view_seams_free(view_seams *seams);
 /** What a thread needs to look along sides; to be closed before the seams are freed. FROE_E_MEMORY. */
 froe_status view_seams_fork(const view_seams *seams, view_seams *out);

@@ -23,7 +23,7 @@ typedef struct whole_worker {
 
 typedef struct whole_painter {
     view_painter *p;
-    uint32_t *tour, *at;     /* nodes; per node: its place in the tour */
+    uint32_t *at;            /* per node: its place in the tour */
     print_ring points;       /* of regions */
     print_ends ends, starts; /* of their rings; per node, and 1 more: into ends */
     whole_sheet *sheets;
@@ -102,7 +102,7 @@ static froe_status paint_some(void *user, unsigned worker, size_t job) {
     whole_sheet *sheet = g->sheets + job;
     bool ok = array_push(alloc, &sheet->starts, 0);
     for (size_t k = job * NODES_A_JOB; ok && k < p->graph.count && k < (job + 1) * NODES_A_JOB; k++) {
-        const uint32_t node = g->tour[k];
+        const uint32_t node = p->parts.tour.data[k];
         const paint_node *n = p->parts.nodes.data + node;
         if (!view_is_left_out(p, n->patch))
             ok = n->piece != FROE_NONE ? put_parts_of_piece(p, w, node, sheet)
@@ -210,21 +210,20 @@ static froe_status begin_painting(whole_painter *g) {
     const froe_surface *surface = p->v->surface;
     bool pieces;
     p->painted = support_calloc(alloc, n + 1, sizeof *p->painted);
-    g->tour = support_calloc(alloc, n + 1, sizeof *g->tour);
     g->at = support_calloc(alloc, n + 1, sizeof *g->at);
     g->sheets = support_calloc(alloc, g->jobs, sizeof *g->sheets);
     g->workers = support_calloc(alloc, g->worker_count, sizeof *g->workers);
-    if (!p->painted || !g->tour || !g->at || !g->sheets || !g->workers || !number_runs(p) ||
-        view_tour(&p->parts, g->tour) || !make_regions(g, &pieces))
+    if (!p->painted || !g->at || !g->sheets || !g->workers || !number_runs(p) || !make_regions(g, &pieces))
         return FROE_E_MEMORY;
-    for (uint32_t i = 0; i < n; i++) g->at[g->tour[i]] = i;
+    for (uint32_t i = 0; i < n; i++) g->at[p->parts.tour.data[i]] = i;
     froe_status status = FROE_OK;
     if (o->underlap > 0)
         status = view_seams_new(&p->seams, &p->parts, p->order, p->breaks, o->styles, o->clear, o->underlap);
     if (status) return status;
+    if (!pieces) view_drop_pieces(p->v); /* visible pieces are on the page now */
+    if (p->seams.parts) status = view_seams_spread(&p->seams);
     for (uint32_t i = 0; i < surface->scene->object_count; i++) /* threads only read them */
         if (surface_has(surface, i)) (void)view_facing(p->sights, i);
-    if (!pieces) view_drop_pieces(p->v); /* visible pieces are on the page now */
     for (unsigned i = 0; i < g->worker_count && !status; i++) status = begin_worker(g, g->workers + i);
     return status;
 }
@@ -245,7 +244,6 @@ froe_status view_paint_whole(view_painter *p) {
     }
     support_free(alloc, g.sheets, jobs * sizeof *g.sheets);
     support_free(alloc, g.workers, g.worker_count * sizeof *g.workers);
-    support_free(alloc, g.tour, (n + 1) * sizeof *g.tour);
     support_free(alloc, g.at, (n + 1) * sizeof *g.at);
     array_free(alloc, &g.points);
     array_free(alloc, &g.ends);
