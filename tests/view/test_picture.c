@@ -514,6 +514,47 @@ static void small_faces_may_be_left_out(void **state) {
     froe_tree_free(tree);
 }
 
+typedef struct progress_log {
+    double last;
+    unsigned calls, stop; /* false at this call, from 1; 0: never */
+} progress_log;
+
+static bool note_progress(void *user, double done) {
+    progress_log *log = user;
+    assert_true(done >= log->last && done <= 1);
+    log->last = done;
+    return ++log->calls != log->stop;
+}
+
+static void a_picture_can_be_cancelled_at_every_report(void **state) {
+    (void)state;
+    froe_tree *tree = trees_grow(3, FROE_POLYGON, 1500, 0, 0.1, "density", 1);
+    froe_surface *surface;
+    froe_projection view;
+    assert_int_equal(froe_surface_new(tree->scene, NULL, &surface, NULL), FROE_OK);
+    froe_camera camera = froe_camera_defaults();
+    camera.eye[0] = 3, camera.eye[1] = -2, camera.eye[2] = 2, camera.fit = true;
+    assert_int_equal(froe_camera_place(&camera, tree->scene, &view, NULL), FROE_OK);
+    for (int paint = 0; paint < FROE_PAINT_COUNT; paint++) {
+        froe_picture_options o = froe_picture_defaults();
+        progress_log log = {.last = 0};
+        froe_picture *picture;
+        o.view = &view, o.paint = (froe_paint)paint, o.threads = 1, o.progress = note_progress, o.user = &log;
+        assert_int_equal(froe_picture_new(tree, surface, &o, &picture, NULL), FROE_OK);
+        froe_picture_free(picture);
+        assert_true(log.last == 1 && log.calls > 5);
+        for (unsigned stop = 1, calls = log.calls; stop <= calls; stop++) {
+            froe_diagnostic why;
+            log = (progress_log){.stop = stop};
+            assert_int_equal(froe_picture_new(tree, surface, &o, &picture, &why), FROE_E_CANCELLED);
+            assert_string_equal(why.message, "Cancelled.");
+            assert_int_equal(log.calls, stop);
+        }
+    }
+    froe_surface_free(surface);
+    froe_tree_free(tree);
+}
+
 static void every_allocation_may_fail(void **state) {
     (void)state;
     froe_tree *tree = trees_grow(3, FROE_POLYGON, 25, 0, 1, "density", 1);
@@ -559,6 +600,7 @@ int main(void) {
         cmocka_unit_test(what_is_fitted_fills_the_page),
         cmocka_unit_test(a_turntable_keeps_scale_and_page),
         cmocka_unit_test(small_faces_may_be_left_out),
+        cmocka_unit_test(a_picture_can_be_cancelled_at_every_report),
         cmocka_unit_test(every_allocation_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -194,14 +194,14 @@ froe_status view_find_arcs(view_parts *parts, view_sightlines *sights, base_task
                            uint64_t *tests) {
     const froe_allocator *alloc = &parts->v->alloc;
     const size_t jobs = (parts->nodes.count + NODES_A_JOB - 1) / NODES_A_JOB;
-    base_task alone;
-    base_task_init(&alone, 1, NULL, NULL);
-    if (parts->clear) task = &alone;
+    const unsigned threads = task->threads;
+    if (parts->clear) task->threads = 1;
     arc_search s = {
         .parts = parts, .most = most > *tests ? most - *tests : 0, .finder_count = base_workers(task, jobs)};
     atomic_init(&s.tests, 0);
     froe_status status = begin_search(&s, sights);
-    if (!status) status = base_run(task, 0, jobs, find_some_arcs, &s);
+    if (!status) status = base_run(task, 0.2, jobs, find_some_arcs, &s);
+    task->threads = threads;
     arcs->count = 0;
     for (unsigned i = 0; s.finders && i < s.finder_count; i++) {
         const view_arcs *found = &s.finders[i].arcs;

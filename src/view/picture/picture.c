@@ -45,6 +45,15 @@ const char *froe_line_name(froe_line kind) {
 
 /* --------------------------------------------------------------------- looking -- */
 
+/* Shares of the work, as progress tells them: where looking, finding what lies before what, and painting end. */
+#define LOOKED 0.5
+#define PLANNED 0.7
+#define PAINTED 0.9
+
+static bool report_looking(void *user, double done) {
+    return base_progress(user, LOOKED * done);
+}
+
 static froe_status look_for_picture(view_painter *p, const froe_tree *tree, const froe_surface *surface,
                                     const uint8_t *kinds, froe_diagnostic *diag) {
     const froe_picture_options *o = p->options;
@@ -61,8 +70,8 @@ static froe_status look_for_picture(view_painter *p, const froe_tree *tree, cons
     look.section = o->section;
     look.faces_only = !(o->lines & (FROE_LINE_WIRE | FROE_LINE_POINT));
     look.alloc = &p->picture->alloc;
-    look.progress = o->progress;
-    look.user = o->user;
+    look.progress = report_looking;
+    look.user = &p->task;
     const froe_status status = froe_visibility_new(tree, surface, &look, &p->v, diag);
     if (status) return status;
     p->sights = &p->v->sights;
@@ -115,12 +124,15 @@ static froe_status make_picture(view_painter *p, const froe_tree *tree, const fr
     if (!status) status = look_for_picture(p, tree, surface, kinds, diag);
     if (!status) {
         if (p->options->lines) status = view_make_segments(p, kinds);
+        if (!status && !base_progress(&p->task, LOOKED)) status = FROE_E_CANCELLED;
         if (!status) status = plan_fills(p);
+        if (!status && !base_progress(&p->task, PLANNED)) status = FROE_E_CANCELLED;
         const froe_paint paint = p->picture->report.paint;
         if (!status && !p->options->no_fills)
             status = paint == FROE_PAINT_WHOLE     ? view_paint_whole(p)
                      : paint == FROE_PAINT_REGIONS ? view_paint_regions(p)
                                                    : view_paint_fragments(p);
+        if (!status && !base_progress(&p->task, PAINTED)) status = FROE_E_CANCELLED;
         if (!status) status = view_make_strokes(p);
         froe_picture *picture = p->picture;
         const size_t shapes = picture->shapes.count;
@@ -131,6 +143,8 @@ static froe_status make_picture(view_painter *p, const froe_tree *tree, const fr
         picture->report.shapes = shapes;
         picture->report.points = picture->points.count;
         picture->report.strokes = picture->strokes.count;
+        if (!status && !base_progress(&p->task, 1)) status = FROE_E_CANCELLED;
+        if (status == FROE_E_CANCELLED) support_fail_cancelled(diag);
         if (status == FROE_E_MEMORY) support_fail_memory(diag);
         if (status == FROE_E_LIMIT) support_fail(diag, status, "More than 2^31 points or arcs are needed.");
     }
@@ -172,7 +186,7 @@ froe_status froe_picture_new(const froe_tree *tree, const froe_surface *surface,
     if (!picture) return support_fail_memory(diag);
     picture->alloc = alloc;
     view_painter p = {.picture = picture, .options = options};
-    base_task_init(&p.task, options->threads, NULL, NULL);
+    base_task_init(&p.task, options->threads, options->progress, options->user);
     status = make_picture(&p, tree, surface, diag);
     view_seams_free(&p.seams);
     view_graph_free(&alloc, &p.graph);
