@@ -6,42 +6,16 @@
 
 /* ------------------------------------------------------------------ reading -- */
 
-shards_object shards_record_read(const shards_record *record) {
-    const unsigned char *at = (const unsigned char *)record + sizeof *record;
-    shards_object o = {.kind = (froe_kind)record->kind,
-                       .dim = record->dim,
-                       .tag = record->tag,
-                       .sourced = record->sourced,
-                       .source = {.group = FROE_NONE}};
-    size_t numbers = record->words - sizeof *record / 8;
-    if (o.sourced) {
-        memcpy(&o.source, at, sizeof o.source);
-        at += sizeof o.source;
-        numbers -= sizeof o.source / 8;
-    }
-    o.numbers = (const double *)(const void *)at;
-    if (o.kind == FROE_BALL) o.radius = o.numbers[--numbers];
-    o.corners = numbers / (size_t)o.dim;
-    return o;
-}
-
 size_t froe_shard_record_size(const void *bytes, size_t left) {
     if (left < sizeof(shards_record)) return 0;
     const size_t size = shards_record_bytes(shards_record_at(bytes, 0));
     return size <= left ? size : 0;
 }
 
-void shards_object_box(const shards_object *o, double *lo, double *hi) {
-    for (int a = 0; a < o->dim; a++) lo[a] = hi[a] = o->numbers[a];
-    for (size_t i = 1; i < o->corners; i++)
-        for (int a = 0; a < o->dim; a++) {
-            const double x = o->numbers[i * (size_t)o->dim + (size_t)a];
-            lo[a] = x < lo[a] ? x : lo[a];
-            hi[a] = x > hi[a] ? x : hi[a];
-        }
-    for (int a = 0; a < o->dim && o->kind == FROE_BALL; a++) {
-        lo[a] = nextafter(lo[a] - o->radius, -INFINITY);
-        hi[a] = nextafter(hi[a] + o->radius, INFINITY);
+void shards_widen_box(int dim, double radius, double *lo, double *hi) {
+    for (int a = 0; a < dim; a++) {
+        lo[a] = nextafter(lo[a] - radius, -INFINITY);
+        hi[a] = nextafter(hi[a] + radius, INFINITY);
     }
 }
 

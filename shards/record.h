@@ -9,6 +9,7 @@
 #define FROE_SHARDS_RECORD_H
 #include "support/array.h"
 #include <froe/shard_parts.h>
+#include <string.h>
 
 typedef struct shards_record {
     uint32_t words; /**< of 8 bytes, these 2 among them */
@@ -31,7 +32,24 @@ typedef struct shards_object {
     bool sourced;
     shards_source source;
 } shards_object;
-shards_object shards_record_read(const shards_record *record);
+static inline shards_object shards_record_read(const shards_record *record) {
+    const unsigned char *at = (const unsigned char *)record + sizeof *record;
+    shards_object o = {.kind = (froe_kind)record->kind,
+                       .dim = record->dim,
+                       .tag = record->tag,
+                       .sourced = record->sourced,
+                       .source = {.group = FROE_NONE}};
+    size_t numbers = record->words - sizeof *record / 8;
+    if (o.sourced) {
+        memcpy(&o.source, at, sizeof o.source);
+        at += sizeof o.source;
+        numbers -= sizeof o.source / 8;
+    }
+    o.numbers = (const double *)(const void *)at;
+    if (o.kind == FROE_BALL) o.radius = o.numbers[--numbers];
+    o.corners = numbers / (size_t)o.dim;
+    return o;
+}
 
 /** The record at some place of whole ones. */
 static inline const shards_record *shards_record_at(const void *bytes, size_t at) {
@@ -48,8 +66,19 @@ static inline bool shards_records_reserve(froe_shard_records *records, size_t ex
 /** froe_shard_records_add() of a batch that is right. FROE_E_LIMIT, FROE_E_MEMORY. */
 froe_status shards_records_put(froe_shard_records *records, int dim, const froe_objects *batch, uint64_t first,
                                froe_diagnostic *diag);
+/** The box of a ball of which lo and hi are the middle, rounded outwards. */
+void shards_widen_box(int dim, double radius, double *lo, double *hi);
 /** The box of an object: bounds of its corners, and of a ball of its extent, rounded outwards. */
-void shards_object_box(const shards_object *object, double *lo, double *hi);
+static inline void shards_object_box(const shards_object *o, double *lo, double *hi) {
+    for (int a = 0; a < o->dim; a++) lo[a] = hi[a] = o->numbers[a];
+    for (size_t i = 1; i < o->corners; i++)
+        for (int a = 0; a < o->dim; a++) {
+            const double x = o->numbers[i * (size_t)o->dim + (size_t)a];
+            lo[a] = x < lo[a] ? x : lo[a];
+            hi[a] = x > hi[a] ? x : hi[a];
+        }
+    if (o->kind == FROE_BALL) shards_widen_box(o->dim, o->radius, lo, hi);
+}
 /** A total order of records: by tag, then by their bytes. 0: they are equal. */
 int shards_record_compare(const shards_record *a, const shards_record *b);
 /** About how many bytes building a tree takes for an object, with its record. */
