@@ -213,7 +213,7 @@ static froe_status refuse_groups(const step *s, froe_diagnostic *diag) {
     const mpi_query *q = &s->asking->query;
     const uint32_t count = froe_shards_about(shards).shards;
     uint64_t groups = 0;
-    for (uint32_t i = (uint32_t)s->ranks->rank; i < count; i += (uint32_t)s->ranks->count) {
+    for (uint32_t turn = 0, i; (i = mpi_own_shard(s->ranks, turn)) < count; turn++) {
         const froe_tree *tree = NULL;
         if (!froe_shards_tree(shards, i, &tree, NULL) && tree) groups += froe_scene_group_count(froe_tree_scene(tree));
     }

@@ -229,7 +229,7 @@ static froe_status gather(void *user, const void *records, size_t count) {
 static froe_status build_all(froe_mpi_builder *b) {
     const uint32_t count = froe_shard_plan_count(b->plan);
     froe_status status = FROE_OK;
-    for (uint32_t s = (uint32_t)b->ranks.rank; s < count && !status; s += (uint32_t)b->ranks.count) {
+    for (uint32_t turn = 0, s; !status && (s = mpi_own_shard(&b->ranks, turn)) < count; turn++) {
         b->batch.count = 0;
         status = froe_shard_buckets_take(b->buckets, s, gather, b, &b->diag);
         if (!status) status = froe_shard_build(&b->batch, b->plan, s, NULL, &b->o, b->folder, &b->entries[s], &b->diag);

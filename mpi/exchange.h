@@ -9,9 +9,4 @@
  * rank all stop at once, and `diag`, which is needed, tells of this rank's own; mpi_agree() must follow. */
 froe_status mpi_exchange(const mpi_ranks *ranks, const froe_shard_plan *plan, froe_shard_buckets *spool,
                          froe_shard_buckets *buckets, uint64_t *sent, froe_diagnostic *diag);
-
-/** The rank that owns a shard. */
-static inline int mpi_owner(const mpi_ranks *ranks, uint32_t shard) {
-    return (int)(shard % (uint32_t)ranks->count);
-}
 #endif

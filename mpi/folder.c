@@ -45,7 +45,7 @@ static froe_status trade(void *user, froe_status status, const froe_shard_record
 static froe_status open_own(froe_mpi_folder *f, froe_diagnostic *diag) {
     const uint32_t count = froe_shards_about(f->shards).shards;
     froe_status status = FROE_OK;
-    for (uint32_t s = (uint32_t)f->ranks.rank; s < count && !status; s += (uint32_t)f->ranks.count) {
+    for (uint32_t turn = 0, s; !status && (s = mpi_own_shard(&f->ranks, turn)) < count; turn++) {
         const froe_tree *tree;
         status = froe_shards_tree(f->shards, s, &tree, diag);
     }

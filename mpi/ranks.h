@@ -2,6 +2,7 @@
 #ifndef FROE_MPI_RANKS_H
 #define FROE_MPI_RANKS_H
 #include <froe/mpi.h>
+#include <froe/shard_parts.h>
 
 typedef struct mpi_ranks {
     MPI_Comm comm;
@@ -9,6 +10,15 @@ typedef struct mpi_ranks {
     froe_mpi_cost *waited; /**< what this rank spent waiting for others, while it agreed with them; NULL: not counted */
 } mpi_ranks;
 mpi_ranks mpi_ranks_of(MPI_Comm comm);
+
+/** The rank that owns a shard. */
+static inline int mpi_owner(const mpi_ranks *ranks, uint32_t shard) {
+    return (int)froe_shard_owner(shard, (uint32_t)ranks->count);
+}
+/** This rank's shard number `turn`; the last one is followed by numbers that no shard has. */
+static inline uint32_t mpi_own_shard(const mpi_ranks *ranks, uint32_t turn) {
+    return froe_shard_of_turn((uint32_t)ranks->rank, (uint32_t)ranks->count, turn);
+}
 
 /** Collective: the status of the first rank that has failed, with its diagnostic, on all ranks. `diag` is needed. */
 froe_status mpi_agree(const mpi_ranks *ranks, froe_status status, froe_diagnostic *diag);

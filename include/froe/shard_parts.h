@@ -169,8 +169,19 @@ FROE_API froe_status froe_shard_draft_end(froe_shard_draft *draft, froe_status s
 typedef froe_status froe_shards_trade_fn(void *user, froe_status status, const froe_shard_records *out,
                                          const size_t *counts, froe_shard_records *in, size_t *in_counts,
                                          froe_diagnostic *diag);
-/** Lets `count` processes that have opened the same folder ask it together: shard s is asked by process s modulo
- * `count`, and by no other. From now on the processes make each call that asks (froe/shards.h) together, with questions
+/** Which of `count` processes has a shard: they take turns, and each turn begins with the next process, because every
+ * second or fourth shard is often one of a crowded side, and takes longer.
+ *
+ *     shard      0 1 2 | 3 4 5 | 6 7 8 | 9 ...
+ *     process    0 1 2 | 1 2 0 | 2 0 1 | 0 ...
+ *
+ * 0: count is 0. */
+FROE_API uint32_t froe_shard_owner(uint32_t shard, uint32_t count);
+/** The shard that a process has of turn 0, 1, ...: there is none where it is not below the number of shards, nor in any
+ * later turn. */
+FROE_API uint32_t froe_shard_of_turn(uint32_t process, uint32_t count, uint32_t turn);
+/** Lets `count` processes that have opened the same folder ask it together: a shard is asked by its froe_shard_owner(),
+ * and by no other. From now on the processes make each call that asks (froe/shards.h) together, with questions
  * of their own, perhaps none, and the same other arguments. Each gets the answers to its own questions, as it would
  * have got them alone. A bad question is a failure of the process that has it. Any other failure is one of all
  * processes, but for one behind the last exchange, so that they have to compare what the calls returned.

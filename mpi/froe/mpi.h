@@ -9,8 +9,8 @@
  *     froe_shards_boxes(froe_mpi_shards(folder), my_windows, my_count, NULL, &my_finds, &diag);
  *     froe_mpi_close(folder);
  *
- * The folder is that of froe/shards.h, the same bytes for any number of ranks: shard s is built and asked by rank s
- * modulo their number. All ranks see the same file system. A call that is named collective is made by all ranks of the
+ * The folder is that of froe/shards.h, the same bytes for any number of ranks: a shard is built and asked by its
+ * froe_shard_owner(). All ranks see the same file system. A call that is named collective is made by all ranks of the
  * communicator, with the same arguments where nothing else is said; all of them return the same status and diagnostic,
  * those of the first rank that has failed. Failures of MPI itself end the program, as MPI does by default; the folder
  * that was there before stays then, too. */

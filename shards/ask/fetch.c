@@ -34,7 +34,7 @@ static bool list_wanted(const froe_shards *s, const froe_finds *f, size_t k, wan
 static froe_status put_wanted(shards_share *share, const wanted_array *list, froe_diagnostic *diag) {
     for (uint32_t r = 0; r < share->count; r++)
         for (size_t i = 0; i < list->count; i++)
-            if (list->data[i].shard % share->count == r &&
+            if (froe_shard_owner(list->data[i].shard, share->count) == r &&
                 !shards_share_put(share, &share->out_counts[r], &list->data[i], sizeof list->data[i]))
                 return support_fail_memory(diag);
     return FROE_OK;
@@ -69,7 +69,7 @@ static froe_status note_records(froe_shards *s, const wanted_array *list, froe_d
     if (!array_reserve(&s->alloc, &share->fetched, list->count)) return support_fail_memory(diag);
     for (uint32_t r = 0; r < share->count; r++)
         for (size_t i = 0; i < list->count; i++) {
-            if (list->data[i].shard % share->count != r) continue;
+            if (froe_shard_owner(list->data[i].shard, share->count) != r) continue;
             const size_t size = froe_shard_record_size(share->in.bytes + at, share->in.count - at);
             const shards_record *record = shards_record_at(share->in.bytes, at);
             if (!size || record->dim != s->dim)

@@ -17,6 +17,22 @@ enum { WORD = 8, WORDS_OF_DIAGNOSTIC = (sizeof(froe_diagnostic) + WORD - 1) / WO
 
 /* ------------------------------------------------------------------ sharing -- */
 
+uint32_t froe_shard_owner(uint32_t shard, uint32_t count) {
+    return count ? (uint32_t)(((uint64_t)shard % count + shard / count) % count) : 0;
+}
+
+uint32_t froe_shard_of_turn(uint32_t process, uint32_t count, uint32_t turn) {
+    if (process >= count) return FROE_NONE;
+    const uint64_t place = ((uint64_t)process + count - turn % count) % count, shard = (uint64_t)turn * count + place;
+    return shard < FROE_NONE ? (uint32_t)shard : FROE_NONE;
+}
+
+/* The next shard of a process, if there is one. */
+static bool next_of(const froe_shards *s, uint32_t process, uint32_t *turn, uint32_t *shard) {
+    *shard = froe_shard_of_turn(process, s->share->count, (*turn)++);
+    return *shard < s->count;
+}
+
 froe_status froe_shards_share(froe_shards *s, uint32_t rank, uint32_t count, froe_shards_trade_fn *trade, void *user,
                               froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
@@ -204,7 +220,7 @@ static froe_status put_lists(shards_call *call, const size_t *starts, const size
     for (uint32_t r = 0; r < share->count; r++) {
         size_t *count = &share->out_counts[r];
         bool ok = shards_share_put(share, count, &active, sizeof active);
-        for (uint32_t t = r; t < call->s->count && ok && r != share->rank; t += share->count) {
+        for (uint32_t turn = 0, t; r != share->rank && ok && next_of(call->s, r, &turn, &t);) {
             const size_t first = starts[t], questions = starts[t + 1] - first;
             if (questions) ok = put_questions(share, count, call->q, t, which + first, alone + first, questions);
         }
@@ -334,7 +350,7 @@ static froe_status take_all(shards_call *call, const size_t *starts, const size_
     froe_status status = FROE_OK;
     for (uint32_t r = 0; r < share->count && !status; r++) {
         c.left = share->in_counts[r];
-        for (uint32_t t = r; t < call->s->count && r != share->rank && !status; t += share->count)
+        for (uint32_t turn = 0, t; r != share->rank && !status && next_of(call->s, r, &turn, &t);)
             if (starts[t] < starts[t + 1])
                 status = take_block(call, &c, t, which + starts[t], starts[t + 1] - starts[t], diag);
         if (!status && c.left) status = fail_cut(diag);
@@ -350,7 +366,7 @@ froe_status shards_share_ask(shards_call *call, froe_status status, const size_t
     if ((status = shards_share_trade(share, status, diag))) return status;
     bool any;
     status = answer_others(call, &any, diag);
-    for (uint32_t t = share->rank; t < call->s->count && !status; t += share->count) {
+    for (uint32_t turn = 0, t; !status && next_of(call->s, share->rank, &turn, &t);) {
         const size_t first = starts[t], count = starts[t + 1] - first;
         if (count) status = shards_call_shard(call, t, which + first, alone + first, count, diag);
     }

@@ -1,5 +1,5 @@
-/* share.h: a folder that several processes ask together, each with questions of its own: shard t is asked by process
- * t modulo their number, and by no other.
+/* share.h: a folder that several processes ask together, each with questions of its own: a shard is asked by its
+ * froe_shard_owner() alone.
  *
  *     asker                                     owner of shard t
  *     questions for t, rows of doubles   --->   the same call, with these questions: shards_call_shard()
@@ -34,7 +34,7 @@ void shards_share_free(froe_shards *s);
 void shards_share_begin(froe_shards *s);
 void shards_share_refuse(froe_shards *s);
 static inline bool shards_share_owns(const froe_shards *s, uint32_t shard) {
-    return !s->share || shard % s->share->count == s->share->rank;
+    return !s->share || froe_shard_owner(shard, s->share->count) == s->share->rank;
 }
 
 /** shards_call_all() of several processes. */

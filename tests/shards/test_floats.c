@@ -61,6 +61,7 @@ static void building_by_steps(floats_run *r, void *user) {
     MUST(r, froe_shard_sample_add(sample, records.bytes, records.count));
     froe_shard_sample_new(2, NULL, &other);
     TELL(r, froe_shard_sample_bound(sample, 7));
+    TELL(r, froe_shard_owner(5, 3) + froe_shard_of_turn(1, 3, 1));
     TELL(r, (words = froe_shard_sample_words(sample, &count), 0));
     MUST(r, froe_shard_sample_merge(other, words, count));
     MUST(r, froe_shard_plan_new(other, 2, 0, &plan, NULL));

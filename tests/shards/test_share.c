@@ -464,6 +464,28 @@ static void a_range_of_more_points_than_have_come_is_refused(void **state) {
     free(q);
 }
 
+static void every_shard_has_an_owner_and_every_turn_begins_with_the_next(void **state) {
+    (void)state;
+    enum { SHARDS = 4096 };
+    static const uint32_t first[] = {0, 1, 2, 1, 2, 0, 2, 0, 1, 0};
+    for (uint32_t s = 0; s < 10; s++) assert_int_equal(froe_shard_owner(s, 3), first[s]);
+    for (uint32_t count = 1; count < 40; count++) {
+        uint32_t found = 0;
+        for (uint32_t process = 0; process < count; process++)
+            for (uint32_t turn = 0, s; (s = froe_shard_of_turn(process, count, turn)) < SHARDS; turn++) {
+                assert_int_equal(froe_shard_owner(s, count), process);
+                assert_int_equal(s / count, turn);
+                found++;
+            }
+        assert_int_equal(found, SHARDS);
+    }
+    assert_int_equal(froe_shard_of_turn(3, 3, 0), FROE_NONE);
+    assert_int_equal(froe_shard_of_turn(0, 0, 0), FROE_NONE);
+    assert_int_equal(froe_shard_of_turn(0, 2, UINT32_MAX), FROE_NONE);
+    assert_int_equal(froe_shard_owner(1, 0), 0);
+    assert_int_equal(froe_shard_owner(UINT32_MAX, UINT32_MAX), 1);
+}
+
 static void what_is_no_process_is_refused(void **state) {
     (void)state;
     froe_shards *shards;
@@ -484,6 +506,7 @@ int main(void) {
         cmocka_unit_test(memory_is_refused_to_one),
         cmocka_unit_test(numbers_of_answers_are_sent_without_the_answers),
         cmocka_unit_test(a_range_of_more_points_than_have_come_is_refused),
+        cmocka_unit_test(every_shard_has_an_owner_and_every_turn_begins_with_the_next),
         cmocka_unit_test(what_is_no_process_is_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
