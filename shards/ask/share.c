@@ -28,7 +28,7 @@ uint32_t froe_shard_of_turn(uint32_t process, uint32_t count, uint32_t turn) {
 }
 
 /* The next shard of a process, if there is one. */
-static bool next_of(const froe_shards *s, uint32_t process, uint32_t *turn, uint32_t *shard) {
+static bool next_shard_of(const froe_shards *s, uint32_t process, uint32_t *turn, uint32_t *shard) {
     *shard = froe_shard_of_turn(process, s->share->count, (*turn)++);
     return *shard < s->count;
 }
@@ -220,7 +220,7 @@ static froe_status put_lists(shards_call *call, const size_t *starts, const size
     for (uint32_t r = 0; r < share->count; r++) {
         size_t *count = &share->out_counts[r];
         bool ok = shards_share_put(share, count, &active, sizeof active);
-        for (uint32_t turn = 0, t; r != share->rank && ok && next_of(call->s, r, &turn, &t);) {
+        for (uint32_t turn = 0, t; r != share->rank && ok && next_shard_of(call->s, r, &turn, &t);) {
             const size_t first = starts[t], questions = starts[t + 1] - first;
             if (questions) ok = put_questions(share, count, call->q, t, which + first, alone + first, questions);
         }
@@ -350,7 +350,7 @@ static froe_status take_all(shards_call *call, const size_t *starts, const size_
     froe_status status = FROE_OK;
     for (uint32_t r = 0; r < share->count && !status; r++) {
         c.left = share->in_counts[r];
-        for (uint32_t turn = 0, t; r != share->rank && !status && next_of(call->s, r, &turn, &t);)
+        for (uint32_t turn = 0, t; r != share->rank && !status && next_shard_of(call->s, r, &turn, &t);)
             if (starts[t] < starts[t + 1])
                 status = take_block(call, &c, t, which + starts[t], starts[t + 1] - starts[t], diag);
         if (!status && c.left) status = fail_cut(diag);
@@ -366,7 +366,7 @@ froe_status shards_share_ask(shards_call *call, froe_status status, const size_t
     if ((status = shards_share_trade(share, status, diag))) return status;
     bool any;
     status = answer_others(call, &any, diag);
-    for (uint32_t turn = 0, t; !status && next_of(call->s, share->rank, &turn, &t);) {
+    for (uint32_t turn = 0, t; !status && next_shard_of(call->s, share->rank, &turn, &t);) {
         const size_t first = starts[t], count = starts[t + 1] - first;
         if (count) status = shards_call_shard(call, t, which + first, alone + first, count, diag);
     }
