@@ -38,7 +38,7 @@ if(FROE_TESTS)
   set_target_properties(froe_mpi_alone PROPERTIES OUTPUT_NAME froe-alone RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
   target_link_libraries(froe_mpi_alone PRIVATE ${mpi_core})
   froe_mpi_program(froe_mpi_moments froe-mpi-moments tests/mpi/moments.c)
-  foreach(call froe_shard_records_add froe_shard_plan_new froe_shard_build froe_shard_draft_sync froe_shard_draft_place
+  foreach(call mpi_rows_read froe_shard_records_add froe_shard_plan_new froe_shard_build froe_shard_draft_sync froe_shard_draft_place
           froe_shards_boxes pwrite flock)
     target_link_options(froe_mpi_moments PRIVATE -Wl,--wrap=${call})
   endforeach()

@@ -77,8 +77,19 @@ static uint64_t count_rows(const unsigned char *block, size_t count, bool *blank
     return rows;
 }
 
-/* Reads what lies between two places, counts its rows, and copies it, if `to` is a file. */
-static froe_status pass_lines(row_file *f, off_t begin, off_t end, FILE *to, uint64_t *rows) {
+/* A part as a file, for the reader. */
+typedef struct part_file {
+    char name[PATH_MAX + 32];
+    FILE *file; /* NULL: there is none */
+    uint64_t rows;
+} part_file;
+
+static froe_status fail_part(const row_file *f, const part_file *part) {
+    return support_fail_file(f->diag, "written", part->name, errno);
+}
+
+/* Reads what lies between two places, counts its rows, and copies it to a part, if there is one. */
+static froe_status pass_lines(row_file *f, off_t begin, off_t end, const part_file *to, uint64_t *rows) {
     unsigned char block[1 << 16];
     bool blank = true;
     *rows = 0;
@@ -88,7 +99,7 @@ static froe_status pass_lines(row_file *f, off_t begin, off_t end, FILE *to, uin
         const size_t count = fread(block, 1, most, f->file);
         if (!count) return fail_file(f, "read");
         if (memchr(block, '"', count)) return fail_quoted(f);
-        if (to && fwrite(block, 1, count, to) != count) return fail_file(f, "copied");
+        if (to && fwrite(block, 1, count, to->file) != count) return fail_part(f, to);
         *rows += count_rows(block, count, &blank);
         left -= (off_t)count;
     }
@@ -117,13 +128,6 @@ static froe_status read_names(const row_file *f, bool *tagged) {
                  : FROE_OK;
 }
 
-/* A part as a file, for the reader. */
-typedef struct part_file {
-    char name[PATH_MAX + 32];
-    FILE *file; /* NULL: there is none */
-    uint64_t rows;
-} part_file;
-
 static froe_status begin_part(const row_file *f, const char *folder, part_file *part) {
     static const char ending[] = ".csv";
     *part = (part_file){.file = NULL};
@@ -143,9 +147,9 @@ static froe_status read_part(row_file *f, off_t begin, off_t end, const char *fo
     o.name = told;
     froe_status status = begin_part(f, folder, &part);
     if (status) return status;
-    if (fputs(f->header, part.file) < 0) status = fail_file(f, "copied");
-    if (!status) status = pass_lines(f, begin, end, part.file, &part.rows);
-    if (fclose(part.file) && !status) status = fail_file(f, "copied");
+    if (fputs(f->header, part.file) < 0) status = fail_part(f, &part);
+    if (!status) status = pass_lines(f, begin, end, &part, &part.rows);
+    if (fclose(part.file) && !status) status = fail_part(f, &part);
     if (!status && part.rows) status = froe_read_batches(part.name, &o, fn, user, NULL, f->diag);
     unlink(part.name);
     *rows = part.rows;

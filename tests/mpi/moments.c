@@ -6,6 +6,7 @@
  *
  * The linker leads calls of the functions below here (--wrap, cmake/FroeMpi.cmake). */
 #define _DEFAULT_SOURCE 1 /* flock */
+#include "mpi/rows.h"
 #include <errno.h>
 #include <froe/shard_parts.h>
 #include <mpi.h>
@@ -34,6 +35,10 @@ static void meet_moment(const char *function, unsigned number) {
         return __real_##name arguments;                                                                                \
     }
 
+MOMENT(froe_status, mpi_rows_read,
+       (const mpi_ranks *ranks, const char *path, const char *folder, mpi_rows_fn *fn, void *user,
+        froe_diagnostic *diag),
+       (ranks, path, folder, fn, user, diag))
 MOMENT(froe_status, froe_shard_records_add,
        (froe_shard_records * records, int dim, const froe_objects *batch, uint64_t first, froe_diagnostic *diag),
        (records, dim, batch, first, diag))
