@@ -111,8 +111,10 @@ double print_area(const print_point *p, size_t count) {
 /* How far a ring reaches to the left of u v, times its length: at least (sign -1) or at most (sign 1). */
 static double reach(const print_point *ring, size_t count, print_point u, print_point v, int sign) {
     double most = -INFINITY;
-    for (size_t i = 0; i < count; i++)
-        most = fmax(most, sign * ((v.y - u.y) * (ring[i].x - u.x) - (v.x - u.x) * (ring[i].y - u.y)));
+    for (size_t i = 0; i < count; i++) {
+        const double at = sign * ((v.y - u.y) * (ring[i].x - u.x) - (v.x - u.x) * (ring[i].y - u.y));
+        most = at > most ? at : most;
+    }
     return sign * most;
 }
 

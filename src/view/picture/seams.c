@@ -166,7 +166,8 @@ static bool add_range(view_seams *s, seam_ranges *ranges, uint32_t visible, cons
     if (!clip_piece(s, visible, strip)) return false;
     for (size_t i = 0; i < s->clip[0].count; i++) {
         const double t = ((s->clip[0].data[i].x - a.x) * dx + (s->clip[0].data[i].y - a.y) * dy) / square;
-        r.from = fmin(r.from, fmax(t, 0)), r.to = fmax(r.to, fmin(t, 1));
+        const double lo = t > 0 ? t : 0, hi = t < 1 ? t : 1; /* calls of fmin() would take longer than all else here */
+        r.from = lo < r.from ? lo : r.from, r.to = hi > r.to ? hi : r.to;
     }
     return r.from >= r.to || array_push(&s->parts->v->alloc, ranges, r);
 }

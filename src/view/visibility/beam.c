@@ -32,8 +32,10 @@ static view_way own_way(view_sightlines *s, uint32_t object, uint32_t side, int 
 
 /* Is the cut of a node a wall of the method `cylindrical`, which leans by an infinitely small eps? */
 static bool leans(const view_sightlines *s, uint32_t node) {
-    const geom_plane plane = tree_plane_at(s->tree, node);
-    return geom_is_sheared(&plane);
+    const tree_node *n = s->tree->nodes + node;
+    if (n->type == TREE_PLAIN) return false;
+    const uint32_t kind = s->tree->cuts[n->u.cut].kind; /* the plane would say so, too, after much arithmetic */
+    return kind == FROE_CUT_VERTEX || kind == FROE_CUT_CROSSING;
 }
 
 /* A wall that leans may cut off a piece without width along an edge, and pass along that edge as the eye sees it. Then
