@@ -1,26 +1,14 @@
 /* grow.c: the shared loop, cell by cell or level by level down to small cells, then one task per small cell. */
-#include "split/cell.h"
 #include "split/charge/thin.h"
 #include "split/guard/trial.h"
+#include "split/step.h"
+#include "split/waiting.h"
 #include "support/fail.h"
 #include <math.h>
 #include <string.h>
 
 /* Cells of at most max(least, n / share) fragments become tasks, except tiny ones, which do not pay for a task. */
 enum { TASK_TINY = 16, TASK_LEAST = 1024, TASK_LEAST_AHEAD = 256, TASK_SHARE = 64, REGROWN = 4 };
-
-/** A cell that waits, with its fragments; small ones become subtrees. */
-typedef struct grow_task {
-    split_cell cell;
-    ARRAY(split_fragment) items;
-    ARRAY(split_corner) corners;
-    ARRAY(unsigned char) room;
-    split_choice choice;  /**< of large ones */
-    uint32_t crossing[2]; /**< why it was refused */
-    tree_draft draft;
-} grow_task;
-
-typedef ARRAY(grow_task) grow_tasks;
 
 typedef struct grow {
     const split_job *job;
@@ -43,89 +31,6 @@ static froe_status count_pieces(grow *g, const tree_draft *draft) {
     return most && emitted > most ? FROE_E_BUDGET : FROE_OK;
 }
 
-static froe_status failure_of(split_verdict verdict) {
-    switch (verdict) {
-    case SPLIT_REFUSE:
-        return FROE_E_INPUT;
-    case SPLIT_GIVE_UP:
-        return FROE_E_BUDGET;
-    case SPLIT_CANCELLED:
-        return FROE_E_CANCELLED;
-    default:
-        return FROE_E_MEMORY;
-    }
-}
-
-static uint8_t leaf_flags(split_verdict verdict) {
-    return verdict == SPLIT_INSEPARABLE ? TREE_INSEPARABLE : verdict == SPLIT_CROWDED ? TREE_CROWDED : 0;
-}
-
-/** Makes the rooms of the cell at hand and of all pending cells as many as there are. */
-static bool fit_rooms(const split_method *method, split_work *work) {
-    const size_t bytes = method->room * (work->cells.count + 1), more = bytes - work->rooms.count;
-    if (bytes > work->rooms.count && !array_reserve(&work->set.alloc, &work->rooms, more)) return false;
-    work->rooms.count = bytes;
-    return true;
-}
-
-/** Empties the rooms of the cells that were pushed from number `first` on without being divided here. */
-static froe_status empty_rooms(const split_method *method, split_work *work, size_t first) {
-    if (!method->room || work->cells.count == first) return FROE_OK;
-    if (!fit_rooms(method, work)) return FROE_E_MEMORY;
-    memset(work->rooms.data + method->room * (first + 1), 0, method->room * (work->cells.count - first));
-    return FROE_OK;
-}
-
-/** Cuts the cell and fills the rooms of its children. */
-static froe_status divide_cell(const split_method *method, split_work *work, const split_cell *cell,
-                               const froe_cut *cut, uint8_t flags, cell_limits *limits) {
-    froe_status status = cell_cut(work, cell, cut, flags, limits);
-    if (status || !method->divided || (limits && !limits->kept)) return status;
-    if (!fit_rooms(method, work)) return FROE_E_MEMORY;
-    unsigned char *negative = work->rooms.data + method->room * work->cells.count, *positive = negative - method->room;
-    memcpy(positive, work->rooms.data, method->room);
-    memcpy(negative, work->rooms.data, method->room);
-    method->divided(method->config, work, cell, cut, flags & TREE_GUARD, positive, negative);
-    return FROE_OK;
-}
-
-static split_verdict choose_cut(const split_method *method, split_work *work, const split_cell *cell, froe_cut *cut) {
-    const split_choice *chosen = work->chosen;
-    work->chosen = NULL; /* if that separates nothing, the method is asked again */
-    if (!chosen) return method->choose(method->config, work, cell, cut);
-    *cut = chosen->cut;
-    return chosen->verdict;
-}
-
-froe_status split_step(const split_method *method, split_work *work, split_cell *cell) {
-    froe_cut cut = {.kind = FROE_CUT_NONE};
-    froe_status status = FROE_OK;
-    while (!status) {
-        bool peeled = method->peels_first && cover_peel(&work->set, cell, &cut);
-        split_verdict verdict = peeled ? SPLIT_CUT_ANYWAY : choose_cut(method, work, cell, &cut);
-        if (verdict > SPLIT_CUT_GUARD) return failure_of(verdict);
-        if (verdict < SPLIT_CUT && verdict != SPLIT_LEAF && !method->shaped && !method->peels_first)
-            peeled = cover_peel(&work->set, cell, &cut);
-        if (peeled) verdict = SPLIT_CUT_ANYWAY, cell->peels++;
-        if (verdict < SPLIT_CUT) return cell_leaf(work, cell, leaf_flags(verdict));
-        const uint8_t guard = verdict == SPLIT_CUT_GUARD ? TREE_GUARD : 0;
-        if (verdict > SPLIT_CUT) return divide_cell(method, work, cell, &cut, guard, NULL);
-        cell_limits limits = {.thin = &method->thin};
-        const uint8_t charged = thin_charges(&method->thin, cell) ? TREE_CHARGED : 0;
-        status = divide_cell(method, work, cell, &cut, charged, &limits);
-        if (status || limits.kept) return status;
-        if (limits.useless) {
-            cell->attempt++;
-            continue;
-        }
-        bool begun = false;
-        status = thin_begin(&method->thin, work, cell, &begun);
-        if (begun) return status;
-        cell->growth = 0; /* cluttered: charged no more, and asked again */
-    }
-    return status;
-}
-
 /** Cuts or ends a cell below the guard stage. */
 static froe_status refine_cell(grow *g, split_work *work, split_cell *cell) {
     froe_status status = cell_take(work, g->job->lowest, cell, cell->wholes);
@@ -133,7 +38,7 @@ static froe_status refine_cell(grow *g, split_work *work, split_cell *cell) {
     if (!status) status = cover_find(&work->set, cell);
     const size_t pending = work->cells.count;
     if (g->method->finish && !status && !cell->covers) status = g->method->finish(g->method->config, work, cell, &done);
-    if (done && !status) status = empty_rooms(g->method, work, pending);
+    if (done && !status) status = step_empty_rooms(g->method, work, pending);
     return status || done ? status : split_step(g->method, work, cell);
 }
 
@@ -157,50 +62,6 @@ static froe_status grow_cell(grow *g, split_work *work, split_cell *cell) {
     return most && atomic_load(&g->emitted) + count > most ? FROE_E_BUDGET : FROE_OK;
 }
 
-static void forget_task(const froe_allocator *alloc, grow_task *task) {
-    array_free(alloc, &task->items);
-    array_free(alloc, &task->corners);
-    array_free(alloc, &task->room);
-    draft_free(&task->draft);
-}
-
-static void forget_tasks(const froe_allocator *alloc, grow_tasks *tasks) {
-    for (size_t i = 0; i < tasks->count; i++) forget_task(alloc, tasks->data + i);
-    array_free(alloc, tasks);
-}
-
-/** Moves a cell's fragments away, for its turn. */
-static froe_status put_off(grow *g, split_work *work, const split_cell *cell, grow_tasks *tasks) {
-    const froe_allocator *alloc = &g->job->alloc;
-    const split_set *set = &work->set;
-    if (!array_push(alloc, tasks, (grow_task){.cell = *cell, .crossing = {FROE_NONE}})) return FROE_E_MEMORY;
-    grow_task *task = tasks->data + tasks->count - 1;
-    if (!array_append(alloc, &task->room, work->rooms.data, g->method->room)) return FROE_E_MEMORY;
-    if (!array_reserve(alloc, &task->items, cell->count)) return FROE_E_MEMORY;
-    for (uint32_t i = 0; i < cell->count; i++) {
-        split_fragment f = set->items.data[cell->first + i];
-        const uint32_t first = f.first;
-        f.first = f.count ? (uint32_t)task->corners.count : 0;
-        if (f.count && !array_append(alloc, &task->corners, set->corners.data + first, f.count)) return FROE_E_MEMORY;
-        task->items.data[task->items.count++] = f;
-    }
-    task->cell.first = 0;
-    task->cell.corner_top = (uint32_t)task->corners.count;
-    work->set.items.count = cell->first;
-    return FROE_OK;
-}
-
-/** Makes a cell that was put off the only one that is pending, at hand. */
-static froe_status take_up(split_work *work, const grow_task *task) {
-    split_set *set = &work->set;
-    set->items.count = set->corners.count = work->cells.count = work->rooms.count = 0;
-    return array_append(&set->alloc, &set->items, task->items.data, task->items.count) &&
-                   array_append(&set->alloc, &set->corners, task->corners.data, task->corners.count) &&
-                   array_append(&set->alloc, &work->rooms, task->room.data, task->room.count)
-               ? FROE_OK
-               : FROE_E_MEMORY;
-}
-
 /** Is the turn of a cell of the main part to come later? Small ones become tasks, and their nodes leaves for now; large
  * ones wait for the others of their level. */
 static froe_status put_off_if_due(grow *g, split_work *work, const split_cell *cell, bool *due) {
@@ -210,7 +71,7 @@ static froe_status put_off_if_due(grow *g, split_work *work, const split_cell *c
     *due = !work->first.open && !cell->thin && load > TASK_TINY && (small || g->method->ahead);
     if (!*due) return FROE_OK;
     if (small) draft_leaf(work->set.draft, cell->node, 0);
-    return put_off(g, work, cell, small ? &g->tasks : &g->next);
+    return waiting_put_off(g->method->room, work, cell, small ? &g->tasks : &g->next);
 }
 
 /** Works off all pending cells; in the main part, some are put off. */
@@ -269,7 +130,7 @@ static froe_status push_root(grow *g, split_work *work) {
         for (uint32_t i = 0; i < n; i++) work->set.items.data[i] = (split_fragment){.object = order ? order[i] : i};
         work->set.items.count = root.count = n;
     }
-    if (!array_push(&g->job->alloc, &work->cells, root) || !fit_rooms(g->method, work)) return FROE_E_MEMORY;
+    if (!array_push(&g->job->alloc, &work->cells, root) || !step_fit_rooms(g->method, work)) return FROE_E_MEMORY;
     if (g->method->room) memset(work->rooms.data, 0, work->rooms.count);
     return FROE_OK;
 }
@@ -278,7 +139,7 @@ static froe_status push_root(grow *g, split_work *work) {
 static froe_status cut_root(grow *g, split_work *work) {
     if (!g->job->root) return FROE_OK;
     const split_cell root = work->cells.data[--work->cells.count];
-    return divide_cell(g->method, work, &root, g->job->root, 0, NULL);
+    return step_divide(g->method, work, &root, g->job->root, 0, NULL);
 }
 
 /** Names the cut of a large cell. */
@@ -287,7 +148,7 @@ static froe_status choose_ahead(void *user, unsigned worker, size_t index) {
     split_work *work = g->workers + worker;
     grow_task *task = g->level.data + index;
     work->set.draft = &g->main;
-    const froe_status status = take_up(work, task);
+    const froe_status status = waiting_take_up(work, task);
     if (!status) task->choice.verdict = g->method->choose(g->method->config, work, &task->cell, &task->choice.cut);
     return status;
 }
@@ -300,12 +161,12 @@ static froe_status grow_level(grow *g, split_work *work) {
     froe_status status = base_run(g->job->task, 0, level.count, choose_ahead, g);
     for (size_t i = 0; i < level.count; i++) {
         grow_task *task = level.data + i;
-        if (!status) status = take_up(work, task);
+        if (!status) status = waiting_take_up(work, task);
         work->chosen = &task->choice;
         if (!status) status = grow_cell(g, work, &task->cell);
         work->chosen = NULL;
         if (!status) status = grow_cells(g, work, true);
-        forget_task(&g->job->alloc, task);
+        waiting_free(&g->job->alloc, task);
     }
     g->level.count = 0;
     return status;
@@ -334,13 +195,13 @@ static froe_status grow_task_from(grow *g, split_work *work, grow_task *task, ui
     if (status) return status;
     set->main = &g->main;
     set->draft = &task->draft;
-    status = take_up(work, task);
+    status = waiting_take_up(work, task);
     if (status) return status;
     split_cell cell = task->cell;
     cell.node = task->draft.outer;
     cell.depth += sunk;
     work->deepest = 0;
-    if (!array_push(alloc, &work->cells, cell) || !fit_rooms(g->method, work)) return FROE_E_MEMORY;
+    if (!array_push(alloc, &work->cells, cell) || !step_fit_rooms(g->method, work)) return FROE_E_MEMORY;
     const size_t room = g->method->room;
     if (room) memcpy(work->rooms.data + room, task->room.data, room);
     status = grow_cells(g, work, false);
@@ -435,9 +296,9 @@ froe_status split_grow(const split_job *job, const split_method *method, froe_tr
         split_guard_tree_free(alloc, &work->thin);
     }
     support_free(alloc, g.workers, g.job->task->threads * sizeof *g.workers);
-    forget_tasks(alloc, &g.tasks);
-    forget_tasks(alloc, &g.level);
-    forget_tasks(alloc, &g.next);
+    waiting_free_all(alloc, &g.tasks);
+    waiting_free_all(alloc, &g.level);
+    waiting_free_all(alloc, &g.next);
     draft_free(&g.main);
     return status == FROE_E_INPUT ? status : split_explain(job->diag, job->max_fragments, status);
 }
