@@ -166,13 +166,12 @@ static void intersections_of_halfspaces_meet_as_in_rationals(void **state) {
         for (int style = 0; style <= FLAT; style++) {
             num_context context;
             assert_int_equal(num_context_new(NULL, &context), 0);
-            assert_int_equal(num_arena_reserve(&context.alloc, &context.arena, geom_meet_arena), 0);
             for (int i = 0; i < (dim == 2 ? 20 : 2); i++)
                 for (geom_core a = GEOM_CORE_LIST; a <= GEOM_CORE_RAY; a++) {
                     dice d = {.seed = (uint64_t)(i * 64 + style * 16) + a, .style = style};
                     check(&context, &d, dim, a, GEOM_CORE_PLANES);
                 }
-            assert_true(context.arena.high < geom_meet_arena / 4);
+            assert_true(context.arena.high < num_arena_bound / 4);
             num_context_free(&context);
         }
 }

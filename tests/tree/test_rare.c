@@ -284,7 +284,6 @@ static void round_solids_share_points_where_distances_say_so(void **state) {
     const double centres[] = {0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5};
     assert_int_equal(froe_scene_new(4, NULL, &s), FROE_OK);
     assert_int_equal(geom_context_new(NULL, &context), FROE_OK);
-    assert_int_equal(num_arena_reserve(&context.alloc, &context.arena, geom_meet_arena), FROE_OK);
     assert_int_equal(trees_add(s, FROE_HULL, 1, simplex, NULL, (const size_t[]){0, 5}), FROE_OK);
     assert_int_equal(trees_add(s, FROE_BALL, 2, centres, (const double[]){0.49, 0.51}, NULL), FROE_OK);
     const geom_convex hull = scene_convex(s, 0), near = scene_convex(s, 1), reach = scene_convex(s, 2);

@@ -18,10 +18,8 @@
 #define FROE_GEOM_MEET_MEET_H
 #include "geom/convex.h"
 
-/** Do a and b meet? Of the same dimension; above dimension 3 (geom/high/) lists and boxes. Arena: num_arena_bound, for
- * PLANES geom_meet_arena limbs. */
+/** Do a and b meet? Of the same dimension; above dimension 3 (geom/high/) lists and boxes. Arena: num_arena_bound. */
 bool geom_meet(num_context *context, const geom_convex *a, const geom_convex *b);
-extern const size_t geom_meet_arena;
 /** Do they for certain? By doubles alone: false when these are not sure. */
 bool geom_meet_surely(num_context *context, const geom_convex *a, const geom_convex *b);
 

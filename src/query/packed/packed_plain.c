@@ -212,8 +212,8 @@ const packed_kernels *packed_kernels_at(size_t i) {
     const packed_kernels *all[3];
     size_t count = 0;
 #ifdef PACKED_X86
-    if (has_avx512()) all[count++] = &packed_kernels_avx512;
-    if (has_avx2()) all[count++] = &packed_kernels_avx2;
+    if (has_avx512()) all[count++] = &packed_kernels_avx512; /* one way: as processors are */
+    if (has_avx2()) all[count++] = &packed_kernels_avx2;     /* one way: as processors are */
 #endif
     all[count++] = &packed_kernels_plain;
     return i < count ? all[i] : NULL;

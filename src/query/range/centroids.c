@@ -69,7 +69,9 @@ static bool divide_parts(centroid_plan *p) {
             u = p->parents[u];
             p->sizes[u] -= p->sizes[v];
         }
-        ok = push_part(p, root, 2 * (uint64_t)step) && push_part(p, v, 2 * (uint64_t)step + 1);
+        p->parts.data[p->parts.count + 1] = 2 * (uint64_t)step; /* root remains where it was */
+        p->parts.count += 2;
+        ok = push_part(p, v, 2 * (uint64_t)step + 1);
     }
     return ok;
 }

@@ -107,8 +107,7 @@ static bool halfspaces_meet(froe_query *q, uint32_t object, bool *memory) {
     if (in_all) return true;
     if (!r->polytope_made) { /* the corners of the halfspaces within the bounds of the scene, when first needed */
         r->polytope_made = geom_polytope_make(&q->numbers, &q->alloc, s->dim, from->points, from->offsets, from->count,
-                                              s->lo, s->hi, &r->polytope) &&
-                           !num_arena_reserve(&q->alloc, &q->numbers.arena, geom_meet_arena);
+                                              s->lo, s->hi, &r->polytope);
         r->range.set = geom_polytope_convex(&r->polytope, s->dim);
     }
     if (!r->polytope_made) return *memory = true, false;

@@ -85,8 +85,7 @@ froe_status trace_cell_meets(tree_trace *t, uint32_t leaf, bool *meets) {
     } else if (room && certain) {
         geom_polytope cell = {.error = 0};
         room = geom_polytope_make(&t->context, &t->alloc, s->dim, c.normals.data, c.offsets.data, c.offsets.count, c.lo,
-                                  c.hi, &cell) &&
-               !num_arena_reserve(&t->alloc, &t->context.arena, geom_meet_arena);
+                                  c.hi, &cell);
         const geom_convex set = geom_polytope_convex(&cell, s->dim);
         if (room) *meets = set.count && geom_meet(&t->context, &solid, &set);
         geom_polytope_free(&cell, &t->alloc);
