@@ -5,10 +5,10 @@
 #include "geom/high/high.h"
 #include <string.h>
 
-/* num_arena_bound (num/dyadic.c) is enough for PLANES, too: their corners are fractions of degree 3, differences of them
- * have degree 7 along an edge, and the longest polynomial, a squared height times squared weights, degree 44. A face
- * takes at most 120 steps of degree 14 (464 limbs) and 40 of degree 44 (1 454); a simplex has four corners of 300 steps
- * of degree 4 (134). All that a step keeps is a simplex and a face. */
+/* num_arena_bound (num/dyadic.c) is enough for PLANES, too: their corners are fractions of degree 3, differences of
+ * them have degree 7 along an edge, and the longest polynomial, a squared height times squared weights, degree 44. A
+ * face takes at most 120 steps of degree 14 (464 limbs) and 40 of degree 44 (1 454); a simplex has four corners of 300
+ * steps of degree 4 (134). All that a step keeps is a simplex and a face. */
 
 /* ----------------------------------------------------------------- balls -- */
 
