@@ -146,6 +146,44 @@ static void separable_hulls_are_found_wherever_they_are_listed(void **state) {
     }
 }
 
+/* The third hull has more corners than both before it, so that comparing it with the first takes memory. */
+static froe_status refute_more(void *user, const froe_allocator *alloc) {
+    froe_tree tree = *(const froe_tree *)user;
+    const tree_objects list = tree_own_list(&tree, 0);
+    const char *why = NULL;
+    num_context context;
+    base_task task;
+    tree.alloc = *alloc;
+    base_task_init(&task, 1, NULL, NULL);
+    assert_int_equal(geom_context_new(NULL, &context), FROE_OK);
+    const froe_status status = inseparable_refuted(&context, &task, &tree, &list, &why);
+    num_context_free(&context);
+    if (!status) assert_null(why);
+    return status;
+}
+
+static void memory_may_end_at_any_pair_of_hulls(void **state) {
+    enum { FEW = 4, MORE = 60 };
+    static const double simplex[FEW * 3] = {-1, -1, -1, 1, -1, -1, 0, 1, -1, 0, 0, 1};
+    double corners[(2 * FEW + MORE) * 3];
+    const size_t starts[4] = {0, FEW, 2 * FEW, 2 * FEW + MORE};
+    froe_scene *scene;
+    (void)state;
+    for (size_t i = 0; i < 2 * FEW * 3; i++) corners[i] = simplex[i % (FEW * 3)] + (i < FEW * 3 ? 0 : 0.125);
+    for (int i = 0; i < MORE; i++) {
+        const double z = (2 * i + 1.0) / MORE - 1, r = sqrt(1 - z * z), turn = 2.399963 * i;
+        double *x = corners + 3 * (2 * FEW + (size_t)i);
+        x[0] = r * cos(turn), x[1] = r * sin(turn), x[2] = z;
+    }
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    assert_int_equal(trees_add(scene, FROE_HULL, 3, corners, NULL, starts), FROE_OK);
+    froe_tree *tree = trees_build(scene, "density", 9);
+    assert_int_equal(tree_own_list(tree, 0).count, 3);
+    assert_true(test_memory_each(refute_more, tree) > 3);
+    froe_tree_free(tree);
+    froe_scene_free(scene);
+}
+
 /* ------------------------------------------------------------------------- guards -- */
 
 /* x - y, and y and z alone, are bounded by a guard; x + y, 2 x and x - y + z are no differences. */
@@ -295,6 +333,7 @@ int main(void) {
         cmocka_unit_test(nothing_must_be_listed_where_numbers_overflow),
         cmocka_unit_test(audits_of_cells_may_lack_memory),
         cmocka_unit_test(separable_hulls_are_found_wherever_they_are_listed),
+        cmocka_unit_test(memory_may_end_at_any_pair_of_hulls),
         cmocka_unit_test(guards_cut_by_other_sums_bound_nothing),
         cmocka_unit_test(root_boxes_have_to_fit_the_scene),
         cmocka_unit_test(cuts_of_packed_trees_are_axis_parallel),

@@ -25,8 +25,9 @@ static void column_exactly(const void *user, num_arena *arena, uint32_t j, num_d
     const geom_convex *set = right ? NULL : corner_of_column(p, j, &corner, &sign);
     for (int k = 0; k < dim; k++)
         out[k] = right ? zero : num_dyadic_from(arena, sign * geom_convex_coordinate(set, corner, k));
-    out[dim] = right || set == &p->a ? one : zero;
-    out[dim + 1] = right || set == &p->b ? one : zero;
+    const bool of_a = right || set == &p->a, of_b = right || set == &p->b;
+    out[dim] = of_a ? one : zero;
+    out[dim + 1] = of_b ? one : zero;
 }
 
 /* About that, measured from a corner. */
