@@ -488,6 +488,43 @@ static void what_is_seen_whole_is_kept_whole(void **state) {
     froe_tree_free(tree);
 }
 
+/* Afterwards every line is the window's, or something visible ends on it, and is found again under its number. */
+static void lines_of_what_is_hidden_are_forgotten(void **state) {
+    (void)state;
+    froe_tree *tree = trees_grow(3, FROE_POLYGON, 400, 0, 1, "density", 1);
+    froe_surface *surface;
+    froe_visibility *v;
+    const double window[12] = {-1, -1, 1.5, 2, -1, 1.5, 2, 2, 1.5, -1, 2, 1.5};
+    froe_visibility_options o = froe_visibility_defaults();
+    o.eye.at[2] = 3;
+    o.window = window, o.window_corners = 4;
+    assert_int_equal(froe_surface_new(tree->scene, NULL, &surface, NULL), FROE_OK);
+    assert_int_equal(froe_visibility_new(tree, surface, &o, &v, NULL), FROE_OK);
+    const size_t count = v->sights.lines.count;
+    uint32_t cuts = 0, edges = 0;
+    uint8_t *used = calloc(count, 1);
+    for (size_t i = 0; i < v->corners.count; i++) used[v->corners.data[i].way >> 1] = 1;
+    for (uint32_t i = 0; i < 2 * v->interval_count; i++)
+        if (v->interval_marks[i].vertex == FROE_NONE) used[v->interval_marks[i].way >> 1] = 1;
+    for (uint32_t e = 0; e < surface->edge_count; e++)
+        if (v->edge_starts[e] < v->edge_starts[e + 1]) used[v->sights.of_edge[e] - 1] = 1;
+    for (uint32_t i = 0; i < count; i++) {
+        const view_line l = v->sights.lines.data[i];
+        if (l.kind == VIEW_EDGE && l.c == FROE_NONE) continue;
+        assert_true(used[i]);
+        assert_int_equal(
+            l.kind == VIEW_CUT ? view_line_of_cut(&v->sights, l.a, l.b) : view_line_of_edge(&v->sights, l.c), i);
+        *(l.kind == VIEW_CUT ? &cuts : &edges) += 1;
+    }
+    assert_int_equal(v->sights.lines.count, count); /* none was made anew */
+    assert_true(cuts > 100 && edges > 100);
+    assert_true(count < 0.9 * (double)froe_visibility_statistics(v).lines);
+    free(used);
+    froe_visibility_free(v);
+    froe_surface_free(surface);
+    froe_tree_free(tree);
+}
+
 static bool stop(void *user, double done) {
     (void)user;
     return done < 0.05;
@@ -543,6 +580,7 @@ int main(void) {
         cmocka_unit_test(corners_lie_where_they_are_seen),
         cmocka_unit_test(bad_views_are_refused),
         cmocka_unit_test(what_is_seen_whole_is_kept_whole),
+        cmocka_unit_test(lines_of_what_is_hidden_are_forgotten),
         cmocka_unit_test(looking_can_be_cancelled),
         cmocka_unit_test(every_allocation_may_fail),
     };
