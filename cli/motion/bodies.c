@@ -25,7 +25,7 @@ int cli_replace_bodies(const char *file, const froe_motion *motion, double devia
     froe_diagnostic diag;
     const double share = isnan(deviation) ? froe_motion_read_defaults().deviation : deviation;
     *out = NULL;
-    if (!froe_motion_body_count(motion)) return 0;
+    if (!froe_motion_body_count(motion) || froe_motion_window(motion).dim == 2) return 0; /* these stay as they are */
     const froe_status status = froe_motion_without_bodies(motion, share * size_of(motion), NULL, out, reached, &diag);
     return status ? cli_fail_status(CLI_WORKING, file, status, &diag) : 0;
 }

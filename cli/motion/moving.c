@@ -13,7 +13,8 @@
 
 const cli_option cli_moving_options[] = {
     {"poses", 0, CLI_TEXT, offsetof(cli_moving_args, poses), "FILE", .file = CLI_READ,
-     .help = "the parts of the model move as a table says: body,time,x,y,z,qx,qy,qz,qw (.csv)"},
+     .help = "the parts of the model move as a table says: body,time,x,y,z,qx,qy,qz,qw, in the plane without z, qx "
+             "and qy (.csv)"},
     {"animation", 0, CLI_TEXT, offsetof(cli_moving_args, animation), "NAME",
      .help = "of a model: the animation of this name, or of this number from 0 (default: the only one)"},
     {"deviation", 0, CLI_REAL, offsetof(cli_moving_args, deviation), "D",

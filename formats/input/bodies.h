@@ -1,4 +1,4 @@
-/* bodies.h: the polygons of a model as triangles of rigid bodies.
+/* bodies.h: the polygons of a model as triangles of rigid bodies, or the segments of a plan.
  *
  * Parts of a model move; each is there for one life or for several, one after the other, and is another body in each:
  *
@@ -23,7 +23,8 @@ typedef struct formats_bodies {
 
 /** Adds the triangles of all objects, a fan for a polygon, in each life of their part, in the order of the objects.
  * Groups of the motion are those of the model. Each triangle has three corners of its own: triangles of one body never
- * meet. FROE_E_UNSUPPORTED: an object is no polygon. FROE_E_MEMORY, FROE_E_LIMIT. */
+ * meet. Segments of one body of the plane share the vertices that they have in common. FROE_E_UNSUPPORTED: an object is
+ * no polygon, or no segment. FROE_E_MEMORY, FROE_E_LIMIT. */
 froe_status formats_add_bodies(froe_motion *motion, const froe_scene *model, const formats_bodies *bodies,
                                const froe_allocator *alloc, froe_diagnostic *diag);
 #endif

@@ -55,10 +55,8 @@ static void deal(formats_animation *a) {
     a->starts[objects] = 2 * a->count;
 }
 
-froe_status froe_animate(const froe_motion *motion, const froe_contact *contacts, size_t count,
-                         const froe_animation_options *options, const char *path, froe_diagnostic *diag) {
-    SUPPORT_FLOATS_OWN;
-    if (!motion || !path || (count && !contacts)) return support_fail_null(diag, __func__);
+static froe_status animate(const froe_motion *motion, const froe_contact *contacts, size_t count,
+                           const froe_animation_options *options, const char *path, froe_diagnostic *diag) {
     formats_animation a = {.motion = motion, .contacts = contacts, .count = count};
     a.options = options ? *options : froe_animation_defaults();
     a.begin = froe_motion_window(motion).begin;
@@ -91,5 +89,33 @@ froe_status froe_animate(const froe_motion *motion, const froe_contact *contacts
     }
     support_free(&alloc, a.starts, starts * sizeof *a.starts);
     support_free(&alloc, a.touched, 2 * count * sizeof *a.touched);
+    return status;
+}
+
+/* A share of what a picture shows, roughly: where vertices are at 17 instants. */
+static double fine_enough(const froe_motion *motion) {
+    enum { PARTS = 16, PIXELS = 1 << 13 };
+    const froe_motion_options window = froe_motion_window(motion);
+    double lo[2] = {(double)INFINITY, (double)INFINITY}, hi[2] = {-(double)INFINITY, -(double)INFINITY}, at[3];
+    for (uint32_t v = 0; v < froe_motion_vertex_count(motion); v++)
+        for (int i = 0; i <= PARTS; i++) {
+            const double share = (double)i / PARTS;
+            if (!froe_motion_position(motion, v, window.begin * (1 - share) + window.end * share, at)) continue;
+            for (int k = 0; k < 2; k++) lo[k] = fmin(lo[k], at[k]), hi[k] = fmax(hi[k], at[k]);
+        }
+    const double size = fmax(hi[0] - lo[0], hi[1] - lo[1]) / PIXELS;
+    return size > 0 && isfinite(size) ? size : 1;
+}
+
+froe_status froe_animate(const froe_motion *motion, const froe_contact *contacts, size_t count,
+                         const froe_animation_options *options, const char *path, froe_diagnostic *diag) {
+    SUPPORT_FLOATS_OWN;
+    if (!motion || !path || (count && !contacts)) return support_fail_null(diag, __func__);
+    if (froe_motion_window(motion).dim == 3 || !froe_motion_body_count(motion))
+        return animate(motion, contacts, count, options, path, diag);
+    froe_motion *drawn = NULL; /* bodies of the plane, on parabolas */
+    froe_status status = froe_motion_without_bodies(motion, fine_enough(motion), NULL, &drawn, NULL, diag);
+    if (!status) status = animate(drawn, contacts, count, options, path, diag);
+    froe_motion_free(drawn);
     return status;
 }

@@ -2,6 +2,7 @@
  *
  *     feature -> temporalGeometry (or its prisms) -> one flight plan a point, one segment a pair of neighbours
  *                 ... with `triangles`, or a `base` that has them -> in space: a cloud of corners, or a body
+ *                 ... with a `base` that has `segments` -> a body of the plane
  *
  * The file is walked twice: for its first and last instant, and for what moves. */
 #include "formats/input/json.h"
@@ -228,43 +229,49 @@ static bool make_segments(reading *r, form kind) {
 
 /* ------------------------------------------------------------------- triangles -- */
 
-/* Triangles of so many points: three numbers of theirs each. */
-static froe_status take_triangles(reading *r, const formats_json *array, size_t points) {
+/* Triangles, or segments of a body of the plane, of so many points: three or two numbers of theirs each. */
+static froe_status take_objects(reading *r, const formats_json *array, size_t points) {
+    const bool flat = r->dim == 2;
+    const char *noun = flat ? "Segment" : "Triangle";
     size_t number = 0;
-    FORMATS_JSON_EACH(triangle, array) {
+    FORMATS_JSON_EACH(object, array) {
         uint32_t corners[3] = {0, 0, 0};
-        const formats_json *corner = triangle + 1;
-        bool numbers = formats_json_size(triangle) == 3;
-        for (int k = 0; k < 3 && numbers; k++, corner = formats_json_next(corner)) {
+        const formats_json *corner = object + 1;
+        bool numbers = formats_json_size(object) == (size_t)r->dim;
+        for (int k = 0; k < r->dim && numbers; k++, corner = formats_json_next(corner)) {
             numbers = formats_json_is(corner, FORMATS_JSON_NUMBER);
             if (numbers &&
                 !(corner->number >= 0 && corner->number < (double)points && corner->number == floor(corner->number)))
-                return fail_feature(r, FROE_E_INPUT, "Triangle %zu has a corner %g of %zu points.", number,
-                                    corner->number, points);
+                return fail_feature(r, FROE_E_INPUT, "%s %zu has %s %g of %zu points.", noun, number,
+                                    flat ? "an end" : "a corner", corner->number, points);
             corners[k] = numbers ? (uint32_t)corner->number : 0;
         }
-        if (!numbers) return fail_feature(r, FROE_E_FORMAT, "Triangle %zu is no array of three numbers.", number);
+        if (!numbers)
+            return fail_feature(r, FROE_E_FORMAT, "%s %zu is no array of %s numbers.", noun, number,
+                                flat ? "two" : "three");
         if (!put_object(r, corners)) return no_memory(r);
         number++;
     }
-    return number ? FROE_OK : fail_feature(r, FROE_E_INPUT, "There are no triangles.");
+    return number ? FROE_OK : fail_feature(r, FROE_E_INPUT, "There are no %s.", flat ? "segments" : "triangles");
 }
 
-/* One quaternion for each instant, or none at all. */
+/* One quaternion for each instant, or none at all; in the plane z and w of it. */
 static froe_status take_turns(reading *r, const formats_json *array) {
+    const size_t each = r->dim == 2 ? 2 : 4;
     r->turns.count = 0;
     if (array && formats_json_size(array) != r->instants)
         return fail_feature(r, FROE_E_FORMAT, "There are %zu turns for %zu instants.", formats_json_size(array),
                             r->instants);
     FORMATS_JSON_EACH(turn, array) {
         const formats_json *x = turn + 1;
-        bool numbers = formats_json_size(turn) == 4;
-        for (int k = 0; k < 4 && numbers; k++, x = formats_json_next(x)) {
+        bool numbers = formats_json_size(turn) == each;
+        for (size_t k = 0; k < each && numbers; k++, x = formats_json_next(x)) {
             numbers = formats_json_is(x, FORMATS_JSON_NUMBER);
             if (numbers && !array_push(&r->alloc, &r->turns, x->number)) return no_memory(r);
         }
         if (!numbers)
-            return fail_feature(r, FROE_E_FORMAT, "Turn %zu is no array of four numbers.", r->turns.count / 4);
+            return fail_feature(r, FROE_E_FORMAT, "Turn %zu is no array of %s numbers.", r->turns.count / each,
+                                each == 2 ? "two" : "four");
     }
     return FROE_OK;
 }
@@ -300,14 +307,15 @@ static froe_status take_body(reading *r, const formats_json *geometry, bool para
 static froe_status take_batch(reading *r, form kind, const formats_json *geometry, bool parabolas, froe_moving *b) {
     const formats_json *triangles = formats_json_get(geometry, "triangles"), *base = formats_json_get(geometry, "base");
     r->vertices.count = r->births.count = r->deaths.count = r->tags.count = 0;
-    if (kind == POINT && r->dim == 3) {
+    const formats_json *carried = formats_json_get(base, r->dim == 3 ? "triangles" : "segments");
+    if (kind == POINT && (r->dim == 3 || carried)) {
         const froe_status status = take_body(r, geometry, parabolas, b);
-        return status ? status : take_triangles(r, formats_json_get(base, "triangles"), b->vertex_count);
+        return status ? status : take_objects(r, carried, b->vertex_count);
     }
     b->vertex_count = r->points;
     if (!make_plans(r, parabolas)) return no_memory(r);
     b->controls = r->plan_controls.data;
-    if (r->dim == 3) return take_triangles(r, triangles, r->points);
+    if (r->dim == 3) return take_objects(r, triangles, r->points);
     return make_segments(r, kind) ? FROE_OK : no_memory(r);
 }
 
@@ -354,13 +362,16 @@ static froe_status take_moving(reading *r, const formats_json *geometry) {
     if (r->dim && r->dim != dim)
         return fail_feature(r, FROE_E_INPUT, "It moves in %s, and those before it do not.",
                             dim == 3 ? "space" : "the plane");
-    if (dim == 2 && formats_json_get(base, "coordinates"))
-        return fail_feature(r, FROE_E_FORMAT, "Its base has coordinates, but no triangles.");
-    if (dim == 2 && formats_json_get(geometry, "turns"))
-        return fail_feature(r, FROE_E_FORMAT, "It has turns, but no base with triangles.");
+    const bool carried = dim == 2 && formats_json_get(base, "segments");
+    if (dim == 2 && !carried && formats_json_get(base, "coordinates"))
+        return fail_feature(r, FROE_E_FORMAT, "Its base has coordinates, but neither triangles nor segments.");
+    if (dim == 2 && !carried && formats_json_get(geometry, "turns"))
+        return fail_feature(r, FROE_E_FORMAT, "It has turns, but no base with triangles or segments.");
     r->dim = dim;
     int which = 0;
     while (which < FORMS && type && strcmp(type, forms[dim - 2][which]) != 0) which++;
+    if (carried && which != POINT && which != FORMS)
+        return fail_feature(r, FROE_E_FORMAT, "It has a base with segments, and is no MovingPoint.");
     if (!type || which == FORMS)
         return fail_feature(r, type ? FROE_E_UNSUPPORTED : FROE_E_FORMAT,
                             "There is no moving geometry of type '%.40s'.", type ? type : "");

@@ -3,6 +3,8 @@
  *     body,time,x,y,z,qx,qy,qz,qw      a row: where the part of that name is at an instant, and how it is turned
  *     door,0,0,0,0,0,0,0,1
  *
+ * and of a plan, which is in the plane, with the columns body,time,x,y,qz,qw.
+ *
  * Each part (group) with rows is a body; all the others are one body that stands still, as they do not move against one
  * another. */
 #include "formats/input/bodies.h"
@@ -71,6 +73,15 @@ static froe_status name_parts(pose_reading *r) {
     return FROE_OK;
 }
 
+static int dim_of(const pose_reading *r) {
+    return froe_scene_dim(r->model);
+}
+
+/* In the plane there is no z, and nothing turns about x or y. */
+static bool is_read(const pose_reading *r, int column) {
+    return dim_of(r) == 3 || (column != PLACE + 2 && column != TURN && column != TURN + 1);
+}
+
 static froe_status read_pose_header(pose_reading *r, char **at, char separator) {
     bool last = false;
     int found = 0;
@@ -82,14 +93,14 @@ static froe_status read_pose_header(pose_reading *r, char **at, char separator) 
                                 SUPPORT_CSV_COLUMNS);
         r->column[r->columns] = COLUMNS;
         for (int k = 0; k < COLUMNS; k++)
-            if (strcmp(field.text, column_names[k]) == 0 && !(found >> k & 1)) {
+            if (strcmp(field.text, column_names[k]) == 0 && !(found >> k & 1) && is_read(r, k)) {
                 r->column[r->columns] = k;
                 found |= 1 << k;
             }
     }
-    r->turning = (found >> TURN) != 0;
+    for (int k = TURN; k < COLUMNS; k++) r->turning = r->turning || (is_read(r, k) && (found >> k & 1));
     for (int k = 0; k < (r->turning ? COLUMNS : TURN); k++)
-        if (!(found >> k & 1))
+        if (is_read(r, k) && !(found >> k & 1))
             return support_fail(r->diag, FROE_E_FORMAT, "%s: The table of poses has no column '%s'.",
                                 support_short(r->path), column_names[k]);
     r->line = 2;
@@ -176,14 +187,15 @@ static froe_status add_posed_part(pose_reading *r, uint32_t group) {
     const size_t first = r->starts.data[group], count = r->starts.data[group + 1] - first;
     froe_diagnostic why;
     froe_body body = froe_body_defaults();
+    const size_t dim = (size_t)dim_of(r), each = dim == 2 ? 2 : 4;
     r->numbers.count = 0;
     if (!array_reserve(&r->alloc, &r->numbers, 8 * count)) return no_room(r);
     double *times = r->numbers.data, *places = times + count, *turns = times + 4 * count;
     for (size_t i = 0; i < count; i++) {
         const pose *p = pose_of(r, first + i);
         times[i] = p->at[TIME];
-        memcpy(places + 3 * i, p->at + PLACE, 3 * sizeof *places);
-        memcpy(turns + 4 * i, p->at + TURN, 4 * sizeof *turns);
+        memcpy(places + dim * i, p->at + PLACE, dim * sizeof *places);
+        memcpy(turns + each * i, p->at + COLUMNS - each, each * sizeof *turns);
     }
     body.count = count, body.times = times, body.coords = places, body.turns = turns;
     const froe_status status = froe_motion_add_body(r->motion, &body, &r->body.data[group], &why);
@@ -213,8 +225,8 @@ static froe_status add_parts(pose_reading *r) {
     return status;
 }
 
-/* The triangles of all parts. Those without a name are of the body that stands still. */
-static froe_status add_triangles(pose_reading *r) {
+/* The triangles or segments of all parts. Those without a name are of the body that stands still. */
+static froe_status add_objects(pose_reading *r) {
     const size_t groups = r->names.count, objects = froe_scene_object_count(r->model);
     if (!array_reserve(&r->alloc, &r->lives, groups + 1) || !array_reserve(&r->alloc, &r->each, groups + 2) ||
         !array_reserve(&r->alloc, &r->parts, objects))
@@ -251,7 +263,7 @@ static bool shows_motion(const pose_reading *r, const froe_motion_options *windo
 static froe_status make_motion(pose_reading *r, const froe_motion_read_options *o) {
     froe_diagnostic why;
     froe_motion_options w = froe_motion_defaults();
-    w.dim = 3;
+    w.dim = (unsigned)dim_of(r);
     if (r->first == r->last && isnan(o->from) && isnan(o->to))
         return support_fail(r->diag, FROE_E_INPUT, "%s: All of the file is at one instant, %.17g.",
                             support_short(r->path), r->first);
@@ -266,7 +278,7 @@ static froe_status make_motion(pose_reading *r, const froe_motion_read_options *
         return support_fail(r->diag, FROE_E_INPUT,
                             "%s: No part moves from %.17g to %.17g. All rows are from %.17g to %.17g.",
                             support_short(r->path), w.begin, w.end, r->first, r->last);
-    return status ? status : add_triangles(r);
+    return status ? status : add_objects(r);
 }
 
 static void free_reading(pose_reading *r) {
@@ -282,8 +294,9 @@ froe_status froe_read_poses(const char *path, const froe_scene *model, const fro
     const froe_motion_read_options standard = froe_motion_read_defaults();
     if (!path || !model || !out) return support_fail_null(diag, __func__);
     if (options && options->size != sizeof *options) return support_fail_defaults(diag, "froe_motion_read_defaults");
-    if (froe_scene_dim(model) != 3)
-        return support_fail(diag, FROE_E_UNSUPPORTED, "%s: The model is not in space.", support_short(path));
+    if (froe_scene_dim(model) > 3)
+        return support_fail(diag, FROE_E_UNSUPPORTED, "%s: The model is not of the plane or of space.",
+                            support_short(path));
     const froe_status checked = froe_scene_check(model, diag);
     if (checked) return checked;
     if (!options) options = &standard;
@@ -306,7 +319,7 @@ froe_status froe_read_poses(const char *path, const froe_scene *model, const fro
         froe_motion_free(r.motion);
         return status;
     }
-    r.report.up = froe_scene_up(model);
+    r.report.up = froe_scene_dim(model) == 3 ? froe_scene_up(model) : 2;
     r.report.seconds = formats_seconds() - start;
     if (report) *report = r.report;
     *out = r.motion;

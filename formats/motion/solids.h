@@ -1,4 +1,4 @@
-/* solids.h: motions in space as MF-JSON. */
+/* solids.h: bodies and triangles in motion as MF-JSON. */
 #ifndef FROE_FORMATS_MOTION_SOLIDS_H
 #define FROE_FORMATS_MOTION_SOLIDS_H
 #include "formats/input/source.h"
@@ -6,8 +6,12 @@
 #include "support/fail.h"
 #include <froe/kinetic.h>
 
-/** Writes the features of a motion of triangles. FROE_E_UNSUPPORTED, FROE_E_MEMORY. */
-froe_status formats_write_solids(const froe_motion *motion, formats_writer *w, froe_diagnostic *diag);
+/** Writes a feature that begins with an object of no body of the plane. Returns the first object after it. */
+typedef uint32_t formats_other_fn(const froe_motion *motion, formats_writer *w, uint32_t first);
+
+/** Writes all features, with `other` for those of the plane that are of no body. FROE_E_UNSUPPORTED, FROE_E_MEMORY. */
+froe_status formats_write_solids(const froe_motion *motion, formats_writer *w, formats_other_fn *other,
+                                 froe_diagnostic *diag);
 
 /** All of a file, and behind it a NUL and as many more as numbers are read ahead; `count` is without them. FROE_E_IO,
  * FROE_E_MEMORY. */

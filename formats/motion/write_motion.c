@@ -1,5 +1,5 @@
 /* write_motion.c: froe_write_motion: a motion as OGC Moving Features JSON, one feature a chain of segments;
- * in space, see write_solids.c. */
+ * bodies, and what moves in space, see write_solids.c. */
 #include "formats/motion/solids.h"
 #include "formats/write/writer.h"
 #include "support/floats.h"
@@ -117,6 +117,12 @@ static void put_feature(formats_writer *w, const chain *c) {
     formats_put(w, "}}");
 }
 
+static uint32_t put_chain(const froe_motion *motion, formats_writer *w, uint32_t first) {
+    const chain c = chain_at(motion, first);
+    put_feature(w, &c);
+    return c.end;
+}
+
 froe_status froe_write_motion(const froe_motion *motion, const char *path, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
     if (!motion || !path) return support_fail_null(diag, __func__);
@@ -124,7 +130,8 @@ froe_status froe_write_motion(const froe_motion *motion, const char *path, froe_
     uint32_t count = (uint32_t)froe_motion_object_count(motion);
     for (uint32_t i = 0; i < count && !space;) {
         chain c = chain_at(motion, i);
-        froe_status status = check_motion(&c, diag);
+        const bool carried = froe_motion_vertex_body(motion, vertex_of(&c, 0)) != FROE_NONE;
+        froe_status status = carried ? FROE_OK : check_motion(&c, diag);
         if (status) return status;
         i = c.end;
     }
@@ -132,13 +139,7 @@ froe_status froe_write_motion(const froe_motion *motion, const char *path, froe_
     froe_status status = formats_writer_open(&w, path, diag);
     if (status) return status;
     formats_put(&w, "{\"type\":\"FeatureCollection\",\"features\":[");
-    if (space) status = formats_write_solids(motion, &w, diag);
-    for (uint32_t i = 0; i < count && !space;) {
-        chain c = chain_at(motion, i);
-        formats_put(&w, i ? ",\n" : "\n");
-        put_feature(&w, &c);
-        i = c.end;
-    }
+    status = formats_write_solids(motion, &w, put_chain, diag);
     formats_put(&w, "\n]}\n");
     return formats_writer_close(&w, status);
 }

@@ -1,15 +1,17 @@
-/* write_solids.c: triangles in motion, for write_motion.c: a feature is a run of triangles of one group and one body,
- * or of none.
+/* write_solids.c: bodies and triangles in motion, for write_motion.c: a feature is a run of objects of one group and one
+ * body, or, in space, of none.
  *
- *     a body      MovingPoint, with `turns` (quaternions x, y, z, w) and `base`: corners and triangles in the body
+ *     a body      MovingPoint, with `turns` (quaternions x, y, z, w; in the plane z, w) and `base`: corners, and
+ *                 triangles or, in the plane, segments in the body
  *     corners     MovingPointCloud, with `triangles`
- * that move each for itself. Triangles name corners of the feature, from 0, in the order in which they first appear. */
+ * that move each for itself. Objects name corners of the feature, from 0, in the order in which they first appear. */
 #include "formats/motion/solids.h"
 #include "support/alloc.h"
 #include <math.h>
 
 typedef struct solid {
     const froe_motion *motion;
+    int dim;
     uint32_t first, end; /* objects */
     uint32_t body;       /* or FROE_NONE */
     bool rests;          /* it has one instant, and stands still from the birth to the death of its triangles */
@@ -18,21 +20,21 @@ typedef struct solid {
     uint32_t count;
 } solid;
 
-static froe_moving_object triangle_at(const solid *s, uint32_t i) {
+static froe_moving_object object_at(const solid *s, uint32_t i) {
     return froe_motion_object(s->motion, i);
 }
 
 /* The next run, with its corners numbered. */
 static void take_run(solid *s) {
-    const froe_moving_object begin = triangle_at(s, s->first);
+    const froe_moving_object begin = object_at(s, s->first);
     s->body = froe_motion_vertex_body(s->motion, begin.vertices[0]);
     s->count = 0;
     for (s->end = s->first; s->end < froe_motion_object_count(s->motion); s->end++) {
-        const froe_moving_object o = triangle_at(s, s->end);
+        const froe_moving_object o = object_at(s, s->end);
         if (o.group != begin.group || o.birth != begin.birth || o.death != begin.death ||
             froe_motion_vertex_body(s->motion, o.vertices[0]) != s->body)
             return;
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < s->dim; k++) {
             const uint32_t v = o.vertices[k], known = s->number[v];
             if (known < s->count && s->corners[known] == v) continue;
             s->number[v] = s->count;
@@ -52,7 +54,7 @@ static size_t instants_of(const solid *s, uint32_t vertex) {
 }
 
 static double instant_of(const solid *s, uint32_t vertex, size_t k) {
-    const froe_moving_object o = triangle_at(s, s->first);
+    const froe_moving_object o = object_at(s, s->first);
     if (s->rests) return k ? o.death : o.birth;
     return s->body == FROE_NONE ? froe_motion_knot(s->motion, vertex, k).time
                                 : froe_motion_body_knot(s->motion, s->body, k).time;
@@ -75,7 +77,7 @@ static froe_body_knot body_knot_of(const solid *s, size_t k) {
 
 /* Do all corners have the same instants, from the birth to the death of the triangles? */
 static bool fits(const solid *s) {
-    const froe_moving_object o = triangle_at(s, s->first);
+    const froe_moving_object o = object_at(s, s->first);
     const size_t count = instants_of(s, s->corners[0]);
     bool fits =
         count > 1 && instant_of(s, s->corners[0], 0) == o.birth && instant_of(s, s->corners[0], count - 1) == o.death;
@@ -112,7 +114,7 @@ static void put_place(formats_writer *w, const solid *s, uint32_t vertex, size_t
         }
         if (control) at[i] = isnan(bend[i]) ? 0.5 * at[i] + 0.5 * next[i] : bend[i];
     }
-    put_array(w, at, 3);
+    put_array(w, at, s->dim);
 }
 
 static bool is_curved(const solid *s) {
@@ -140,12 +142,12 @@ static void put_places(formats_writer *w, const solid *s, size_t count, bool con
     formats_put(w, "]");
 }
 
-static void put_triangles(formats_writer *w, const solid *s) {
-    formats_put(w, "\"triangles\":[");
+static void put_objects(formats_writer *w, const solid *s) {
+    formats_put(w, s->dim == 2 ? "\"segments\":[" : "\"triangles\":[");
     for (uint32_t i = s->first; i < s->end; i++) {
-        const froe_moving_object o = triangle_at(s, i);
+        const froe_moving_object o = object_at(s, i);
         formats_put(w, i > s->first ? ",[" : "[");
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < s->dim; k++) {
             if (k) formats_put(w, ",");
             formats_put_whole(w, s->number[o.vertices[k]]);
         }
@@ -159,21 +161,21 @@ static void put_base(formats_writer *w, const solid *s, size_t count) {
     for (size_t k = 0; k < count; k++) {
         const froe_body_knot knot = body_knot_of(s, k);
         if (k) formats_put(w, ",");
-        put_array(w, knot.turn, 4);
+        put_array(w, s->dim == 2 ? knot.turn + 2 : knot.turn, s->dim == 2 ? 2 : 4);
     }
     formats_put(w, "],\"base\":{\"coordinates\":[");
     for (uint32_t i = 0; i < s->count; i++) {
         const froe_moving_knot knot = knot_of(s, s->corners[i], 0);
         if (i) formats_put(w, ",");
-        put_array(w, knot.at, 3);
+        put_array(w, knot.at, s->dim);
     }
     formats_put(w, "],");
-    put_triangles(w, s);
+    put_objects(w, s);
     formats_put(w, "}");
 }
 
 static void put_solid(formats_writer *w, const solid *s) {
-    const froe_moving_object o = triangle_at(s, s->first);
+    const froe_moving_object o = object_at(s, s->first);
     const size_t count = instants_of(s, s->corners[0]);
     const bool curved = is_curved(s);
     formats_put(w, "{\"type\":\"Feature\",\"properties\":{");
@@ -192,28 +194,37 @@ static void put_solid(formats_writer *w, const solid *s) {
     put_places(w, s, count, false);
     if (curved) formats_put(w, ",\"controls\":["), put_places(w, s, count - 1, true);
     if (s->body == FROE_NONE)
-        formats_put(w, ","), put_triangles(w, s);
+        formats_put(w, ","), put_objects(w, s);
     else
         put_base(w, s, count);
     formats_put(w, "}}");
 }
 
-froe_status formats_write_solids(const froe_motion *motion, formats_writer *w, froe_diagnostic *diag) {
+static bool is_of_body(const froe_motion *motion, uint32_t object) {
+    return froe_motion_vertex_body(motion, froe_motion_object(motion, object).vertices[0]) != FROE_NONE;
+}
+
+froe_status formats_write_solids(const froe_motion *motion, formats_writer *w, formats_other_fn *other,
+                                 froe_diagnostic *diag) {
     const froe_allocator alloc = support_allocator(NULL);
     const size_t vertices = froe_motion_vertex_count(motion);
-    solid s = {.motion = motion};
+    solid s = {.motion = motion, .dim = (int)froe_motion_window(motion).dim};
     s.number = support_calloc(&alloc, vertices, sizeof *s.number);
     s.corners = support_calloc(&alloc, vertices, sizeof *s.corners);
     froe_status status = s.number && s.corners ? FROE_OK : support_fail_memory(diag);
     for (; s.first < froe_motion_object_count(motion) && !status; s.first = s.end) {
+        formats_put(w, s.first ? ",\n" : "\n");
+        if (s.dim == 2 && !is_of_body(motion, s.first)) {
+            s.end = other(motion, w, s.first);
+            continue;
+        }
         take_run(&s);
         s.rests = rests(&s);
         if (!fits(&s))
             status = support_fail(diag, FROE_E_UNSUPPORTED,
-                                  "triangle %u: The instants of its corners are not the same, or not those of its "
-                                  "life, which MF-JSON cannot say.",
-                                  s.first);
-        formats_put(w, s.first ? ",\n" : "\n");
+                                  "%s %u: The instants of its %s are not the same, or not those of its life, which "
+                                  "MF-JSON cannot say.",
+                                  s.dim == 2 ? "segment" : "triangle", s.first, s.dim == 2 ? "body" : "corners");
         if (!status) put_solid(w, &s);
     }
     support_free(&alloc, s.number, vertices * sizeof *s.number);

@@ -231,12 +231,14 @@ typedef struct froe_motion_report {
  * doubles. Interpolation is Linear (also where nothing is said) or Quadratic: the parabolas that continue one another
  * with the same velocity, the first of them through the first three instants; a member `controls` beside
  * `coordinates`, of one geometry less, gives their control points itself. Coordinate systems are ignored.
+ * A `base` of a MovingPoint, an object with `coordinates` (an array of positions) and `segments`, arrays of two numbers
+ * of these, is a body of the plane, whose centre the point is, with `turns`, z and w for each instant (froe_body).
  * A file is of motions in space if its geometries carry triangles, by two members beside those of the standard:
  * `triangles`, arrays of three numbers of points, of a MovingPointCloud, whose points are their corners; or `base`, an
  * object with `coordinates` (an array of positions) and `triangles`, of a MovingPoint, which is then the centre of a
  * body, with `turns`, a quaternion x, y, z, w for each instant (froe_body), where it turns. A `base` without
- * `coordinates`, such as the standard's name of a model file, is ignored. One with `coordinates` and no `triangles`,
- * or `turns` without it, is FROE_E_FORMAT.
+ * `coordinates`, such as the standard's name of a model file, is ignored. One with `coordinates`, but
+ * neither `triangles` nor `segments`, or `turns` without it, is FROE_E_FORMAT.
  * FROE_E_UNSUPPORTED: Discrete, Step and Cubic interpolation, other geometries. FROE_E_FORMAT: no JSON, not of this
  * form. FROE_E_INPUT: times that do not increase, geometries that change their number of points, a window in which
  * nothing is; the message names the feature. FROE_E_IO, FROE_E_MEMORY, FROE_E_OPTIONS, FROE_E_LIMIT. options, report
@@ -249,11 +251,12 @@ FROE_API froe_status froe_read_motion(const char *path, const froe_motion_read_o
  * in any order, perhaps with other columns, and perhaps without the four of the turn. A row is where the part of that
  * name (a group of the model; of several of one name, one) is at an instant: its polygons, as triangles, are turned
  * about the origin of the model by the quaternion, and then moved by x, y, z. Rows of one part are in order of time;
- * between two of them it moves as a body does (froe_body). A part lives from its first instant to its last; a part of
+ * between two of them it moves as a body does (froe_body). In the plane, z, qx and qy are not read: the parts are the
+ * segments of the groups, which share vertices. A part lives from its first instant to its last; a part of
  * one row, or of none, stands still and always lives. Groups of the motion are those of the model. The model may be
  * freed afterwards. FROE_E_INPUT: no such part, no finite number, times that do not increase, a quaternion whose length
  * is not 1, a window in which no part moves although some do; the message names line or part. FROE_E_FORMAT: a column
- * is missing. FROE_E_UNSUPPORTED: the model is not of polygons in space. FROE_E_IO, FROE_E_MEMORY, FROE_E_OPTIONS,
+ * is missing. FROE_E_UNSUPPORTED: the model is not of polygons in space, or of segments in the plane. FROE_E_IO, FROE_E_MEMORY, FROE_E_OPTIONS,
  * FROE_E_LIMIT. options, report and diag may be NULL. */
 FROE_API froe_status froe_read_poses(const char *path, const froe_scene *model, const froe_motion_read_options *options,
                                      froe_motion **out, froe_motion_report *report, froe_diagnostic *diag);

@@ -154,16 +154,15 @@ FROE_API froe_body_knot froe_motion_body_knot(const froe_motion *motion, uint32_
  * greatest coordinate nearby. False (nothing written): its plan does not cover the time. O(log knots). */
 FROE_API bool froe_motion_position(const froe_motion *motion, uint32_t vertex, double time, double *at);
 
-/** A motion in space with the same groups, vertices and objects, by the same numbers, but without bodies. The vertices
- * of bodies fly along parabolas of their own instead: each is never farther than `deviation` > 0 from where its body
+/** A motion with the same groups, vertices and objects, by the same numbers, but without bodies. The vertices of
+ * bodies fly along parabolas of their own instead: each is never farther than `deviation` > 0 from where its body
  * has it, and *reached (may be NULL) is a bound that holds and is hardly ever more than three times the truth. At each
  * instant a body is as an affine map has it, up to 2^-20 of the deviation: so parts of a body that keep apart go on
  * doing so. Between two instants of a body there are as many parabolas as that takes: about the cube root of its size
  * divided by the deviation, within the window. Corners that are in one place of one body become one vertex, the first
- * of them. What belongs to no body stays exactly as it is. So partitions can follow bodies that turn, which
- * froe_kinetic_new() refuses.
- * FROE_E_ARG: the deviation is not a number above 0. FROE_E_UNSUPPORTED: the motion is of the plane. FROE_E_LIMIT:
- * doubles, or instants, are too far apart for this deviation; the body is named. FROE_E_MEMORY. O(instants of all
+ * of them. What belongs to no body stays exactly as it is. So partitions in space can follow bodies that turn, which
+ * froe_kinetic_new() refuses there.
+ * FROE_E_ARG: the deviation is not a number above 0. FROE_E_LIMIT: doubles, or instants, are too far apart for this deviation; the body is named. FROE_E_MEMORY. O(instants of all
  * vertices of the result). */
 FROE_API froe_status froe_motion_without_bodies(const froe_motion *motion, double deviation,
                                                 const froe_allocator *alloc, froe_motion **out, double *reached,

@@ -1,5 +1,6 @@
 """Motions, their contacts, and partitions of them, beside what simple formulas say."""
 
+import math
 from fractions import Fraction
 
 import numpy as np
@@ -168,6 +169,19 @@ def test_bodies_that_turn():
     assert parabola.positions(2)[0].tolist() == [0, 0, 4]
 
 
+def test_bodies_of_the_plane_turn_on_circles() -> None:
+    half = math.sqrt(0.5)
+    motion = froe.Motion(0, 4)
+    hand = motion.add_body([0, 4], [[0, 0], [0, 0]], turns=[[0, 1], [half, half]])
+    motion.add([0, 0], [[1, 0], [5, 0]], [0, 1, 2], bodies=[hand] * 2)
+    motion.add([0, 0], [[3, 4], [9, 4]], [0, 1, 2])
+    where = motion.positions(2)
+    assert np.allclose(np.hypot(*where[:2].T), [1, 5], rtol=1e-15)
+    contacts = motion.contacts()
+    assert len(contacts) == 1 and contacts.instants[0]
+    assert len(froe.Kinetic(motion).advance(4)) > 0
+
+
 def test_replans_are_as_if_planned_before():
     """A partition that learns of a plan when it begins is one that knew it."""
     plans = [[0, 0], [0, 9], [20, 3], [20, 7]]
@@ -261,7 +275,9 @@ def test_made_up_motions(kind, dim):
 @pytest.mark.parametrize(
     "call, kind",
     [
-        (lambda: froe.Motion(0, 1).add_body([0], [[0, 0, 0]]), UnsupportedError),
+        (lambda: froe.Motion(0, 1).add_body([0], [[0, 0, 0]]), ArrayError),
+        (lambda: froe.Motion(0, 1).add_body([0], [[0, 0]], turns=[[0, 0, 0, 1]]), ArrayError),
+        (lambda: froe.Motion(0, 1).add_body([0], [[0, 0]], turns=[[1, 1]]), InputError),
         (lambda: froe.Motion(0, 1, dim=3).add_body([0, 0], [[0, 0, 0]] * 2), InputError),
         (lambda: froe.Motion(0, 1, dim=3).add_body([0], [[0, 0, np.inf]]), InputError),
         (lambda: froe.Motion(0, 1, dim=3).add_body([0], [[0, 0, 0]], turns=[[1, 1, 1, 1]]), InputError),

@@ -169,6 +169,31 @@ static void what_is_wrong_in_space_is_said_with_the_feature(void **state) {
                    "bad.mfjson: feature 0: body 0: The quaternion of turn 1, 0 0 0 0, has not the length 1.");
 }
 
+static void bodies_of_the_plane_turn_on_circles(void **state) {
+    (void)state;
+#define HAND(type, turns, segments)                                                                                    \
+    "{\"type\":\"Feature\",\"temporalGeometry\":{\"type\":\"" type                                                     \
+    "\",\"datetimes\":[0,2],\"coordinates\":[[0,0],[0,0]],"                                                            \
+    "\"turns\":" turns ",\"base\":{\"coordinates\":[[1,0],[5,0],[5,1]],\"segments\":" segments "}}}"
+    froe_motion *m = read_text(HAND("MovingPoint", "[[0,1],[0.6,0.8]]", "[[0,1],[1,2]]"), NULL);
+    assert_true(froe_motion_window(m).dim == 2 && froe_motion_object_count(m) == 2 && froe_motion_body_count(m) == 1);
+    assert_int_equal(froe_motion_vertex_count(m), 3);
+    double at[2];
+    assert_true(froe_motion_position(m, 1, 2, at));
+    assert_true(fabs(at[0] - 1.4) < 1e-15 && fabs(at[1] - 4.8) < 1e-15); /* by twice the angle of 3, 4 and 5 */
+    froe_motion_free(m);
+    assert_refused(HAND("MovingPoint", "[[0,0,0,1],[0,0,0,1]]", "[[0,1]]"), FROE_E_FORMAT,
+                   "bad.mfjson: feature 0: Turn 0 is no array of two numbers.");
+    assert_refused(HAND("MovingPoint", "[[0,1],[0,1]]", "[[0,3]]"), FROE_E_INPUT,
+                   "bad.mfjson: feature 0: Segment 0 has an end 3 of 3 points.");
+    assert_refused(HAND("MovingPoint", "[[0,1],[0,1]]", "[[0,1,2]]"), FROE_E_FORMAT,
+                   "bad.mfjson: feature 0: Segment 0 is no array of two numbers.");
+    assert_refused(HAND("MovingPoint", "[[0,1],[0,1]]", "[]"), FROE_E_INPUT,
+                   "bad.mfjson: feature 0: There are no segments.");
+    assert_refused(HAND("MovingPolygon", "[[0,1],[0,1]]", "[[0,1]]"), FROE_E_FORMAT,
+                   "bad.mfjson: feature 0: It has a base with segments, and is no MovingPoint.");
+}
+
 /* The standard's base, a file of a model, says how a point looks; one with coordinates would be a body. */
 static void a_base_without_triangles_is_no_point(void **state) {
     (void)state;
@@ -176,9 +201,9 @@ static void a_base_without_triangles_is_no_point(void **state) {
     "{\"type\":\"Feature\",\"temporalGeometry\":{\"type\":\"MovingPoint\",\"datetimes\":[0,1],"                        \
     "\"coordinates\":[[0,0],[1,1]]" base "}}"
     assert_refused(POINT(",\"base\":{\"coordinates\":[[0,0,0],[1,0,0],[0,1,0]]}"), FROE_E_FORMAT,
-                   "bad.mfjson: feature 0: Its base has coordinates, but no triangles.");
+                   "bad.mfjson: feature 0: Its base has coordinates, but neither triangles nor segments.");
     assert_refused(POINT(",\"turns\":[[0,0,0,1],[0,0,0,1]]"), FROE_E_FORMAT,
-                   "bad.mfjson: feature 0: It has turns, but no base with triangles.");
+                   "bad.mfjson: feature 0: It has turns, but no base with triangles or segments.");
     froe_motion *m = read_text(POINT(",\"base\":{\"type\":\"glTF\",\"href\":\"car.gltf\"}"), NULL);
     assert_true(froe_motion_window(m).dim == 2 && froe_motion_object_count(m) == 1);
     froe_motion_free(m);
@@ -277,6 +302,35 @@ static void every_kind_of_motion_survives_a_file(void **state) {
     froe_motion *m = NULL;
     assert_int_equal(froe_generate_motion("walking", 40, 7, NULL, &m, NULL), FROE_E_OPTIONS);
     assert_int_equal(froe_generate_motion("moving", 0, 7, NULL, &m, NULL), FROE_E_ARG);
+}
+
+/* Among lines that move by themselves; without a turn, and on a parabola. */
+static void bodies_of_the_plane_survive_a_file(void **state) {
+    (void)state;
+#define MOVING_LINE                                                                                                    \
+    ",\n{\"type\":\"Feature\",\"temporalGeometry\":{\"type\":\"MovingLineString\",\"datetimes\":[0,2],"                \
+    "\"coordinates\":[[[3,4],[9,4],[9,5]],[[3,4],[9,4],[9,6]]]}}"
+    froe_motion *read = NULL,
+                *m = read_text(HEAD HAND("MovingPoint", "[[0,1],[0.6,0.8]]", "[[0,1],[1,2]]") MOVING_LINE
+                               "," HAND("MovingPoint\",\"interpolation\":\"Quadratic\",\"controls\":[[1,1]],\"x\":\"",
+                                        "[[0,1],[0,1]]", "[[2,0]]") "]}",
+                               NULL);
+    assert_int_equal(froe_motion_object_count(m), 5);
+    assert_int_equal(froe_write_motion(m, "made.mfjson", NULL), FROE_OK);
+    assert_int_equal(froe_read_motion("made.mfjson", NULL, &read, NULL, NULL), FROE_OK);
+    assert_int_equal(froe_motion_vertex_count(read), 8); /* one corner is of no segment */
+    assert_int_equal(froe_motion_body_count(read), 2);
+    for (uint32_t i = 0; i < 5; i++)
+        for (int e = 0; e < 2; e++)
+            for (double time = 0; time <= 2; time += 0.37) {
+                double p[2], q[2];
+                assert_true(froe_motion_position(m, froe_motion_object(m, i).vertices[e], time, p));
+                assert_true(froe_motion_position(read, froe_motion_object(read, i).vertices[e], time, q));
+                assert_memory_equal(p, q, sizeof p);
+            }
+    assert_int_equal(froe_animate(m, NULL, 0, NULL, "hand.svg", NULL), FROE_OK);
+    assert_int_equal(froe_animate(m, NULL, 0, NULL, "hand.html", NULL), FROE_OK);
+    froe_motion_free(m), froe_motion_free(read);
 }
 
 static void motions_that_the_format_cannot_say_are_refused(void **state) {
@@ -402,9 +456,11 @@ int main(void) {
         cmocka_unit_test(quadratic_interpolation_continues_its_velocity),
         cmocka_unit_test(triangles_move_in_space),
         cmocka_unit_test(what_is_wrong_in_space_is_said_with_the_feature),
+        cmocka_unit_test(bodies_of_the_plane_turn_on_circles),
         cmocka_unit_test(a_base_without_triangles_is_no_point),
         cmocka_unit_test(what_is_wrong_is_said_with_the_feature),
         cmocka_unit_test(every_kind_of_motion_survives_a_file),
+        cmocka_unit_test(bodies_of_the_plane_survive_a_file),
         cmocka_unit_test(motions_that_the_format_cannot_say_are_refused),
         cmocka_unit_test(pictures_and_tables_refuse_what_they_cannot_show),
         cmocka_unit_test(real_cars_are_read_unrounded),

@@ -71,6 +71,40 @@ static void parts_fly_by_their_rows(void **state) {
     froe_motion_free(m);
 }
 
+/* A door of a plan turns by a quarter about its hinge, and its end meets the wall beyond. */
+static void parts_of_a_plan_turn_by_their_rows(void **state) {
+    (void)state;
+    froe_scene *plan = NULL;
+    froe_motion *m = NULL;
+    froe_motion_report report;
+    found f = {.count = 0};
+    const double walls[] = {0, 0, 5, 0, 5, 0, 5, 1, 3, 4, 9, 4};
+    assert_int_equal(froe_scene_new(2, NULL, &plan), FROE_OK);
+    for (uint32_t g = 0; g < 2; g++) {
+        uint32_t id;
+        assert_int_equal(froe_scene_add_group(plan, &(froe_group){.name = g ? "wall" : "door"}, &id), FROE_OK);
+        froe_objects o = froe_objects_defaults();
+        o.kind = FROE_SEGMENT, o.count = 2 - g, o.coords = walls + 8 * g, o.group = id;
+        assert_int_equal(froe_scene_add(plan, &o, NULL), FROE_OK);
+    }
+    put("body,time,x,y,qz,qw,z\ndoor,0,0,0,0,1,7\ndoor,2,0,0,0.70710678118654757,0.70710678118654757,7\n");
+    assert_int_equal(froe_read_poses("poses.csv", plan, NULL, &m, &report, NULL), FROE_OK);
+    assert_true(report.features == 1 && report.still == 1 && report.pieces == 1);
+    assert_true(froe_motion_window(m).dim == 2 && froe_motion_object_count(m) == 3);
+    assert_int_equal(froe_motion_vertex_count(m), 5); /* the door's two segments share one */
+    assert_int_equal(froe_motion_contacts(m, NULL, note, &f, NULL), FROE_OK);
+    assert_true(f.count == 2 && f.first.b == 2);
+    double at[2];
+    assert_true(froe_motion_position(m, froe_motion_object(m, 0).vertices[1], 2, at) && at[1] == 5);
+    froe_motion_free(m);
+    m = NULL;
+    froe_diagnostic diag;
+    put("body,time,x,y,qz\ndoor,0,0,0,0\n");
+    assert_int_equal(froe_read_poses("poses.csv", plan, NULL, &m, NULL, &diag), FROE_E_FORMAT);
+    assert_string_equal(diag.message, "poses.csv: The table of poses has no column 'qw'.");
+    froe_scene_free(plan);
+}
+
 static void a_part_of_one_row_stands_where_it_says(void **state) {
     (void)state;
     froe_scene *model = make_model();
@@ -117,9 +151,9 @@ static void what_is_wrong_is_said_with_line_or_part(void **state) {
     froe_scene_free(model);
     froe_diagnostic diag;
     froe_motion *m = NULL;
-    assert_int_equal(froe_scene_new(2, NULL, &model), FROE_OK);
+    assert_int_equal(froe_scene_new(4, NULL, &model), FROE_OK);
     assert_int_equal(froe_read_poses("poses.csv", model, NULL, &m, NULL, &diag), FROE_E_UNSUPPORTED);
-    assert_string_equal(diag.message, "poses.csv: The model is not in space.");
+    assert_string_equal(diag.message, "poses.csv: The model is not of the plane or of space.");
     froe_scene_free(model);
 }
 
@@ -168,6 +202,7 @@ static void every_allocation_may_fail(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(parts_fly_by_their_rows),
+        cmocka_unit_test(parts_of_a_plan_turn_by_their_rows),
         cmocka_unit_test(a_part_of_one_row_stands_where_it_says),
         cmocka_unit_test(what_is_wrong_is_said_with_line_or_part),
         cmocka_unit_test(a_window_beside_all_motion_is_refused),

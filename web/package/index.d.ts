@@ -537,7 +537,7 @@ export class Motion extends Resource {
     readonly groupCount: number;
     readonly window: { dim: 2 | 3; begin: number; end: number; tick: number };
     add(batch: MovingBatch): this;
-    /** Adds a rigid body in space; returns its number. */
+    /** Adds a rigid body; returns its number. */
     addBody(body: { times: Numbers; coords: Numbers; controls?: Numbers; turns?: Numbers }): number;
     addGroup(group: Partial<Group>): number;
     group(i: number): Group;

@@ -54,14 +54,14 @@ export class Motion extends Resource {
             this[CORE].call("froe_motion_add", this[AT], this[CORE].options(arena, "moving", options)));
         return this;
     }
-    /** Adds a rigid body in space: where its centre is at each time, and how it is turned (quaternions x, y, z, w).
-     * Returns its number, for `bodies`. */
+    /** Adds a rigid body: where its centre is at each time, and how it is turned: quaternions x, y, z, w, or in the plane
+     * the sine and the cosine of half of the angle. Returns its number, for `bodies`. */
     addBody(body) {
-        const options = arraysOf(BODY, body);
+        const options = arraysOf(BODY, body), dim = this.dim;
         if (!options.times || !options.coords) throw new TypeError("A body has times and coords.");
         options.count = options.times.length;
-        checkLengths(options, ["coords", "controls"], 3 * options.count, "coordinates");
-        checkLengths(options, ["turns"], 4 * options.count, "numbers of turns");
+        checkLengths(options, ["coords", "controls"], dim * options.count, "coordinates");
+        checkLengths(options, ["turns"], (dim === 2 ? 2 : 4) * options.count, "numbers of turns");
         return this[CORE].within((arena) =>
             this[CORE].made("froe_motion_add_body", this[AT], this[CORE].options(arena, "body", options)));
     }
@@ -104,7 +104,7 @@ export class Motion extends Resource {
             core.records("web_contacts_of", [this[AT], core.options(arena, "contacts", options)], CONTACT, take));
     }
 
-    /** The same motion in space without bodies, { motion, reached }: their vertices fly along parabolas of their own, at
+    /** The same motion without bodies, { motion, reached }: their vertices fly along parabolas of their own, at
      * most `reached` from where the bodies have them, which is not above `deviation`. So partitions follow bodies that turn. */
     withoutBodies(deviation) {
         return this[CORE].within((arena) => {

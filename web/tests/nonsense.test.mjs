@@ -23,7 +23,7 @@ const OPTIONS = {
 const GOOD = {
     add: [{ kind: "segment", coords: [0, 0, 1, 1], starts: [0, 2, 4], times: [0, 8, 0, 8] }], build: [{}], range: [{ shape: "ball", points: [0, 0], radius: 1 }],
     nearest: [[0, 0], {}], ray: [[0, 0], [1, 1], {}], read: ["a.csv", new TextEncoder().encode("x,y\n1,2\n"), {}],
-    motion: [{ begin: 0, end: 8 }], addBody: [{ times: [0], coords: [0, 0, 0] }], addGroup: [{}], advance: [1, {}],
+    motion: [{ begin: 0, end: 8 }], addBody: [{ times: [0], coords: [0, 0] }], addGroup: [{}], advance: [1, {}],
 };
 
 function methods(object) {

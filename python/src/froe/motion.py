@@ -200,15 +200,16 @@ class Motion:
         turns: npt.ArrayLike | None = None,
         controls: npt.ArrayLike | None = None,
     ) -> int:
-        """A rigid body in space, which vertices may then belong to. Its centre passes ``coords[i]`` at ``times[i]``. In
-        between it turns along the arc that a spherical interpolation takes, at nearly constant speed.
+        """A rigid body, which vertices may then belong to. Its centre passes ``coords[i]`` at ``times[i]``. In between it
+        turns along the arc that a spherical interpolation takes, at nearly constant speed: in the plane, each vertex
+        goes exactly along a circle around the centre.
 
         :param times: (m,), ascending
-        :param coords: (m, 3)
-        :param turns: (m, 4) quaternions x, y, z, w of length 1; None: it does not turn
-        :param controls: (m, 3); where it is not NaN, the centre follows the parabola with this control point
+        :param coords: (m, dim)
+        :param turns: (m, 4) quaternions x, y, z, w of length 1; in the plane (m, 2), the sine and the cosine of half of
+            the angle; None: it does not turn
+        :param controls: (m, dim); where it is not NaN, the centre follows the parabola with this control point
         :returns: its number
-        :raises UnsupportedError: the motion is of the plane
         :cost: O(times)
 
         >>> import froe
@@ -218,11 +219,12 @@ class Motion:
         >>> motion.positions(1).tolist()
         [[0.0, 0.0, 4.0], [1.0, 0.0, 4.0], [0.0, 1.0, 4.0]]
         """
+        each = 2 if self.dim == 2 else 4
         return self._core.add_body(
             doubles(times, "times").ravel(),
-            rows(coords, "coords", 3, 3),
-            None if controls is None else rows(controls, "controls", 3, 3),
-            None if turns is None else rows(turns, "turns", 4, 4),
+            rows(coords, "coords", self.dim, self.dim),
+            None if controls is None else rows(controls, "controls", self.dim, self.dim),
+            None if turns is None else rows(turns, "turns", each, each),
         )
 
     def positions(self, time: float) -> Doubles:
@@ -263,8 +265,8 @@ class Motion:
         return Contacts(a, b, begins, ends, *(flag.view(np.bool_) for flag in flags))
 
     def without_bodies(self, deviation: float) -> tuple[Motion, float]:
-        """The same motion in space, by the same numbers, but without bodies: their vertices fly along parabolas of their
-        own. So partitions can follow bodies that turn. Corners in one place of a body become one vertex.
+        """The same motion, by the same numbers, but without bodies: their vertices fly along parabolas of their own. So
+        partitions in space can follow bodies that turn. Corners in one place of a body become one vertex.
 
         :param deviation: how far a vertex may be from where its body has it, at any instant
         :returns: the motion, and a bound of how far vertices are off

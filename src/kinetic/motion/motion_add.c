@@ -107,6 +107,7 @@ static froe_status take_knot(plan_adding *a, const plan_input *p, size_t i, moti
     }
     for (size_t k = 0; k < dim && !status && !straight; k++)
         status = take_number(a, p, i, names[1][k], c[k], &knot->control[k]);
+    if (dim == 2 && !straight) knot->control[2] = 0;
     return status;
 }
 

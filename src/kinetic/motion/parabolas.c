@@ -224,8 +224,9 @@ static froe_status cut_bodies(replacement *r) {
 
 static void put_knot(replacement *r, double time, const double at[3], const double control[3]) {
     const size_t n = r->times.count++;
+    const size_t dim = (size_t)r->from->dim;
     r->times.data[n] = time;
-    for (size_t k = 0; k < 3; k++) r->coords.data[3 * n + k] = at[k], r->controls.data[3 * n + k] = control[k];
+    for (size_t k = 0; k < dim; k++) r->coords.data[dim * n + k] = at[k], r->controls.data[dim * n + k] = control[k];
 }
 
 static const double straight[3] = {(double)NAN, (double)NAN, (double)NAN};
@@ -327,9 +328,10 @@ static void weld(replacement *r) {
     }
 }
 
-static void put_corners(const replacement *r, const motion_object *o, uint32_t out[3]) {
-    for (int k = 0; k < 3; k++) out[k] = r->first.data[o->vertices[k]];
-    if (out[0] != out[1] && out[1] != out[2] && out[2] != out[0]) return;
+static void put_corners(const replacement *r, const motion_object *o, uint32_t *out) {
+    const int dim = r->from->dim;
+    for (int k = 0; k < dim; k++) out[k] = r->first.data[o->vertices[k]];
+    if (dim == 2 || (out[0] != out[1] && out[1] != out[2] && out[2] != out[0])) return;
     for (int k = 0; k < 3; k++) out[k] = o->vertices[k]; /* it has no area */
 }
 
@@ -341,7 +343,7 @@ static void put_objects(replacement *r) {
         r->lives.data[i] = o->birth, r->lives.data[n + i] = o->death;
         if (o->birth > o->death) /* never there in the window */
             r->lives.data[i] = r->lives.data[n + i] = o->birth > m->end ? o->birth : o->death;
-        put_corners(r, o, r->corners.data + 3 * i);
+        put_corners(r, o, r->corners.data + (size_t)m->dim * i);
         r->groups.data[i] = o->group, r->tags.data[i] = o->tag;
     }
 }
@@ -383,8 +385,6 @@ froe_status froe_motion_without_bodies(const froe_motion *motion, double deviati
                                        froe_motion **out, double *reached, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!motion || !out) return support_fail_null(diag, __func__);
-    if (motion->dim == 2)
-        return support_fail(diag, FROE_E_UNSUPPORTED, "Bodies of the plane are followed as they are.");
     if (!(deviation > 0) || !isfinite(deviation))
         return support_fail(diag, FROE_E_ARG, "A deviation of %g is not a number above 0.", deviation);
     const froe_allocator memory = support_allocator(alloc);

@@ -111,12 +111,13 @@ static PyObject *add(PyObject *object, PyObject *const *args, Py_ssize_t count) 
 }
 
 /* args: times, coords, controls, turns */
-static bool take_body(core_input *in, PyObject *const *args, froe_body *body) {
+static bool take_body(const core_motion *self, core_input *in, PyObject *const *args, froe_body *body) {
     enum { AT, PLACES, WAYS, TURNS };
+    const size_t dim = self->dim, each = dim == 2 ? 2 : 4;
     if (!core_input_take(&in[AT], args[0], "times", 'd', 1, false) ||
-        !core_input_take_count(&in[PLACES], args[1], "coords", 'd', 3, in[AT].count, false) ||
-        !core_input_take_count(&in[WAYS], args[2], "controls", 'd', 3, in[AT].count, true) ||
-        !core_input_take_count(&in[TURNS], args[3], "turns", 'd', 4, in[AT].count, true))
+        !core_input_take_count(&in[PLACES], args[1], "coords", 'd', dim, in[AT].count, false) ||
+        !core_input_take_count(&in[WAYS], args[2], "controls", 'd', dim, in[AT].count, true) ||
+        !core_input_take_count(&in[TURNS], args[3], "turns", 'd', each, in[AT].count, true))
         return false;
     *body = froe_body_defaults();
     body->count = in[AT].count, body->times = in[AT].data, body->coords = in[PLACES].data;
@@ -131,7 +132,7 @@ static PyObject *add_body(PyObject *object, PyObject *const *args, Py_ssize_t co
     froe_body body;
     uint32_t id = 0;
     if (!core_arguments("add_body", count, 4) || !core_motion_take(self)) return NULL;
-    bool done = take_body(in, args, &body);
+    bool done = take_body(self, in, args, &body);
     if (done) {
         core_call call;
         core_call_begin(&call, Py_None);
