@@ -28,8 +28,7 @@ static void check_without_bodies(const froe_motion *motion) {
     froe_diagnostic why;
     double reached, deviation = 0.1;
     const froe_status status = froe_motion_without_bodies(motion, deviation, NULL, &out, &reached, &why);
-    const bool plane = froe_motion_window(motion).dim == 2;
-    if (status ? status != (plane ? FROE_E_UNSUPPORTED : FROE_E_LIMIT) : plane) abort();
+    if (status && status != FROE_E_LIMIT) abort();
     if (status) return;
     if (!(reached <= deviation) || froe_motion_body_count(out) ||
         froe_motion_object_count(out) != froe_motion_object_count(motion))

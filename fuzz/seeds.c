@@ -120,6 +120,27 @@ static void save_files(output *out) {
     save_read(out, "all-of-obj", 8, obj, sizeof obj - 1);
 }
 
+/* A door of a plan, which turns by a quarter. */
+static void save_door(output *out) {
+    static const double times[] = {0, 2}, hinge[4], turns[] = {0, 1, 0.70710678118654757, 0.70710678118654757};
+    static const double zeros[2], ends[] = {0, 0, 5, 0};
+    char path[4110];
+    froe_motion *motion;
+    froe_motion_options window = froe_motion_defaults();
+    froe_body body = froe_body_defaults();
+    froe_moving batch = froe_moving_defaults();
+    window.begin = 0, window.end = 2;
+    body.count = 2, body.times = times, body.coords = hinge, body.turns = turns;
+    batch.vertex_count = 2, batch.count = 1, batch.starts = (const size_t[]){0, 1, 2}, batch.times = zeros;
+    batch.coords = ends, batch.bodies = (const uint32_t[]){0, 0};
+    if (froe_motion_new(&window, NULL, &motion, NULL) || froe_motion_add_body(motion, &body, NULL, NULL) ||
+        froe_motion_add(motion, &batch, NULL))
+        give_up("door");
+    snprintf(path, sizeof path, "%s.mfjson", path_of(out, "motion", "door"));
+    if (froe_write_motion(motion, path, NULL) || rename(path, out->path)) give_up(path);
+    froe_motion_free(motion);
+}
+
 static void save_motions(output *out) {
     for (size_t i = 0; froe_motion_generator_at(i); i++) {
         const char *name = froe_motion_generator_at(i)->name;
@@ -174,6 +195,7 @@ int main(int argc, char **argv) {
     save_programs(&out);
     save_files(&out);
     save_motions(&out);
+    save_door(&out);
     save_manifest(&out);
     save_poses(&out);
     save_command_lines(&out);

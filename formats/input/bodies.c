@@ -39,8 +39,8 @@ static bool put_triangle(body_batch *b, const froe_allocator *alloc, const froe_
 }
 
 /* A segment of the plane; a point is one from itself to itself. */
-static bool put_segment(body_batch *b, const froe_allocator *alloc, const froe_scene *model, uint32_t object,
-                        const formats_life *life) {
+static bool put_bar(body_batch *b, const froe_allocator *alloc, const froe_scene *model, uint32_t object,
+                    const formats_life *life) {
     const froe_object o = froe_scene_object(model, object);
     for (uint32_t i = 0; i < 2; i++) {
         const uint32_t corner = froe_scene_corner(model, object, i < o.corners ? i : 0);
@@ -54,12 +54,12 @@ static bool put_segment(body_batch *b, const froe_allocator *alloc, const froe_s
     return put_life(b, alloc, life, o.group);
 }
 
-static bool put_object(body_batch *b, const froe_allocator *alloc, const froe_scene *model, uint32_t object,
-                       const formats_life *life, size_t lives) {
+static bool put_lives(body_batch *b, const froe_allocator *alloc, const froe_scene *model, uint32_t object,
+                      const formats_life *life, size_t lives) {
     const uint32_t corners = froe_scene_object(model, object).corners;
     bool room = true;
     if (froe_scene_dim(model) == 2) {
-        for (size_t i = 0; i < lives && room; i++) room = put_segment(b, alloc, model, object, life + i);
+        for (size_t i = 0; i < lives && room; i++) room = put_bar(b, alloc, model, object, life + i);
         return room;
     }
     for (uint32_t k = 1; (k == 1 || k + 1 < corners) && room; k++)
@@ -79,7 +79,7 @@ static froe_status gather(body_batch *b, const froe_scene *model, const formats_
             return support_fail(diag, FROE_E_UNSUPPORTED, "object %u: It is no %s, and only those are parts.", i,
                                 flat ? "segment" : "polygon");
         const size_t first = bodies->starts[bodies->parts[i]], end = bodies->starts[bodies->parts[i] + 1];
-        if (!put_object(b, alloc, model, i, bodies->lives + first, end - first)) return support_fail_memory(diag);
+        if (!put_lives(b, alloc, model, i, bodies->lives + first, end - first)) return support_fail_memory(diag);
     }
     const size_t vertices = b->plans.count;
     return array_push(alloc, &b->plans, vertices) ? FROE_OK : support_fail_memory(diag);

@@ -232,7 +232,6 @@ static bool make_segments(reading *r, form kind) {
 /* Triangles, or segments of a body of the plane, of so many points: three or two numbers of theirs each. */
 static froe_status take_objects(reading *r, const formats_json *array, size_t points) {
     const bool flat = r->dim == 2;
-    const char *noun = flat ? "Segment" : "Triangle";
     size_t number = 0;
     FORMATS_JSON_EACH(object, array) {
         uint32_t corners[3] = {0, 0, 0};
@@ -242,13 +241,17 @@ static froe_status take_objects(reading *r, const formats_json *array, size_t po
             numbers = formats_json_is(corner, FORMATS_JSON_NUMBER);
             if (numbers &&
                 !(corner->number >= 0 && corner->number < (double)points && corner->number == floor(corner->number)))
-                return fail_feature(r, FROE_E_INPUT, "%s %zu has %s %g of %zu points.", noun, number,
-                                    flat ? "an end" : "a corner", corner->number, points);
+                return fail_feature(r, FROE_E_INPUT,
+                                    flat ? "Segment %zu has an end %g of %zu points."
+                                         : "Triangle %zu has a corner %g of %zu points.",
+                                    number, corner->number, points);
             corners[k] = numbers ? (uint32_t)corner->number : 0;
         }
         if (!numbers)
-            return fail_feature(r, FROE_E_FORMAT, "%s %zu is no array of %s numbers.", noun, number,
-                                flat ? "two" : "three");
+            return fail_feature(r, FROE_E_FORMAT,
+                                flat ? "Segment %zu is no array of two numbers."
+                                     : "Triangle %zu is no array of three numbers.",
+                                number);
         if (!put_object(r, corners)) return no_memory(r);
         number++;
     }

@@ -1,5 +1,5 @@
-/* write_solids.c: bodies and triangles in motion, for write_motion.c: a feature is a run of objects of one group and one
- * body, or, in space, of none.
+/* write_solids.c: bodies and triangles in motion, for write_motion.c: a feature is a run of objects of one group and
+ * one body, or, in space, of none.
  *
  *     a body      MovingPoint, with `turns` (quaternions x, y, z, w; in the plane z, w) and `base`: corners, and
  *                 triangles or, in the plane, segments in the body
@@ -142,7 +142,7 @@ static void put_places(formats_writer *w, const solid *s, size_t count, bool con
     formats_put(w, "]");
 }
 
-static void put_objects(formats_writer *w, const solid *s) {
+static void put_members(formats_writer *w, const solid *s) {
     formats_put(w, s->dim == 2 ? "\"segments\":[" : "\"triangles\":[");
     for (uint32_t i = s->first; i < s->end; i++) {
         const froe_moving_object o = object_at(s, i);
@@ -170,7 +170,7 @@ static void put_base(formats_writer *w, const solid *s, size_t count) {
         put_array(w, knot.at, s->dim);
     }
     formats_put(w, "],");
-    put_objects(w, s);
+    put_members(w, s);
     formats_put(w, "}");
 }
 
@@ -194,7 +194,7 @@ static void put_solid(formats_writer *w, const solid *s) {
     put_places(w, s, count, false);
     if (curved) formats_put(w, ",\"controls\":["), put_places(w, s, count - 1, true);
     if (s->body == FROE_NONE)
-        formats_put(w, ","), put_objects(w, s);
+        formats_put(w, ","), put_members(w, s);
     else
         put_base(w, s, count);
     formats_put(w, "}}");

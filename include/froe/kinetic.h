@@ -162,8 +162,8 @@ FROE_API bool froe_motion_position(const froe_motion *motion, uint32_t vertex, d
  * divided by the deviation, within the window. Corners that are in one place of one body become one vertex, the first
  * of them. What belongs to no body stays exactly as it is. So partitions in space can follow bodies that turn, which
  * froe_kinetic_new() refuses there.
- * FROE_E_ARG: the deviation is not a number above 0. FROE_E_LIMIT: doubles, or instants, are too far apart for this deviation; the body is named. FROE_E_MEMORY. O(instants of all
- * vertices of the result). */
+ * FROE_E_ARG: the deviation is not a number above 0. FROE_E_LIMIT: doubles, or instants, are too far apart for this
+ * deviation; the body is named. FROE_E_MEMORY. O(instants of all vertices of the result). */
 FROE_API froe_status froe_motion_without_bodies(const froe_motion *motion, double deviation,
                                                 const froe_allocator *alloc, froe_motion **out, double *reached,
                                                 froe_diagnostic *diag);
