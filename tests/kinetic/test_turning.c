@@ -8,6 +8,8 @@
 #include <cmocka.h>
 
 #include "kinetic/beside.h"
+#include "kinetic/now/near.h"
+#include "kinetic/now/turning.h"
 #include "oracle/touching.h"
 #include "support/contacts.h"
 #include "support/memory.h"
@@ -134,6 +136,45 @@ static void trees_are_those_made_from_scratch_after_every_event(void **state) {
     for (int j = 0; j < pattern_counts[PATTERN_TURN] && !SANITIZED; j++) assert_true(counter.seen[PATTERN_TURN][j]);
 }
 
+/* The exact polynomial at a share of the time, by its sign. */
+static int exact_sign_at(num_arena *arena, const poly_exact *p, int64_t ticks) {
+    const num_dyadic s = num_dyadic_scaled(arena, 1, (uint64_t)ticks, 0);
+    num_dyadic y = p->c[p->degree];
+    for (int i = p->degree - 1; i >= 0; i--) y = num_dyadic_add(arena, num_dyadic_mul(arena, y, s), p->c[i]);
+    return y.sign;
+}
+
+/* Where polynomials of balls are sure of a sign, it is that of the exact one. */
+static void certificates_in_doubles_have_the_signs_of_exact_ones(void **state) {
+    (void)state;
+    enum { SHARES = 16 };
+    uint64_t sure = 0, unsure = 0;
+    for (size_t i = 0; i < TURNING_KINDS; i++) {
+        froe_motion *m = turning_new(turning_kinds + i, 8);
+        froe_kinetic *k = start(m, 1);
+        now_state *now = &k->now;
+        const int64_t span = m->last_tick / 8; /* within a piece */
+        for (size_t c = 0; c < k->certs.all.count; c++) {
+            const now_claim claim = k->certs.all.data[c].claim;
+            near_poly near;
+            poly_exact exact;
+            if (k->certs.all.data[c].kind > CERT_TURN || !now_is_turning_claim(now, &claim)) continue;
+            if (!near_find_turning(now, &claim, 0, (double)span, &near)) continue;
+            now_claim_exact(now, &claim, 0, &exact);
+            const size_t top = now->context.arena.top;
+            for (int j = 0; j <= SHARES; j++, now->context.arena.top = top) {
+                const int64_t ticks = span / SHARES * j;
+                const int sign = near_sign_at(&near, (double)ticks / (double)span);
+                if (sign) assert_int_equal(sign, exact_sign_at(&now->context.arena, &exact, ticks));
+                sure += sign != 0, unsure += !sign;
+            }
+        }
+        froe_kinetic_free(k);
+        froe_motion_free(m);
+    }
+    assert_true(sure > 5000 && unsure < sure / 20);
+}
+
 /* The tree node for node, what is next to points and rays, and the order from an eye. */
 static bool look_beside(beside *b, fuzz_source *r, const turning_kind *kind) {
     static present p;
@@ -256,6 +297,7 @@ int main(void) {
         cmocka_unit_test(places_in_doubles_are_near_those_of_rationals),
         cmocka_unit_test(contacts_are_those_of_exact_brute_force),
         cmocka_unit_test(trees_are_those_made_from_scratch_after_every_event),
+        cmocka_unit_test(certificates_in_doubles_have_the_signs_of_exact_ones),
         cmocka_unit_test(trees_and_answers_are_those_of_rationals),
         cmocka_unit_test(the_tip_of_a_hand_passes_a_place_on_its_circle_at_its_instant),
         cmocka_unit_test(bad_bodies_are_refused_by_name),

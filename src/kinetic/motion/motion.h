@@ -146,6 +146,11 @@ int motion_turn_dyadic(num_arena *arena, const froe_motion *m, const motion_piec
 /** The same in ticks counted from `tick`. */
 int motion_tick_turn_dyadic(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick,
                             num_dyadic c[4][2]);
+/** The same in shares of `span` ticks from a tick on; and where the centre, or a vertex of no body, is. */
+int motion_stretch_turn_ball(const froe_motion *m, const motion_piece *piece, int64_t tick, double span,
+                             num_ball c[4][2]);
+void motion_stretch_ball(const froe_motion *m, const motion_piece *piece, int64_t tick, double span,
+                         motion_ball_curve *out);
 int motion_turn_ball(const froe_motion *m, const motion_piece *piece, double from, double to, num_ball c[4][2]);
 
 /** A vertex of a body between two times. With u from 0 to 1 in proportion to time it is at

@@ -127,6 +127,16 @@ int motion_tick_turn_dyadic(num_arena *arena, const froe_motion *m, const motion
     return turn_curve_dyadic(arena, m, piece, dyadic_ticks(arena, m, tick), dyadic_ticks(arena, m, 1), c);
 }
 
+void motion_stretch_ball(const froe_motion *m, const motion_piece *piece, int64_t tick, double span,
+                         motion_ball_curve *out) {
+    curve_ball(NULL, m, piece, ball_ticks(m, tick), num_ball_from(ldexp(span, m->power)), out);
+}
+
+int motion_stretch_turn_ball(const froe_motion *m, const motion_piece *piece, int64_t tick, double span,
+                             num_ball c[4][2]) {
+    return turn_curve_ball(NULL, m, piece, ball_ticks(m, tick), num_ball_from(ldexp(span, m->power)), c);
+}
+
 int motion_turn_ball(const froe_motion *m, const motion_piece *piece, double from, double to, num_ball c[4][2]) {
     const num_ball a = num_ball_from(from), b = num_ball_from(to);
     return turn_curve_ball(NULL, m, piece, num_ball_sub(a, num_ball_from(m->begin)), num_ball_sub(b, a), c);

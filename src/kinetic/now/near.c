@@ -195,6 +195,7 @@ static void round_exact(num_arena *arena, const poly_exact *p, double span, near
 
 static void find_turning(now_state *now, const now_claim *claim, int axis, double span, near_poly *out) {
     poly_exact exact;
+    if (near_find_turning(now, claim, axis, span, out)) return;
     now_claim_exact(now, claim, axis, &exact);
     round_exact(&now->context.arena, &exact, span, out);
 }

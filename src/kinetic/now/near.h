@@ -26,6 +26,8 @@ typedef struct near_claim {
 /** From now until `span` ticks later, span > 0. REQUIRES: the claim holds, or is not one NOW_ALONG, and no piece of a
  * plan ends before. */
 void near_find(now_state *now, const now_claim *claim, int axis, double span, near_claim *out);
+/** The same in balls, where bodies turn. False: they say too little. */
+bool near_find_turning(now_state *now, const now_claim *claim, int axis, double span, near_poly *out);
 /** The sign at u: 1, -1, or 0 where the error leaves it open. */
 static inline int near_sign_at(const near_poly *p, double u) {
     double y = 0;
