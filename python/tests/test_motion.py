@@ -178,7 +178,7 @@ def test_bodies_of_the_plane_turn_on_circles() -> None:
     where = motion.positions(2)
     assert np.allclose(np.hypot(*where[:2].T), [1, 5], rtol=1e-15)
     contacts = motion.contacts()
-    assert len(contacts) == 1 and contacts.instants[0]
+    assert len(contacts) == 1 and contacts.instant[0]
     assert len(motion.kinetic().advance(4)) > 0
 
 
