@@ -1,5 +1,6 @@
 /* sweep.c: see sweep.h. */
 #include "build/grain/sweep.h"
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -29,15 +30,15 @@ static uint32_t bucket_count(size_t corners) {
     return count;
 }
 
-/** Corners nearer to the axle than that lie in every plane. What can be computed without branches comes first, so that
- * compilers take several corners at once. */
+/** Corners nearer to the axle than that lie in every plane, and so do those so far outside of the cell that no double
+ * says where. What can be computed without branches comes first, so that compilers take several corners at once. */
 static void put_all(split_sweep *s, double near, uint32_t from, uint32_t to) {
     const double *restrict place = s->place.data, *restrict apart = s->apart.data, scale = s->turn.last;
     int32_t *restrict spot = s->spot.data;
     for (uint32_t i = from; i < to; i++) {
         const double negative = 0.5 - copysign(0.5, place[i]);
         const double at = (fabs(place[i]) - negative) * scale + (1 + negative * SWEEP_NEGATIVE);
-        spot[i] = (int32_t)(apart[i] > near ? at : 0.0);
+        spot[i] = (int32_t)((apart[i] > near) & (apart[i] <= DBL_MAX) ? at : 0.0);
     }
     for (uint32_t i = from; i < to; i++) {
         if (spot[i])
