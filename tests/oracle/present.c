@@ -126,9 +126,9 @@ static void flight_clear(flight *f) {
         for (int i = 0; i < 3; i++) mpq_clear(f->c[k][i]);
 }
 
-/* The point of two on a line of the parameter a + b d: (1 - a) p + a q, and what comes with d; p and q have one power
- * of d less than out. */
-static void blend(mpq_t out[3], mpq_t p[3], mpq_t q[3], const mpq_t a, const mpq_t b) {
+/* The point of two on a line of the parameter a + b d: (1 - a) p + a q, and what comes with d. Each has three terms; p
+ * and q have one power of d less than out. */
+static void blend(mpq_t *out, mpq_t *p, mpq_t *q, const mpq_t a, const mpq_t b) {
     mpq_t step, term;
     mpq_init(step), mpq_init(term);
     for (int i = 2; i >= 0; i--) {

@@ -38,7 +38,8 @@ static void put_all(split_sweep *s, double near, uint32_t from, uint32_t to) {
     for (uint32_t i = from; i < to; i++) {
         const double negative = 0.5 - copysign(0.5, place[i]);
         const double at = (fabs(place[i]) - negative) * scale + (1 + negative * SWEEP_NEGATIVE);
-        spot[i] = (int32_t)((apart[i] > near) & (apart[i] <= DBL_MAX) ? at : 0.0);
+        const int somewhere = (apart[i] > near) & (apart[i] <= DBL_MAX);
+        spot[i] = (int32_t)(somewhere ? at : 0.0);
     }
     for (uint32_t i = from; i < to; i++) {
         if (spot[i])
