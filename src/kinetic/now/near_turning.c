@@ -26,6 +26,16 @@ static inline num_ball minus_near(num_ball a) {
 #define MUL(a, b) num_ball_mul(a, b)
 #define FROM(x) num_ball_from(x)
 #include "kinetic/motion/arcs_body.inc"
+#undef T
+#undef POLY
+#undef POINT
+#undef LINE
+#undef CURVE
+#undef FORMULA
+#undef ADD
+#undef SUB
+#undef MUL
+#undef FROM
 
 static const motion_piece *piece_at(now_state *now, uint32_t vertex) {
     now_course_of(now, vertex);
