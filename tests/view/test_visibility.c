@@ -518,7 +518,7 @@ static void lines_of_what_is_hidden_are_forgotten(void **state) {
     }
     assert_int_equal(v->sights.lines.count, count); /* none was made anew */
     assert_true(cuts > 100 && edges > 100);
-    assert_true(count < 0.9 * (double)froe_visibility_statistics(v).lines);
+    assert_true((double)count < 0.9 * (double)froe_visibility_statistics(v).lines);
     free(used);
     froe_visibility_free(v);
     froe_surface_free(surface);
