@@ -13,6 +13,7 @@ typedef struct walk {
     cli_progress bar;
     froe_kinetic *kinetic;
     froe_event_writer *writer; /* NULL: no events are asked for */
+    bool may_ghost;            /* in space, without --ghosts */
     bool stuck;                /* the writer has failed */
     bool stopped;              /* triangles meet, which ends the walk: the events up to then are all there are */
 } walk;
@@ -32,7 +33,7 @@ static int finish_following(walk *w, froe_status status, const froe_diagnostic *
     froe_diagnostic told = *diag;
     cli_progress_end(&w->bar);
     if (!status || w->stuck) return 0;
-    const size_t length = status == FROE_E_INPUT && !w->asked->ghosts ? strlen(told.message) : sizeof told.message;
+    const size_t length = status == FROE_E_INPUT && w->may_ghost ? strlen(told.message) : sizeof told.message;
     if (length < sizeof told.message) /* triangles meet */
         snprintf(told.message + length, sizeof told.message - length,
                  " With --ghosts one of them is left out meanwhile.");
@@ -104,9 +105,11 @@ int cli_follow_motion(const cli_common *common, const cli_follow *asked, const c
                       json_t **report, cli_written *written) {
     froe_diagnostic diag;
     walk w = {.asked = asked, .written = written, .file = file, .bar = cli_progress_begin(common, "following")};
+    const bool space = froe_motion_window(motion).dim == 3;
     *report = json_null();
+    w.may_ghost = space && !asked->ghosts;
     if (!asked->events && !asked->tree.name) return 0;
-    if (asked->places && froe_motion_window(motion).dim == 3)
+    if (asked->places && space)
         return cli_fail(CLI_USE, NULL, "--places: Exact places are told of motions in the plane, and '%s' is in space.",
                         file);
     froe_status status = asked->events ? froe_event_writer_new(asked->events, NULL, &w.writer, &diag) : FROE_OK;
