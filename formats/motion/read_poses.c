@@ -245,7 +245,11 @@ static froe_status add_objects(pose_reading *r) {
         r->parts.data[i] = group == FROE_NONE ? (uint32_t)groups : group;
     }
     const formats_bodies bodies = {r->each.data, r->lives.data, r->parts.data};
-    return formats_add_bodies(r->motion, r->model, &bodies, &r->alloc, r->diag);
+    froe_diagnostic why;
+    const froe_status status = formats_add_bodies(r->motion, r->model, &bodies, &r->alloc, &why);
+    if (status == FROE_E_MEMORY) return support_fail_memory(r->diag);
+    if (status) return support_fail(r->diag, status, "%s: in the model: %s", support_short(r->path), why.message);
+    return FROE_OK;
 }
 
 /* Is a part in the window that moves? Or does none move at all, so that there is nothing to miss? */
