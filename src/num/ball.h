@@ -25,8 +25,11 @@ static inline num_ball num_ball_add(num_ball a, num_ball b) {
     double s = a.x + b.x, t = s - a.x, residue = (a.x - (s - t)) + (b.x - t); /* TwoSum (Knuth) */
     return (num_ball){s, (a.e + b.e + fabs(residue)) * NUM_BALL_UP};
 }
+static inline num_ball num_ball_neg(num_ball a) {
+    return (num_ball){-a.x, a.e};
+}
 static inline num_ball num_ball_sub(num_ball a, num_ball b) {
-    return num_ball_add(a, (num_ball){-b.x, b.e});
+    return num_ball_add(a, num_ball_neg(b));
 }
 static inline num_ball num_ball_mul(num_ball a, num_ball b) {
     double p = a.x * b.x, residue = fma(a.x, b.x, -p);

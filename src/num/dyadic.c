@@ -163,8 +163,7 @@ num_dyadic num_dyadic_add(num_arena *arena, num_dyadic a, num_dyadic b) {
 }
 
 num_dyadic num_dyadic_sub(num_arena *arena, num_dyadic a, num_dyadic b) {
-    b.sign = -b.sign;
-    return num_dyadic_add(arena, a, b);
+    return num_dyadic_add(arena, a, num_dyadic_neg(b));
 }
 
 /* row[0 .. b.count) = factor * b, or += so much; the carry becomes row[b.count]. */

@@ -30,6 +30,10 @@ typedef struct num_dyadic {
 num_dyadic num_dyadic_from(num_arena *arena, double x); /**< x finite */
 /** sign * whole * 2^power. */
 num_dyadic num_dyadic_scaled(num_arena *arena, int sign, uint64_t whole, int power);
+static inline num_dyadic num_dyadic_neg(num_dyadic a) {
+    a.sign = -a.sign;
+    return a;
+}
 num_dyadic num_dyadic_add(num_arena *arena, num_dyadic a, num_dyadic b);
 num_dyadic num_dyadic_sub(num_arena *arena, num_dyadic a, num_dyadic b);
 num_dyadic num_dyadic_mul(num_arena *arena, num_dyadic a, num_dyadic b);

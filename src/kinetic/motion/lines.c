@@ -1,32 +1,15 @@
 /* lines.c: points and lines of the plane where bodies turn. */
 #include "kinetic/motion/lines.h"
 
-static num_dyadic minus_turning(num_dyadic a) {
-    a.sign = -a.sign;
-    return a;
-}
-
-#define T num_dyadic
+#include "num/dyadic_terms.inc"
+#undef FORMULA
+#define FORMULA(f) f##_turning
 #define POLY poly_exact
 #define POINT exact_point
 #define LINE exact_line
 #define CURVE motion_dyadic_curve
-#define FORMULA(f) f##_turning
-#define ADD(a, b) num_dyadic_add(arena, a, b)
-#define SUB(a, b) num_dyadic_sub(arena, a, b)
-#define MUL(a, b) num_dyadic_mul(arena, a, b)
-#define FROM(x) num_dyadic_from(arena, x)
 #include "kinetic/motion/arcs_body.inc"
-#undef T
-#undef POLY
-#undef POINT
-#undef LINE
-#undef CURVE
-#undef FORMULA
-#undef ADD
-#undef SUB
-#undef MUL
-#undef FROM
+#include "num/end_terms.inc"
 
 /* How a body is placed, as polynomials, or at the tick. */
 static void placing_at(num_arena *arena, const froe_motion *m, const motion_piece *piece, int64_t tick, bool along,

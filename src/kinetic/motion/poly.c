@@ -2,33 +2,22 @@
 #include "kinetic/motion/poly.h"
 #include "kinetic/motion/lines.h"
 
-static num_dyadic minus_exact(num_dyadic a) {
-    a.sign = -a.sign;
-    return a;
-}
-
-static num_short minus_short(num_short a) {
-    return -a;
-}
-
 #define T num_short
 #define POLY poly_short
 #define POINT short_point
 #define FORMULA(f) f##_short
+#define NEG(a) (-(a))
 #define ADD(a, b) ((a) + (b))
 #define SUB(a, b) ((a) - (b))
 #define MUL(a, b) ((a) * (b))
 #define SIGN(a) (((a) > 0) - ((a) < 0))
 #include "kinetic/motion/poly_body.inc"
 
-static num_wide minus_wide(num_wide a) {
-    return num_wide_sub((num_wide){{0}}, a);
-}
-
 #define T num_wide
 #define POLY poly_wide
 #define POINT wide_point
 #define FORMULA(f) f##_wide
+#define NEG(a) num_wide_sub((num_wide){{0}}, a)
 #define ADD(a, b) num_wide_add(a, b)
 #define SUB(a, b) num_wide_sub(a, b)
 #define MUL(a, b) num_wide_mul(a, b)
@@ -41,6 +30,7 @@ static num_wide minus_wide(num_wide a) {
 #define POLY poly_exact
 #define POINT exact_point
 #define FORMULA(f) f##_exact
+#define NEG(a) num_dyadic_neg(a)
 #define ADD(a, b) num_dyadic_add(arena, a, b)
 #define SUB(a, b) num_dyadic_sub(arena, a, b)
 #define MUL(a, b) num_dyadic_mul(arena, a, b)

@@ -11,31 +11,15 @@ typedef struct near_ball_line {
     num_ball_poly a, b, c;
 } near_ball_line;
 
-static inline num_ball minus_near(num_ball a) {
-    return (num_ball){-a.x, a.e};
-}
-
-#define T num_ball
+#include "num/ball_terms.inc"
+#undef FORMULA
+#define FORMULA(f) f##_near
 #define POLY num_ball_poly
 #define POINT near_ball_point
 #define LINE near_ball_line
 #define CURVE motion_ball_curve
-#define FORMULA(f) f##_near
-#define ADD(a, b) num_ball_add(a, b)
-#define SUB(a, b) num_ball_sub(a, b)
-#define MUL(a, b) num_ball_mul(a, b)
-#define FROM(x) num_ball_from(x)
 #include "kinetic/motion/arcs_body.inc"
-#undef T
-#undef POLY
-#undef POINT
-#undef LINE
-#undef CURVE
-#undef FORMULA
-#undef ADD
-#undef SUB
-#undef MUL
-#undef FROM
+#include "num/end_terms.inc"
 
 static const motion_piece *piece_at(now_state *now, uint32_t vertex) {
     now_course_of(now, vertex);
