@@ -24,6 +24,16 @@ static froe_status find_ordered(froe_shards *s, const shards_question *q, const 
     return status;
 }
 
+/* The first answer of each by bounds, or any. */
+static froe_status find_first(froe_shards *s, shards_question *q, bool any, const froe_batch_options *options,
+                              froe_find *finds, froe_diagnostic *diag) {
+    froe_finds f;
+    q->any = any;
+    const froe_status status = find_ordered(s, q, options, &f, diag);
+    if (!status) take_firsts(&f, finds);
+    return status;
+}
+
 /* ------------------------------------------------------------ ranges, points -- */
 
 froe_status froe_shards_range(froe_shards *s, const froe_range *ranges, size_t count, const froe_batch_options *options,
@@ -47,14 +57,10 @@ froe_status froe_shards_any(froe_shards *s, const froe_range *ranges, size_t cou
     SUPPORT_FLOATS_OWN;
     if (shards_refuse_null(s, ranges, count, finds, __func__, diag)) return FROE_E_ARG;
     shards_question q = shards_kind_ranges(s, ranges, count);
-    froe_finds f;
     q.box = NULL; /* the first shard that has an answer is enough */
     q.bound = shards_bound_of_any;
-    q.any = true;
     q.k = 1;
-    const froe_status status = find_ordered(s, &q, options, &f, diag);
-    if (!status) take_firsts(&f, finds);
-    return status;
+    return find_first(s, &q, true, options, finds, diag);
 }
 
 froe_status froe_shards_locate(froe_shards *s, const double *points, size_t count, const froe_batch_options *options,
@@ -82,22 +88,12 @@ froe_status froe_shards_vertical(froe_shards *s, const double *points, size_t co
 
 /* -------------------------------------------------------- rays, neighbours -- */
 
-/* What each ray meets first, or anything. */
-static froe_status find_hit(froe_shards *s, shards_question *q, bool any, const froe_batch_options *options,
-                            froe_find *finds, froe_diagnostic *diag) {
-    froe_finds f;
-    q->any = any;
-    const froe_status status = find_ordered(s, q, options, &f, diag);
-    if (!status) take_firsts(&f, finds);
-    return status;
-}
-
 froe_status froe_shards_ray(froe_shards *s, const double *origins, const double *directions, size_t count, double t_max,
                             const froe_batch_options *options, froe_find *finds, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
     if (shards_refuse_null(s, directions ? origins : NULL, count, finds, __func__, diag)) return FROE_E_ARG;
     shards_question q = shards_kind_rays(s, origins, directions, count, 1, t_max);
-    return find_hit(s, &q, false, options, finds, diag);
+    return find_first(s, &q, false, options, finds, diag);
 }
 
 froe_status froe_shards_ray_any(froe_shards *s, const double *origins, const double *directions, size_t count,
@@ -106,7 +102,7 @@ froe_status froe_shards_ray_any(froe_shards *s, const double *origins, const dou
     SUPPORT_FLOATS_OWN;
     if (shards_refuse_null(s, directions ? origins : NULL, count, finds, __func__, diag)) return FROE_E_ARG;
     shards_question q = shards_kind_rays(s, origins, directions, count, 1, t_max);
-    return find_hit(s, &q, true, options, finds, diag);
+    return find_first(s, &q, true, options, finds, diag);
 }
 
 froe_status froe_shards_ray_all(froe_shards *s, const double *origins, const double *directions, size_t count,
