@@ -200,7 +200,7 @@ froe_status view_find_arcs(view_parts *parts, view_sightlines *sights, base_task
         .parts = parts, .most = most > *tests ? most - *tests : 0, .finder_count = base_workers(task, jobs)};
     atomic_init(&s.tests, 0);
     froe_status status = begin_search(&s, sights);
-    if (!status) status = base_run(task, 0.2, jobs, find_some_arcs, &s);
+    if (!status) status = base_run(task, VIEW_PLANNED - VIEW_LOOKED, jobs, find_some_arcs, &s);
     task->threads = threads;
     arcs->count = 0;
     for (unsigned i = 0; s.finders && i < s.finder_count; i++) {

@@ -67,6 +67,11 @@ bool view_print_piece(view_parts *parts, view_sightlines *sights, uint32_t piece
 view_parts view_parts_fork(const view_parts *parts);
 void view_parts_close(view_parts *fork);
 
+/** Shares of the work, as progress tells them: where looking, finding what lies before what, and painting end. */
+#define VIEW_LOOKED 0.5
+#define VIEW_PLANNED 0.7
+#define VIEW_PAINTED 0.9
+
 /** Finds the pairs of nodes whose order matters: all arcs of the graph, in any order. *tests counts pairs that were
  * compared; FROE_E_BUDGET when they would exceed `most`. Overlaps are decided exactly. */
 typedef ARRAY(graph_arc) view_arcs;

@@ -45,13 +45,12 @@ const char *froe_line_name(froe_line kind) {
 
 /* --------------------------------------------------------------------- looking -- */
 
-/* Shares of the work, as progress tells them: where looking, finding what lies before what, and painting end. */
-#define LOOKED 0.5
-#define PLANNED 0.7
-#define PAINTED 0.9
-
 static bool report_looking(void *user, double done) {
-    return base_progress(user, LOOKED * done);
+    return base_progress(user, VIEW_LOOKED * done);
+}
+
+static froe_status report(view_painter *p, double done) {
+    return base_progress(&p->task, done) ? FROE_OK : FROE_E_CANCELLED;
 }
 
 static froe_status look_for_picture(view_painter *p, const froe_tree *tree, const froe_surface *surface,
@@ -124,15 +123,15 @@ static froe_status make_picture(view_painter *p, const froe_tree *tree, const fr
     if (!status) status = look_for_picture(p, tree, surface, kinds, diag);
     if (!status) {
         if (p->options->lines) status = view_make_segments(p, kinds);
-        if (!status && !base_progress(&p->task, LOOKED)) status = FROE_E_CANCELLED;
+        if (!status) status = report(p, VIEW_LOOKED);
         if (!status) status = plan_fills(p);
-        if (!status && !base_progress(&p->task, PLANNED)) status = FROE_E_CANCELLED;
+        if (!status) status = report(p, VIEW_PLANNED);
         const froe_paint paint = p->picture->report.paint;
         if (!status && !p->options->no_fills)
             status = paint == FROE_PAINT_WHOLE     ? view_paint_whole(p)
                      : paint == FROE_PAINT_REGIONS ? view_paint_regions(p)
                                                    : view_paint_fragments(p);
-        if (!status && !base_progress(&p->task, PAINTED)) status = FROE_E_CANCELLED;
+        if (!status) status = report(p, VIEW_PAINTED);
         if (!status) status = view_make_strokes(p);
         froe_picture *picture = p->picture;
         const size_t shapes = picture->shapes.count;
@@ -143,7 +142,7 @@ static froe_status make_picture(view_painter *p, const froe_tree *tree, const fr
         picture->report.shapes = shapes;
         picture->report.points = picture->points.count;
         picture->report.strokes = picture->strokes.count;
-        if (!status && !base_progress(&p->task, 1)) status = FROE_E_CANCELLED;
+        if (!status) status = report(p, 1);
         if (status == FROE_E_CANCELLED) support_fail_cancelled(diag);
         if (status == FROE_E_MEMORY) support_fail_memory(diag);
         if (status == FROE_E_LIMIT) support_fail(diag, status, "More than 2^31 points or arcs are needed.");

@@ -233,7 +233,7 @@ froe_status view_paint_whole(view_painter *p) {
     const size_t n = p->parts.nodes.count, jobs = (n + NODES_A_JOB - 1) / NODES_A_JOB;
     whole_painter g = {.p = p, .jobs = jobs, .worker_count = base_workers(&p->task, jobs)};
     froe_status status = begin_painting(&g);
-    if (!status) status = base_run(&p->task, 0.2, jobs, paint_some, &g);
+    if (!status) status = base_run(&p->task, VIEW_PAINTED - VIEW_PLANNED, jobs, paint_some, &g);
     for (unsigned i = 0; g.workers && i < g.worker_count; i++) end_worker(g.workers + i);
     view_seams_free(&p->seams);
     if (!status) status = put_shapes(&g);
