@@ -142,7 +142,7 @@ static bool is_at(int file, const char *path) {
     return !fstat(file, &one) && !lstat(path, &other) && one.st_dev == other.st_dev && one.st_ino == other.st_ino;
 }
 
-/* A file of this user's that has no other name: what is written into it reaches nobody else. */
+/* A file of the user of this process, under one name only: what is written into it appears nowhere else. */
 static bool is_own(int file) {
     struct stat info;
     return !fstat(file, &info) && S_ISREG(info.st_mode) && info.st_nlink == 1 && info.st_uid == geteuid();
@@ -161,7 +161,7 @@ static int open_or_make(const char *path, mode_t mode, bool *made) {
 
 /* A file beside the target that other processes find, empty and locked. Returns its descriptor, or -1 and errno;
  * EWOULDBLOCK: another program writes it. EEXIST: something that is no file of this user's has its name. ENOLCK: the
- * file system has no locks, so that nobody knows whether another program writes it. */
+ * file system has no locks, so that another program may write it. */
 static int create_shared(struct support_writer_room *room, mode_t mode) {
     const size_t length = folder_length(room->target);
     snprintf(room->temporary, sizeof room->temporary, "%.*s.%s.writing", (int)length, room->target,
@@ -184,7 +184,7 @@ static int create_shared(struct support_writer_room *room, mode_t mode) {
         if (!error) return file;
         if (file >= 0) close(file);
         if (file < 0 && error == EINTR) continue;
-        if (error == ENXIO || error == ELOOP) error = EEXIST; /* a pipe that nobody reads, a link */
+        if (error == ENXIO || error == ELOOP) error = EEXIST; /* a pipe without a reader, a link */
         room->temporary[0] = '\0';
         errno = error;
         return -1;

@@ -115,7 +115,7 @@ static void links_in_the_place_of_the_draft_are_not_followed(void **state) {
     assert_int_equal(access("linked.txt", F_OK), -1);
 }
 
-/* A second name of another file, a pipe that nobody reads, a pipe that somebody reads. */
+/* A second name of another file, a pipe without a reader, a pipe with one. */
 static void what_is_no_file_of_its_own_is_no_draft(void **state) {
     (void)state;
     support_writer w;

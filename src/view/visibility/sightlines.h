@@ -57,7 +57,7 @@ void view_sightlines_free(view_sightlines *sights);
 froe_status view_sightlines_fork(const view_sightlines *sights, view_sightlines *out);
 void view_sightlines_close(view_sightlines *fork);
 /** Keeps, in their order, the lines that `numbers` has something for, and those of the window; `numbers` receives what
- * they are called then. Whoever asks for another one makes it anew. FROE_E_MEMORY: the table is lost. */
+ * they are called then. Another one is made anew when it is asked for. FROE_E_MEMORY: the table is lost. */
 froe_status view_sightlines_keep(view_sightlines *sights, uint32_t *numbers);
 /** Frees the lines, where only points and sides of objects are still asked for. */
 void view_sightlines_drop(view_sightlines *sights);

@@ -94,7 +94,7 @@ void view_tally(froe_visibility *v, bool cull_back);
 froe_status view_rest_of_edge(froe_visibility *v, uint32_t edge, view_stretch *out, bool *there);
 /** Joins the visible stretches of each edge and wire to intervals. FROE_E_MEMORY, FROE_E_LIMIT. */
 froe_status view_join_intervals(froe_visibility *v, const view_runs *stretches);
-/** Frees the visible pieces, and the lines, of a visibility that nobody is going to ask for them. */
+/** Frees the visible pieces, and the lines, of a visibility that is not asked for them any more. */
 void view_drop_pieces(froe_visibility *v);
 /** The same for its intervals. */
 void view_drop_intervals(froe_visibility *v);
