@@ -65,14 +65,15 @@ static double reinsert(ride *r) {
     double start = bench_cpu();
     for (size_t i = 0; i < n; i += n / SAMPLE + 1, done++) {
         uint32_t vertex = froe_motion_object(r->motion, (uint32_t)i).vertices[0];
-        double times[KNOTS], xy[2 * KNOTS], controls[2 * KNOTS];
+        double times[KNOTS], xy[2 * KNOTS], controls[2 * KNOTS], seconds[2 * KNOTS];
         size_t count = froe_motion_knot_count(r->motion, vertex);
         for (size_t j = 0; j < count && j < KNOTS; j++) {
             froe_moving_knot k = froe_motion_knot(r->motion, vertex, j);
             times[j] = k.time;
-            for (int c = 0; c < 2; c++) xy[2 * j + (size_t)c] = k.at[c], controls[2 * j + (size_t)c] = k.control[c];
+            for (size_t c = 0; c < 2; c++)
+                xy[2 * j + c] = k.at[c], controls[2 * j + c] = k.control[c], seconds[2 * j + c] = k.second[c];
         }
-        bench_must(froe_kinetic_replan(r->kinetic, vertex, count, times, xy, controls, &diag), &diag);
+        bench_must(froe_kinetic_replan(r->kinetic, vertex, count, times, xy, controls, seconds, &diag), &diag);
     }
     return (bench_cpu() - start) / (double)done;
 }

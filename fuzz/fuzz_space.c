@@ -65,7 +65,7 @@ static void replan(space_program *p, double now) {
     space_course c;
     froe_diagnostic why;
     draw(p, now, vertex / 3, (int)(vertex % 3), &c);
-    must("a plan is refused", froe_kinetic_replan(p->kinetic, vertex, c.count, c.times, c.at, NULL, &why), &why);
+    must("a plan is refused", froe_kinetic_replan(p->kinetic, vertex, c.count, c.times, c.at, NULL, NULL, &why), &why);
 }
 
 static void change(space_program *p) {

@@ -95,6 +95,18 @@ static void blossom_of(const double *p, const double *control, const double *q, 
                                    : mix(mix(p[k], control[k], s), mix(control[k], q[k], s), t);
 }
 
+/* The same of a vertex; of a cubic with as many shares as it has steps. */
+static void blossom_at(const froe_moving_knot *p, const double *q, double s, double t, double u, double out[3]) {
+    double from[3], to[3];
+    if (isnan(p->second[0])) {
+        blossom_of(p->at, p->control, q, s, u, out);
+        return;
+    }
+    blossom_of(p->at, p->control, p->second, s, t, from);
+    blossom_of(p->control, p->second, q, s, t, to);
+    for (int k = 0; k < 3; k++) out[k] = mix(from[k], to[k], u);
+}
+
 /* The shares of a piece from one time to another, which are shares of the whole. */
 static void shares_of(double begin, double end, const film_stay *stay, double out[2]) {
     const double times[2] = {fmax(begin, stay->from), fmin(end, stay->to)};
@@ -129,14 +141,16 @@ static void fly(film_corners *w, const film_stay *stay) {
         const int parts = isnan(p.control[0]) || w->coarse ? 1 : PARTS;
         double shares[2], at[3];
         shares_of(p.time, q.time, stay, shares);
-        blossom_of(p.at, p.control, q.at, shares[0], shares[0], at);
+        blossom_at(&p, q.at, shares[0], shares[0], shares[0], at);
         if (i == low) add_point(w, at);
         for (int n = 0; n < parts && shares[0] < shares[1]; n++) {
             const double s = mix(shares[0], shares[1], (double)n / parts),
                          t = mix(shares[0], shares[1], (double)(n + 1) / parts);
-            blossom_of(p.at, p.control, q.at, s, t, at);
+            blossom_at(&p, q.at, s, s, t, at);
             if (!isnan(p.control[0])) add_point(w, at);
-            blossom_of(p.at, p.control, q.at, t, t, at);
+            blossom_at(&p, q.at, s, t, t, at);
+            if (!isnan(p.second[0])) add_point(w, at);
+            blossom_at(&p, q.at, t, t, t, at);
             add_point(w, at);
         }
         p = q;

@@ -102,17 +102,21 @@ static int check_film(const render_args *args) {
     return 0;
 }
 
-/* Exact films follow corners, and along parabolas only for parallel eyes. */
+/* Exact films follow corners, along parabolas only for parallel eyes, and along cubics not at all. */
 static int prepare_exactly(film_run *r) {
     const char *path = r->args->tree.scene.path;
     const int code = cli_replace_bodies(path, r->motion, r->args->moving.deviation, &r->replaced, &r->reached);
     const froe_motion *motion = r->replaced ? r->replaced : r->motion;
-    for (uint32_t v = 0; v < froe_motion_vertex_count(motion) && !code && !r->options->camera.parallel; v++)
-        for (size_t i = 0; i < froe_motion_knot_count(motion, v); i++)
-            if (!isnan(froe_motion_knot(motion, v, i).control[0]))
+    for (uint32_t v = 0; v < froe_motion_vertex_count(motion) && !code; v++)
+        for (size_t i = 0; i < froe_motion_knot_count(motion, v); i++) {
+            const froe_moving_knot knot = froe_motion_knot(motion, v, i);
+            if (!isnan(knot.second[0]))
+                return cli_fail(CLI_USE, path, "--exact: What flies along cubics is not followed exactly.");
+            if (!isnan(knot.control[0]) && !r->options->camera.parallel)
                 return cli_fail(CLI_USE, path,
                                 "--exact: What turns, or flies along parabolas, is followed for parallel eyes alone. "
                                 "Add --parallel.");
+        }
     return code;
 }
 

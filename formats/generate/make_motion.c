@@ -17,25 +17,29 @@ typedef struct motion_maker {
 typedef struct flight_chain {
     size_t corners, knots;
     double times[KNOTS], xy[MOST_CORNERS][KNOTS][2], controls[MOST_CORNERS][KNOTS][2];
+    double seconds[MOST_CORNERS][KNOTS][2];
 } flight_chain;
 
 static flight_chain chain_of(size_t corners, size_t knots) {
     flight_chain b = {.corners = corners, .knots = knots};
     for (size_t k = 0; k < knots; k++) b.times[k] = SECONDS * (double)k / (double)(knots - 1);
     for (size_t c = 0; c < corners; c++)
-        for (size_t k = 0; k < knots; k++) b.controls[c][k][0] = b.controls[c][k][1] = NAN;
+        for (size_t k = 0; k < knots; k++)
+            for (int i = 0; i < 2; i++) b.controls[c][k][i] = b.seconds[c][k][i] = NAN;
     return b;
 }
 
 static void add_chain(motion_maker *m, const flight_chain *b) {
     size_t starts[MOST_CORNERS + 1] = {0};
     double times[MOST_CORNERS * KNOTS], xy[2 * MOST_CORNERS * KNOTS], controls[2 * MOST_CORNERS * KNOTS];
+    double seconds[2 * MOST_CORNERS * KNOTS];
     uint32_t ends[2 * MOST_CORNERS];
     for (size_t c = 0; c < b->corners; c++) {
         starts[c + 1] = starts[c] + b->knots;
         memcpy(times + starts[c], b->times, b->knots * sizeof *times);
         memcpy(xy + 2 * starts[c], b->xy[c], 2 * b->knots * sizeof *xy);
         memcpy(controls + 2 * starts[c], b->controls[c], 2 * b->knots * sizeof *controls);
+        memcpy(seconds + 2 * starts[c], b->seconds[c], 2 * b->knots * sizeof *seconds);
         ends[2 * c] = (uint32_t)c;
         ends[2 * c + 1] = (uint32_t)((c + 1) % b->corners);
     }
@@ -45,6 +49,7 @@ static void add_chain(motion_maker *m, const flight_chain *b) {
     batch.times = times;
     batch.coords = xy;
     batch.controls = controls;
+    batch.second_controls = seconds;
     batch.count = b->corners > 2 ? b->corners : 1;
     batch.vertices = ends;
     m->random.status = froe_motion_add_group(m->motion, &(froe_group){.name = ""}, &batch.group);
@@ -88,6 +93,29 @@ static void make_quadratic(motion_maker *m) {
             for (int i = 0; i < 2; i++) {
                 b.xy[1][k][i] = b.xy[0][k][i] + m->side * d[i];
                 b.controls[1][k][i] = b.controls[0][k][i] + m->side * d[i];
+            }
+        }
+        add_chain(m, &b);
+    }
+}
+
+/* On cubics with one velocity where they meet: each control point before a place is as far behind it as the one after is
+ * ahead. */
+static void make_cubic(motion_maker *m) {
+    while (more(m)) {
+        flight_chain b = chain_of(2, KNOTS);
+        for (size_t k = 0; k < KNOTS; k++) {
+            double d[2], way[2];
+            place_in_square(m, b.xy[0][k]);
+            formats_direction(&m->random, 2, d);
+            for (int i = 0; i < 2; i++) b.xy[1][k][i] = b.xy[0][k][i] + m->side * d[i];
+            for (size_t c = 0; c < 2; c++) {
+                formats_direction(&m->random, 2, way);
+                for (int i = 0; i < 2; i++) {
+                    const double ahead = (c ? m->side : 0.25) * way[i] + (c ? b.controls[0][k][i] - b.xy[0][k][i] : 0);
+                    if (k) b.seconds[c][k - 1][i] = b.xy[c][k][i] - ahead;
+                    b.controls[c][k][i] = b.xy[c][k][i] + ahead;
+                }
             }
         }
         add_chain(m, &b);
@@ -218,6 +246,7 @@ typedef struct generator {
 static const generator generators[] = {
     {{"moving", 2, "short segments in the unit square, straight from place to place", false}, make_linear},
     {{"moving-quadratic", 2, "the same on parabolas", false}, make_quadratic},
+    {{"moving-cubic", 2, "the same on cubics that go on smoothly", false}, make_cubic},
     {{"moving-lattice", 2, "whole coordinates at whole times: much happens at once", false}, make_lattice},
     {{"moving-rigid", 2, "two fields of segments that pass through one another", false}, make_rigid},
     {{"moving-spin", 2, "segments that turn and drift, on parabolas", false}, make_spin},

@@ -18,6 +18,10 @@ void formats_animation_knots(const formats_animation *a, uint32_t vertex, size_t
     while (*end > *first + 1 && froe_motion_knot(a->motion, vertex, *end - 2).time >= a->end) --*end;
 }
 
+static void extend_bounds(formats_animation *a, const double at[2]) {
+    for (int k = 0; k < 2; k++) a->lo[k] = fmin(a->lo[k], at[k]), a->hi[k] = fmax(a->hi[k], at[k]); /* not NaN */
+}
+
 /* The hull of all knots and control points holds everything. */
 static void find_bounds(formats_animation *a) {
     for (int k = 0; k < 2; k++) a->lo[k] = (double)INFINITY, a->hi[k] = -(double)INFINITY;
@@ -28,11 +32,8 @@ static void find_bounds(formats_animation *a) {
             formats_animation_knots(a, object.vertices[corner], &first, &end);
             for (size_t i = first; i < end && object.birth <= object.death; i++) {
                 const froe_moving_knot knot = froe_motion_knot(a->motion, object.vertices[corner], i);
-                const bool curved = i + 1 < end && !isnan(knot.control[0]);
-                for (int k = 0; k < 2; k++) {
-                    a->lo[k] = fmin(a->lo[k], curved ? fmin(knot.at[k], knot.control[k]) : knot.at[k]);
-                    a->hi[k] = fmax(a->hi[k], curved ? fmax(knot.at[k], knot.control[k]) : knot.at[k]);
-                }
+                extend_bounds(a, knot.at);
+                if (i + 1 < end) extend_bounds(a, knot.control), extend_bounds(a, knot.second);
             }
         }
     for (int k = 0; k < 2; k++)

@@ -60,6 +60,7 @@ static void put_plans(formats_writer *w, const formats_animation *a) {
             for (int axis = 0; axis < 2; axis++) put_member(w, ",", k.at[axis]);
             if (isnan(k.control[0])) formats_put(w, ",null");
             for (int axis = 0; axis < 2 && !isnan(k.control[0]); axis++) put_member(w, ",", k.control[axis]);
+            for (int axis = 0; axis < 2 && !isnan(k.second[0]); axis++) put_member(w, ",", k.second[axis]);
             formats_put(w, "]");
         }
         formats_put(w, "]");

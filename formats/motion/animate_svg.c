@@ -64,7 +64,7 @@ static void put_key(keys *k, double time, double share) {
         put_place(k, time);
 }
 
-/* The next instant, after `time`, at which either vertex changes its piece, or a parabola its chord. */
+/* The next instant, after `time`, at which either vertex changes its piece, or a curve its chord. */
 static double next_key(const keys *k, double time) {
     double next = k->object.death;
     for (int i = 0; i < 2; i++) {
@@ -200,7 +200,9 @@ static void put_ways(const layout *s) {
             const froe_moving_knot knot = froe_motion_knot(s->a->motion, object.vertices[0], i);
             put_spot(s, i == first ? "M%.1f %.1f" : curved ? " %.1f %.1f" : "L%.1f %.1f", knot.at);
             curved = i + 1 < end && !isnan(knot.control[0]);
-            if (curved) put_spot(s, "Q%.1f %.1f", knot.control);
+            const bool cubic = curved && !isnan(knot.second[0]);
+            if (curved) put_spot(s, cubic ? "C%.1f %.1f" : "Q%.1f %.1f", knot.control);
+            if (cubic) put_spot(s, " %.1f %.1f", knot.second);
         }
     }
     formats_put(s->w, "\"/>\n");

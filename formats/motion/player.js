@@ -1,5 +1,5 @@
 /* Plays the motion that the page holds. Objects: two vertices, birth, death, name. Knots of a vertex: time, x, y and the
- * control point of a parabola (null: straight). Contacts: two objects, begin, end, 1 for a single instant. */
+ * control points of a parabola, one, or of a cubic, two (null: straight). Contacts: two objects, begin, end, 1 for a single instant. */
 'use strict';
 const $ = id => document.getElementById(id), picture = $('picture'), marks = $('marks');
 const length = motion.end - motion.begin, shown = 1000, slack = length / 150;
@@ -51,7 +51,8 @@ function place(plan, t) {
   let low = 0, high = plan.length - 1;
   while (high - low > 1) { const m = low + high >> 1; if (plan[m][0] <= t) low = m; else high = m; }
   const p = plan[low], q = plan[high], s = p === q ? 0 : Math.min(1, Math.max(0, (t - p[0]) / (q[0] - p[0]))), r = 1 - s;
-  return [1, 2].map(k => p[3] === null ? r * p[k] + s * q[k] : r * r * p[k] + 2 * r * s * p[k + 2] + s * s * q[k]);
+  return [1, 2].map(k => p[3] === null ? r * p[k] + s * q[k] : p.length < 7 ? r * r * p[k] + 2 * r * s * p[k + 2] + s * s * q[k]
+    : r * r * r * p[k] + 3 * r * s * (r * p[k + 2] + s * p[k + 4]) + s * s * s * q[k]);
 }
 const ends = object => [0, 1].map(k => place(motion.vertices[motion.objects[object][k]], now));
 
@@ -102,8 +103,10 @@ function lay() {
   view.pen = fit(picture, width, height);
   view.marks = fit(marks, width, 22);
   paths = new Path2D();
-  motion.vertices.forEach(plan => plan.forEach((k, i) => i && plan[i - 1][3] !== null
-    ? paths.quadraticCurveTo(plan[i - 1][3], plan[i - 1][4], k[1], k[2]) : paths[i ? 'lineTo' : 'moveTo'](k[1], k[2])));
+  motion.vertices.forEach(plan => plan.forEach((k, i) => {
+    const points = i && plan[i - 1][3] !== null ? plan[i - 1].slice(3) : [];
+    paths[!i ? 'moveTo' : ['lineTo', 'quadraticCurveTo', 'bezierCurveTo'][points.length / 2]](...points, k[1], k[2]);
+  }));
   drawMarks();
   draw();
 }

@@ -34,13 +34,14 @@ typedef struct reading {
     size_t number;       /* of the feature */
     uint32_t group;
     bool flat; /* no z so far */
+    bool gaps; /* a position may be null: no control point */
     /* of one geometry */
     size_t instants, points;         /* points: of each instant, rings without their last */
     sizes rings, here;               /* points of each line or ring: at instant 0, and at the one being read */
-    doubles times, coords, controls; /* one instant after the other */
-    doubles plan_times, plan_coords, plan_controls; /* one point after the other */
-    doubles turns;                                  /* of a body */
-    ARRAY(uint32_t) bodies;                         /* of each point of its base */
+    doubles times, coords, controls, second_controls;                     /* one instant after the other */
+    doubles plan_times, plan_coords, plan_controls, plan_second_controls; /* one point after the other */
+    doubles turns;                                                        /* of a body */
+    ARRAY(uint32_t) bodies;                                               /* of each point of its base */
     sizes starts;
     ARRAY(uint32_t) vertices;
     doubles births, deaths;
@@ -88,8 +89,10 @@ static froe_status take_instants(reading *r, const formats_json *geometry) {
 }
 
 static froe_status take_position(reading *r, const formats_json *position, size_t instant, doubles *to) {
-    double p[3];
+    double p[3] = {NAN, NAN, NAN};
     const size_t dim = (size_t)r->dim;
+    if (r->gaps && formats_json_is(position, FORMATS_JSON_NAME) && position->text[0] == 'n') /* null */
+        return array_append(&r->alloc, to, p, dim) ? FROE_OK : no_memory(r);
     if (formats_json_size(position) < dim)
         return fail_feature(r, FROE_E_FORMAT, "At instant %zu a position is no array of %s numbers.", instant,
                             dim == 2 ? "two" : "three");
@@ -184,6 +187,50 @@ static froe_status make_spline(reading *r) {
     return FROE_OK;
 }
 
+/* Component k of the velocity at an instant: that of the parabola through it and the two next to it, at both ends
+ * through the first or last three (cubic Bessel interpolation: de Boor, A Practical Guide to Splines, chapter IV). */
+static double velocity_at(const reading *r, size_t i, size_t k) {
+    const size_t width = (size_t)r->dim * r->points, middle = i ? i + 1 < r->instants ? i : i - 1 : 1;
+    const double *t = r->times.data + middle, *p = r->coords.data + width * middle + k;
+    const double before = t[0] - t[-1], after = t[1] - t[0];
+    const double s0 = (p[0] - *(p - width)) / before, s1 = (p[width] - p[0]) / after;
+    const double bend = (s1 - s0) / (before + after);
+    return i == middle ? s0 + bend * before : i ? s1 + bend * after : s0 - bend * before;
+}
+
+/* Cubics with these velocities:  c = p0 + v0 h / 3,  d = p1 - v1 h / 3. */
+static froe_status make_cubics(reading *r) {
+    const double *t = r->times.data, *p = r->coords.data;
+    const size_t n = r->instants, width = (size_t)r->dim * r->points;
+    if (n < 3) return fail_feature(r, FROE_E_INPUT, "Cubic interpolation needs three instants.");
+    r->controls.count = r->second_controls.count = 0;
+    if (!array_reserve(&r->alloc, &r->controls, (n - 1) * width) ||
+        !array_reserve(&r->alloc, &r->second_controls, (n - 1) * width))
+        return no_memory(r);
+    for (size_t i = 0; i + 1 < n; i++)
+        for (size_t k = 0; k < width; k++) {
+            const double h = (t[i + 1] - t[i]) / 3;
+            r->controls.data[i * width + k] = p[i * width + k] + velocity_at(r, i, k) * h;
+            r->second_controls.data[i * width + k] = p[(i + 1) * width + k] - velocity_at(r, i + 1, k) * h;
+        }
+    return FROE_OK;
+}
+
+/* The control points of all pieces, from the file or from their instants. */
+static froe_status take_controls(reading *r, form kind, const formats_json *geometry, int degree) {
+    const formats_json *first = formats_json_get(geometry, "controls"),
+                       *second = formats_json_get(geometry, "secondControls");
+    const size_t pieces = r->instants - 1;
+    if (degree < 2) return FROE_OK;
+    if (!first) return degree == 2 ? make_spline(r) : make_cubics(r);
+    r->gaps = degree == 3;
+    froe_status status = take_all(r, kind, first, "controls", pieces, &r->controls, false);
+    if (!status && degree == 3)
+        status = take_all(r, kind, second, "second controls", pieces, &r->second_controls, false);
+    r->gaps = false;
+    return status;
+}
+
 static bool put_object(reading *r, const uint32_t *corners) {
     return array_append(&r->alloc, &r->vertices, corners, r->dim) &&
            array_push(&r->alloc, &r->births, r->times.data[0]) &&
@@ -197,20 +244,24 @@ static bool put_segment(reading *r, size_t a, size_t b) {
 }
 
 /* Plans, one point after the other. */
-static bool make_plans(reading *r, bool parabolas) {
+static bool make_plans(reading *r, int degree) {
     static const double none[3] = {NAN, NAN, NAN};
     const size_t dim = (size_t)r->dim;
     const froe_allocator *alloc = &r->alloc;
     r->plan_times.count = r->plan_coords.count = r->plan_controls.count = r->starts.count = 0;
+    r->plan_second_controls.count = 0;
     for (size_t v = 0; v <= r->points; v++) {
         if (!array_push(alloc, &r->starts, v * r->instants)) return false;
         for (size_t i = 0; i < r->instants && v < r->points; i++) {
             const size_t at = dim * (i * r->points + v);
-            const double *control = parabolas && i + 1 < r->instants ? r->controls.data + at : none;
+            const bool ends = i + 1 == r->instants;
+            const double *control = degree > 1 && !ends ? r->controls.data + at : none;
             if (!array_push(alloc, &r->plan_times, r->times.data[i]) ||
                 !array_append(alloc, &r->plan_coords, r->coords.data + at, dim) ||
                 !array_append(alloc, &r->plan_controls, control, dim))
                 return false;
+            control = ends ? none : r->second_controls.data + at;
+            if (degree == 3 && !array_append(alloc, &r->plan_second_controls, control, dim)) return false;
         }
     }
     return true;
@@ -280,15 +331,18 @@ static froe_status take_turns(reading *r, const formats_json *array) {
 }
 
 /* A body of the instants that were read, and the points of its base. */
-static froe_status take_body(reading *r, const formats_json *geometry, bool parabolas, froe_moving *b) {
+static froe_status take_body(reading *r, const formats_json *geometry, int degree, froe_moving *b) {
     const formats_json *corners = formats_json_get(formats_json_get(geometry, "base"), "coordinates");
     froe_diagnostic why;
     froe_body body = froe_body_defaults();
     uint32_t id;
+    if (degree == 3)
+        return fail_feature(r, FROE_E_UNSUPPORTED, "It is a body, which does not fly along cubics. There are: Linear, "
+                                                   "Quadratic.");
     froe_status status = take_turns(r, formats_json_get(geometry, "turns"));
     if (status) return status;
     body.count = r->instants, body.times = r->times.data, body.coords = r->coords.data;
-    body.controls = parabolas ? r->controls.data : NULL;
+    body.controls = degree == 2 ? r->controls.data : NULL;
     body.turns = r->turns.count ? r->turns.data : NULL;
     status = froe_motion_add_body(r->motion, &body, &id, &why);
     if (status == FROE_E_MEMORY) return no_memory(r);
@@ -307,38 +361,39 @@ static froe_status take_body(reading *r, const formats_json *geometry, bool para
 }
 
 /* What a geometry is made of: its batch, but for what is in the arrays of all. */
-static froe_status take_batch(reading *r, form kind, const formats_json *geometry, bool parabolas, froe_moving *b) {
+static froe_status take_batch(reading *r, form kind, const formats_json *geometry, int degree, froe_moving *b) {
     const formats_json *triangles = formats_json_get(geometry, "triangles"), *base = formats_json_get(geometry, "base");
     r->vertices.count = r->births.count = r->deaths.count = r->tags.count = 0;
     const formats_json *carried = formats_json_get(base, r->dim == 3 ? "triangles" : "segments");
     if (kind == POINT && (r->dim == 3 || carried)) {
-        const froe_status status = take_body(r, geometry, parabolas, b);
+        const froe_status status = take_body(r, geometry, degree, b);
         return status ? status : take_objects(r, carried, b->vertex_count);
     }
     b->vertex_count = r->points;
-    if (!make_plans(r, parabolas)) return no_memory(r);
+    if (!make_plans(r, degree)) return no_memory(r);
     b->controls = r->plan_controls.data;
+    if (degree == 3) b->second_controls = r->plan_second_controls.data;
     if (r->dim == 3) return take_objects(r, triangles, r->points);
     return make_segments(r, kind) ? FROE_OK : no_memory(r);
 }
 
 static froe_status add_geometry(reading *r, form kind, const formats_json *geometry) {
-    const formats_json *said = formats_json_get(geometry, "interpolation"),
-                       *given = formats_json_get(geometry, "controls");
+    static const char *const names[] = {"", "Linear", "Quadratic", "Cubic"};
+    const formats_json *said = formats_json_get(geometry, "interpolation");
     froe_status status =
         take_all(r, kind, formats_json_get(geometry, "coordinates"), "geometries", r->instants, &r->coords, true);
     if (status) return status;
     if (!said) said = formats_json_get(geometry, "interpolations"); /* drafts */
     if (formats_json_size(said)) said = said + 1;
     const char *name = formats_json_string(said) ? formats_json_string(said) : "Linear";
-    const bool parabolas = strcmp(name, "Quadratic") == 0;
-    if (!parabolas && strcmp(name, "Linear") != 0)
-        return fail_feature(r, FROE_E_UNSUPPORTED, "There is no interpolation '%.40s'. There are: Linear, Quadratic.",
-                            name);
-    if (parabolas)
-        status = given ? take_all(r, kind, given, "controls", r->instants - 1, &r->controls, false) : make_spline(r);
+    int degree = 3;
+    while (degree && strcmp(name, names[degree]) != 0) degree--;
+    if (!degree)
+        return fail_feature(r, FROE_E_UNSUPPORTED,
+                            "There is no interpolation '%.40s'. There are: Linear, Quadratic, Cubic.", name);
+    status = take_controls(r, kind, geometry, degree);
     froe_moving b = froe_moving_defaults();
-    if (!status) status = take_batch(r, kind, geometry, parabolas, &b);
+    if (!status) status = take_batch(r, kind, geometry, degree, &b);
     if (status) return status;
     froe_diagnostic why;
     b.starts = r->starts.data;
@@ -501,8 +556,9 @@ static froe_status read_file(reading *r) {
     if (!status) status = take_features(r, values.data);
     array_free(alloc, &values);
     array_free(alloc, &text);
-    doubles *const numbers[] = {&r->times,         &r->coords, &r->controls, &r->plan_times, &r->plan_coords,
-                                &r->plan_controls, &r->births, &r->deaths,   &r->turns};
+    doubles *const numbers[] = {&r->times,       &r->coords,        &r->controls,             &r->second_controls,
+                                &r->plan_times,  &r->plan_coords,   &r->plan_controls,        &r->plan_second_controls,
+                                &r->births,      &r->deaths,        &r->turns};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) array_free(alloc, numbers[i]);
     array_free(alloc, &r->rings);
     array_free(alloc, &r->here);

@@ -56,36 +56,40 @@ static froe_status check_motion(const chain *c, froe_diagnostic *diag) {
                         c->first);
 }
 
-static bool is_straight(const froe_moving_knot *k) {
-    return isnan(k->control[0]);
+/* The greatest degree of a piece of the chain. */
+static int degree_of(const chain *c, size_t knots) {
+    int degree = 1;
+    for (uint32_t i = 0; i < point_count(c); i++)
+        for (size_t k = 0; k + 1 < knots; k++) {
+            const froe_moving_knot knot = froe_motion_knot(c->motion, vertex_of(c, i), k);
+            const int here = formats_degree_of(&knot);
+            degree = here > degree ? here : degree;
+        }
+    return degree;
 }
 
-/* All points at one instant; `control`: their control points instead, of straight pieces the middles. */
-static void put_geometry(formats_writer *w, const chain *c, size_t k, bool control) {
+/* All points at one instant. */
+static void put_geometry(formats_writer *w, const chain *c, size_t k, formats_listed what, int degree) {
     bool point = vertex_of(c, 0) == vertex_of(c, 1);
     uint32_t count = point ? 1 : c->end - c->first + 1;
     formats_put(w, c->ring ? "[[" : point ? "" : "[");
     for (uint32_t i = 0; i < count; i++) {
         uint32_t v = vertex_of(c, c->ring && i + 1 == count ? 0 : i);
-        froe_moving_knot knot = froe_motion_knot(c->motion, v, k);
-        double at[2] = {knot.at[0], knot.at[1]};
-        if (control) {
-            froe_moving_knot next = froe_motion_knot(c->motion, v, k + 1);
-            for (int axis = 0; axis < 2; axis++)
-                at[axis] = is_straight(&knot) ? 0.5 * knot.at[axis] + 0.5 * next.at[axis] : knot.control[axis];
-        }
-        formats_put(w, i ? ",[" : "[");
-        formats_put_point(w, at, 2, ",");
-        formats_put(w, "]");
+        if (i) formats_put(w, ",");
+        const froe_moving_knot knot = froe_motion_knot(c->motion, v, k);
+        const bool last = what == FORMATS_PLACES; /* there may be no next one */
+        const froe_moving_knot next = last ? knot : froe_motion_knot(c->motion, v, k + 1);
+        formats_put_listed(w, &knot, &next, 2, what, degree);
     }
     formats_put(w, c->ring ? "]]" : point ? "" : "]");
 }
 
-static void put_geometries(formats_writer *w, const chain *c, const char *name, size_t count, bool control) {
+static void put_geometries(formats_writer *w, const chain *c, const char *name, size_t count, formats_listed what,
+                           int degree) {
     formats_put(w, name);
     for (size_t k = 0; k < count; k++) {
         if (k) formats_put(w, ",");
-        put_geometry(w, c, k, control);
+        put_geometry(w, c, k, what, degree);
     }
     formats_put(w, "]");
 }
@@ -94,12 +98,8 @@ static void put_feature(formats_writer *w, const chain *c) {
     froe_moving_object o = froe_motion_object(c->motion, c->first);
     uint32_t v0 = vertex_of(c, 0);
     size_t count = froe_motion_knot_count(c->motion, v0);
-    bool point = v0 == vertex_of(c, 1), parabolas = false;
-    for (uint32_t i = 0; i < point_count(c) && !parabolas; i++)
-        for (size_t k = 0; k + 1 < count && !parabolas; k++) {
-            const froe_moving_knot knot = froe_motion_knot(c->motion, vertex_of(c, i), k);
-            parabolas = !is_straight(&knot);
-        }
+    const bool point = v0 == vertex_of(c, 1);
+    const int degree = degree_of(c, count);
     formats_put(w, "{\"type\":\"Feature\",\"properties\":{");
     if (o.group != FROE_NONE) {
         formats_put(w, "\"name\":");
@@ -107,13 +107,14 @@ static void put_feature(formats_writer *w, const chain *c) {
     }
     formats_put(w, "},\"temporalGeometry\":{\"type\":\"");
     formats_put(w, c->ring ? "MovingPolygon" : point ? "MovingPoint" : "MovingLineString");
-    formats_put(w, parabolas ? "\",\"interpolation\":\"Quadratic\",\"datetimes\":[" : "\",\"datetimes\":[");
+    formats_put_interpolation(w, degree);
     for (size_t k = 0; k < count; k++) {
         if (k) formats_put(w, ",");
         formats_put_number(w, froe_motion_knot(c->motion, v0, k).time);
     }
-    put_geometries(w, c, "],\"coordinates\":[", count, false);
-    if (parabolas) put_geometries(w, c, ",\"controls\":[", count - 1, true);
+    put_geometries(w, c, "],\"coordinates\":[", count, FORMATS_PLACES, degree);
+    if (degree > 1) put_geometries(w, c, ",\"controls\":[", count - 1, FORMATS_CONTROLS, degree);
+    if (degree > 2) put_geometries(w, c, ",\"secondControls\":[", count - 1, FORMATS_SECOND_CONTROLS, degree);
     formats_put(w, "}}");
 }
 

@@ -91,53 +91,68 @@ static bool fits(const solid *s) {
 
 /* --------------------------------------------------------------------- writing -- */
 
+int formats_degree_of(const froe_moving_knot *knot) {
+    return isnan(knot->control[0]) ? 1 : isnan(knot->second[0]) ? 2 : 3;
+}
+
+void formats_put_interpolation(formats_writer *w, int degree) {
+    formats_put(w, degree > 2   ? "\",\"interpolation\":\"Cubic\",\"datetimes\":["
+                   : degree > 1 ? "\",\"interpolation\":\"Quadratic\",\"datetimes\":["
+                                : "\",\"datetimes\":[");
+}
+
 static void put_array(formats_writer *w, const double *x, int count) {
     formats_put(w, "[");
     formats_put_point(w, x, count, ",");
     formats_put(w, "]");
 }
 
-/* Where a corner or the centre of the body is; `control`: the control point of its piece instead, of a straight one the
- * middle. */
-static void put_place(formats_writer *w, const solid *s, uint32_t vertex, size_t k, bool control) {
-    double at[3], next[3], bend[3];
-    for (int i = 0; i < 3; i++) {
-        const size_t then = control ? k + 1 : k;
-        if (s->body == FROE_NONE) {
-            at[i] = knot_of(s, vertex, k).at[i];
-            next[i] = knot_of(s, vertex, then).at[i];
-            bend[i] = knot_of(s, vertex, k).control[i];
-        } else {
-            at[i] = body_knot_of(s, k).at[i];
-            next[i] = body_knot_of(s, then).at[i];
-            bend[i] = body_knot_of(s, k).control[i];
-        }
-        if (control) at[i] = isnan(bend[i]) ? 0.5 * at[i] + 0.5 * next[i] : bend[i];
+void formats_put_listed(formats_writer *w, const froe_moving_knot *knot, const froe_moving_knot *next, int dim,
+                        formats_listed what, int degree) {
+    const double *at = what == FORMATS_PLACES ? knot->at : what == FORMATS_CONTROLS ? knot->control : knot->second;
+    double middle[3];
+    if (isnan(at[0]) && degree == 3) {
+        formats_put(w, "null");
+        return;
     }
-    put_array(w, at, s->dim);
+    for (int i = 0; i < 3; i++) middle[i] = 0.5 * knot->at[i] + 0.5 * next->at[i];
+    put_array(w, isnan(at[0]) ? middle : at, dim);
 }
 
-static bool is_curved(const solid *s) {
+/* An instant of a corner, or of the centre of the body. */
+static froe_moving_knot flight_knot(const solid *s, uint32_t vertex, size_t k) {
+    if (s->body == FROE_NONE) return knot_of(s, vertex, k);
+    const froe_body_knot b = body_knot_of(s, k);
+    return (froe_moving_knot){
+        b.time, {b.at[0], b.at[1], b.at[2]}, {b.control[0], b.control[1], b.control[2]}, {(double)NAN}};
+}
+
+/* The greatest degree of a piece. */
+static int degree_of(const solid *s) {
     const size_t count = instants_of(s, s->corners[0]);
+    int degree = 1;
     for (uint32_t i = 0; i < (s->body == FROE_NONE ? s->count : 1); i++)
-        for (size_t k = 0; k + 1 < count; k++)
-            if (!isnan(s->body == FROE_NONE ? knot_of(s, s->corners[i], k).control[0] : body_knot_of(s, k).control[0]))
-                return true;
-    return false;
+        for (size_t k = 0; k + 1 < count; k++) {
+            const froe_moving_knot knot = flight_knot(s, s->corners[i], k);
+            const int here = formats_degree_of(&knot);
+            degree = here > degree ? here : degree;
+        }
+    return degree;
 }
 
-static void put_places(formats_writer *w, const solid *s, size_t count, bool control) {
+static void put_places(formats_writer *w, const solid *s, const char *name, size_t count, formats_listed what,
+                       int degree) {
+    const uint32_t each = s->body == FROE_NONE ? s->count : 1;
+    formats_put(w, name);
     for (size_t k = 0; k < count; k++) {
         if (k) formats_put(w, ",");
-        if (s->body != FROE_NONE) {
-            put_place(w, s, s->corners[0], k, control);
-            continue;
+        for (uint32_t i = 0; i < each; i++) {
+            const froe_moving_knot knot = flight_knot(s, s->corners[i], k);
+            const froe_moving_knot next = what == FORMATS_PLACES ? knot : flight_knot(s, s->corners[i], k + 1);
+            if (s->body == FROE_NONE) formats_put(w, i ? "," : "[");
+            formats_put_listed(w, &knot, &next, s->dim, what, degree);
         }
-        for (uint32_t i = 0; i < s->count; i++) {
-            formats_put(w, i ? "," : "[");
-            put_place(w, s, s->corners[i], k, control);
-        }
-        formats_put(w, "]");
+        if (s->body == FROE_NONE) formats_put(w, "]");
     }
     formats_put(w, "]");
 }
@@ -177,7 +192,7 @@ static void put_base(formats_writer *w, const solid *s, size_t count) {
 static void put_solid(formats_writer *w, const solid *s) {
     const froe_moving_object o = object_at(s, s->first);
     const size_t count = instants_of(s, s->corners[0]);
-    const bool curved = is_curved(s);
+    const int degree = degree_of(s);
     formats_put(w, "{\"type\":\"Feature\",\"properties\":{");
     if (o.group != FROE_NONE) {
         formats_put(w, "\"name\":");
@@ -185,14 +200,14 @@ static void put_solid(formats_writer *w, const solid *s) {
     }
     formats_put(w, "},\"temporalGeometry\":{\"type\":\"");
     formats_put(w, s->body == FROE_NONE ? "MovingPointCloud" : "MovingPoint");
-    formats_put(w, curved ? "\",\"interpolation\":\"Quadratic\",\"datetimes\":[" : "\",\"datetimes\":[");
+    formats_put_interpolation(w, degree);
     for (size_t k = 0; k < count; k++) {
         if (k) formats_put(w, ",");
         formats_put_number(w, instant_of(s, s->corners[0], k));
     }
-    formats_put(w, "],\"coordinates\":[");
-    put_places(w, s, count, false);
-    if (curved) formats_put(w, ",\"controls\":["), put_places(w, s, count - 1, true);
+    put_places(w, s, "],\"coordinates\":[", count, FORMATS_PLACES, degree);
+    if (degree > 1) put_places(w, s, ",\"controls\":[", count - 1, FORMATS_CONTROLS, degree);
+    if (degree > 2) put_places(w, s, ",\"secondControls\":[", count - 1, FORMATS_SECOND_CONTROLS, degree);
     if (s->body == FROE_NONE)
         formats_put(w, ","), put_members(w, s);
     else

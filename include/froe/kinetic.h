@@ -9,7 +9,7 @@
  *     froe_motion_add(motion, &b, NULL);
  *     ...  froe_motion_free(motion);
  *
- * Between two instants of its flight plan a vertex moves as a linear or quadratic polynomial in time. Times and
+ * Between two instants of its flight plan a vertex moves as a polynomial in time of degree 1, 2 or 3. Times and
  * coordinates are taken exactly, as the doubles given; no position is ever rounded before it decides anything.
  */
 #ifndef FROE_KINETIC_H
@@ -55,7 +55,7 @@ typedef struct froe_body {
     size_t count;           /**< times, at least 1 */
     const double *times;    /**< strictly increasing */
     const double *coords;   /**< of the centre: x, y (and z) for each time */
-    const double *controls; /**< as in froe_moving; NULL: straight */
+    const double *controls; /**< as in froe_moving, but never of cubics; NULL: straight */
     const double *turns;    /**< (x, y,) z, w for each time; NULL: it does not turn */
 } froe_body;
 FROE_DEFAULTS(froe_body, froe_body_defaults);
@@ -72,7 +72,11 @@ FROE_API froe_status froe_motion_add_body(froe_motion *motion, const froe_body *
  * in between on a straight line at constant speed, or, where controls[2 i], controls[2 i + 1] is not NaN, on
  * the parabola with that control point (Bezier's form):
  *     p(t) = ((t1-t)^2 p0 + 2 (t1-t)(t-t0) c + (t-t0)^2 p1) / (t1-t0)^2
- * so a body that starts at p0 with speed s has c = p0 + s (t1-t0) / 2. A vertex with one time never moves.
+ * so a body that starts at p0 with velocity v has c = p0 + v (t1-t0) / 2. Where second_controls[2 i],
+ * second_controls[2 i + 1] is no NaN either, it moves on the cubic with both control points:
+ *     p(t) = ((t1-t)^3 p0 + 3 (t1-t)^2 (t-t0) c + 3 (t1-t) (t-t0)^2 d + (t-t0)^3 p1) / (t1-t0)^3
+ * so one that starts with velocity v and ends with velocity w has c = p0 + v (t1-t0) / 3, d = p1 - w (t1-t0) / 3. A
+ * vertex with one time never moves.
  * Segment j joins the vertices vertices[2 j] and vertices[2 j + 1] of the batch; segments may share vertices.
  * In space there are three numbers for each time, and triangle j has the corners vertices[3 j] to vertices[3 j + 2]. A
  * vertex of a body has one time, which does not matter: its coordinates are those in the body, from the centre, before
@@ -84,6 +88,7 @@ typedef struct froe_moving {
     const double *times;      /**< strictly increasing in each plan */
     const double *coords;     /**< x, y (and z) for each time */
     const double *controls;   /**< as many for each time but each plan's last (ignored); NULL: all pieces linear */
+    const double *second_controls; /**< alike, and NaN where controls are; NULL: no piece is cubic */
     size_t count;             /**< objects: segments or triangles */
     const uint32_t *vertices; /**< 2 a segment, 3 a triangle; NULL: each number once, in order */
     const uint32_t *bodies;   /**< of each vertex, or FROE_NONE; NULL: none */
@@ -99,7 +104,7 @@ FROE_DEFAULTS(froe_moving, froe_moving_defaults); /**< none, no groups */
  * so have vertices. FROE_E_INPUT: a coordinate or time is NaN or infinite, times do not increase, a vertex has no plan
  * or one that does not cover the part of the window in which its objects live, an object dies before it appears, two
  * corners of a triangle are one vertex or of two bodies, there is no such body, a vertex of a body has a plan of its
- * own. FROE_E_ARG, FROE_E_OPTIONS, FROE_E_LIMIT, FROE_E_MEMORY. O(times + objects). */
+ * own, a piece has a second control point and no first. FROE_E_ARG, FROE_E_OPTIONS, FROE_E_LIMIT, FROE_E_MEMORY. O(times + objects). */
 FROE_API froe_status froe_motion_add(froe_motion *motion, const froe_moving *batch, froe_diagnostic *diag);
 
 /** As froe_scene_add_group(). */
@@ -136,6 +141,7 @@ FROE_API froe_moving_object froe_motion_object(const froe_motion *motion, uint32
 typedef struct froe_moving_knot {
     double time, at[3]; /**< the third of the plane: 0 */
     double control[3];  /**< of the piece that begins here; NaN: linear, or the last instant */
+    double second[3];   /**< its second control point; NaN: it is no cubic */
 } froe_moving_knot;
 FROE_API size_t froe_motion_knot_count(const froe_motion *motion, uint32_t vertex);
 /** Of a vertex of a body, knot 0 is where it is in the body. REQUIRES: vertex and knot in range. O(1). */
@@ -209,8 +215,9 @@ typedef bool froe_contact_fn(void *user, const froe_contact *contact);
 
 /** All contacts between moving objects, in the order of their beginnings (low, high, a, b). None is missed, however
  * short, grazing ones included: candidates come from boxes in space and time, times from the roots of exact polynomials
- * (degree up to 4 in the plane, 6 with bodies; in space 3, with bodies that turn 5, along parabolas 6, of a body and a
- * triangle whose corners fly along parabolas each for itself 8). Triangles may lie in one plane, and may have no area,
+ * (degree up to 4 in the plane, 6 with bodies or cubics, 8 with both; in space 3, with bodies that turn 5, along
+ * parabolas 6, of a body and a triangle whose corners fly along parabolas each for itself 8; of corners on cubics 9, and
+ * with a body 10). Triangles may lie in one plane, and may have no area,
  * at an instant or always. Objects that share a vertex always meet there, and are left out (but see `neighbours`), as
  * are two of one body. options NULL: the defaults. FROE_E_OPTIONS: from > to, or outside the window. FROE_E_LIMIT: two
  * things happen within 2^-2047 of the time between two knots. FROE_E_UNSUPPORTED: neighbours in the plane.
@@ -345,11 +352,12 @@ FROE_API double froe_kinetic_next(const froe_kinetic *kinetic);
 
 /** Objects added to the motion meanwhile take part from now on. Those whose time has come appear at once. */
 FROE_API froe_status froe_kinetic_update(froe_kinetic *kinetic, froe_diagnostic *diag);
-/** Gives a vertex another plan from now on, as in froe_moving: `count` times, coordinates and controls (NULL: linear).
- * Where it is now may change: then its segments leave here and appear there. The failures of froe_motion_add, and then
+/** Gives a vertex another plan from now on, as in froe_moving: `count` times, coordinates, controls (NULL: linear) and
+ * second controls (NULL: no cubic). Where it is now may change: then its segments leave here and appear there. The failures of froe_motion_add, and then
  * nothing is changed. FROE_E_UNSUPPORTED: the vertex belongs to a body. */
 FROE_API froe_status froe_kinetic_replan(froe_kinetic *kinetic, uint32_t vertex, size_t count, const double *times,
-                                         const double *coords, const double *controls, froe_diagnostic *diag);
+                                         const double *coords, const double *controls,
+                                         const double *second_controls, froe_diagnostic *diag);
 /** Takes an object out, for good. FROE_E_ARG: there is no such object. */
 FROE_API froe_status froe_kinetic_remove(froe_kinetic *kinetic, uint32_t object, froe_diagnostic *diag);
 

@@ -396,7 +396,8 @@ static void find_at_vertex(froe_kinetic *k, uint32_t vertex) {
 }
 
 froe_status froe_kinetic_replan(froe_kinetic *k, uint32_t vertex, size_t count, const double *times,
-                                const double *coords, const double *controls, froe_diagnostic *diag) {
+                                const double *coords, const double *controls, const double *second_controls,
+                                froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!k || vertex >= k->tree.vertices.count) return support_fail(diag, FROE_E_ARG, "There is no vertex %u.", vertex);
     const double now = now_time_of(&k->now, k->now.tick);
@@ -415,7 +416,7 @@ froe_status froe_kinetic_replan(froe_kinetic *k, uint32_t vertex, size_t count, 
     find_at_vertex(k, vertex);
     if (k->call.stopped) return call_fail(&k->call, diag);
     for (size_t i = 0; i < k->events.leaving.count; i++) change_remove(k, k->events.leaving.data[i]);
-    status = motion_replan(k->now.motion, vertex, count, times, coords, controls, life, diag);
+    status = motion_replan(k->now.motion, vertex, count, times, coords, controls, second_controls, life, diag);
     now_catch_up(&k->now);
     for (size_t i = 0; i < k->events.leaving.count; i++) {
         change_schedule(k, k->events.leaving.data[i]);

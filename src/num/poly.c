@@ -151,11 +151,11 @@ num_poly num_poly_without(num_arena *arena, const num_poly *f, num_dyadic x) {
     return g;
 }
 
-/* A coefficient of a chain is a determinant of up to 7 rows of coefficients of f and 8 of coefficients of f', or of the
- * remainder of f' g by f, which have 10 times the limbs of f: 87 times in all. Before it is divided, a pseudo-remainder
- * has three times as many. 64 such numbers are more than one step needs; the chain itself has 45 of a third. */
+/* A coefficient of a chain is a determinant of up to 9 rows of coefficients of f and 10 of coefficients of f', or of the
+ * remainder of f' g by f, which have 12 times the limbs of f: 129 times in all. Before it is divided, a pseudo-remainder
+ * has three times as many. 96 such numbers are more than one step needs; the chain itself has 66 of a third. */
 size_t num_poly_arena(size_t limbs, size_t argument) {
-    enum { GROWTH = 3 * 87, NUMBERS = 64 };
+    enum { GROWTH = 3 * 129, NUMBERS = 96 };
     return (size_t)NUMBERS * ((limbs + 2) * GROWTH + NUM_DEGREE * (argument + 2));
 }
 
@@ -169,7 +169,9 @@ static num_ball bernstein(const num_ball_poly *f, int j) {
                                                                   {1, 5, 10, 10, 5, 1},
                                                                   {1, 6, 15, 20, 15, 6, 1},
                                                                   {1, 7, 21, 35, 35, 21, 7, 1},
-                                                                  {1, 8, 28, 56, 70, 56, 28, 8, 1}};
+                                                                  {1, 8, 28, 56, 70, 56, 28, 8, 1},
+                                                                  {1, 9, 36, 84, 126, 126, 84, 36, 9, 1},
+                                                                  {1, 10, 45, 120, 210, 252, 210, 120, 45, 10, 1}};
     num_ball sum = f->c[j];
     for (int i = 0; i < j; i++)
         sum = num_ball_add(sum, num_ball_mul(num_ball_from(choose[f->degree - i][j - i]), f->c[i]));

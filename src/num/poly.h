@@ -13,7 +13,7 @@
 #include "num/dyadic.h"
 
 enum {
-    NUM_DEGREE = 8, /* of polynomials that callers give */
+    NUM_DEGREE = 10, /* of polynomials that callers give */
     NUM_COEFFICIENTS = 2 * NUM_DEGREE
 };
 

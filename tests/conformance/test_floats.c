@@ -563,7 +563,7 @@ static void ask_kinetic(floats_run *r, froe_motion *motion, double end) {
     more.vertex_count = 2, more.starts = starts, more.times = times, more.coords = coords, more.count = 1;
     MUST(r, froe_motion_add(motion, &more, NULL));
     MUST(r, froe_kinetic_update(w.kinetic, NULL));
-    MUST(r, froe_kinetic_replan(w.kinetic, 0, 2, times, coords, NULL, NULL));
+    MUST(r, froe_kinetic_replan(w.kinetic, 0, 2, times, coords, NULL, NULL, NULL));
     MUST(r, froe_kinetic_remove(w.kinetic, 1, NULL));
     MUST(r, froe_kinetic_advance(w.kinetic, late, note_event, &w, NULL));
     ask_present(r, w.kinetic);

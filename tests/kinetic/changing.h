@@ -17,7 +17,7 @@ typedef struct changing {
     const uint8_t *data;
     size_t size;
     int grid, questions;
-    bool chained, curved, augmented;
+    bool chained, curved, cubic, augmented;
     beside all;
     changing_counts counts;
 } changing;
@@ -33,7 +33,7 @@ static inline int changing_int(changing *c, int low, int high) {
 
 typedef struct changing_plan {
     size_t count;
-    double times[4], xy[8], controls[8];
+    double times[4], xy[8], controls[8], seconds[8];
 } changing_plan;
 
 /* From `begin` on, or a little before, until the end of the window. */
@@ -52,6 +52,8 @@ static inline void changing_draw(changing *c, double begin, changing_plan *plan)
         }
         if (isnan(plan->controls[2 * i]) || isnan(plan->controls[2 * i + 1]))
             plan->controls[2 * i] = plan->controls[2 * i + 1] = (double)NAN;
+        const bool cubic = c->cubic && !isnan(plan->controls[2 * i]) && changing_int(c, 0, 1);
+        for (size_t k = 0; k < 2; k++) plan->seconds[2 * i + k] = cubic ? changing_int(c, 0, c->grid) : (double)NAN;
     }
 }
 
@@ -60,6 +62,7 @@ static inline void changing_add(changing *c, int count, double begin, bool later
     size_t starts[2 * PRESENT_MOST + 1] = {0};
     static const size_t most = 4;
     double times[2 * PRESENT_MOST * 4], xy[4 * PRESENT_MOST * 4], controls[4 * PRESENT_MOST * 4];
+    double seconds[4 * PRESENT_MOST * 4];
     double births[PRESENT_MOST], deaths[PRESENT_MOST];
     uint32_t vertices[2 * PRESENT_MOST];
     for (uint32_t s = 0; s < (uint32_t)count; s++) {
@@ -69,8 +72,10 @@ static inline void changing_add(changing *c, int count, double begin, bool later
             const size_t at = starts[2 * s + e];
             for (size_t i = 0; i < plan.count && i < most; i++) {
                 times[at + i] = plan.times[i];
-                for (size_t k = 0; k < 2; k++)
+                for (size_t k = 0; k < 2; k++) {
                     xy[2 * (at + i) + k] = plan.xy[2 * i + k], controls[2 * (at + i) + k] = plan.controls[2 * i + k];
+                    seconds[2 * (at + i) + k] = plan.seconds[2 * i + k];
+                }
             }
             starts[2 * s + e + 1] = at + plan.count;
             vertices[2 * s + e] = 2 * s + e;
@@ -83,7 +88,7 @@ static inline void changing_add(changing *c, int count, double begin, bool later
     froe_moving b = froe_moving_defaults();
     b.vertex_count = 2 * (size_t)count, b.count = (size_t)count;
     b.starts = starts, b.times = times, b.coords = xy, b.controls = controls;
-    b.vertices = vertices, b.births = births, b.deaths = deaths;
+    b.second_controls = seconds, b.vertices = vertices, b.births = births, b.deaths = deaths;
     if (froe_motion_add(c->all.motion, &b, NULL)) abort();
 }
 
@@ -102,7 +107,8 @@ static inline bool changing_replan(changing *c) {
         c->counts.jumps++;
     }
     c->counts.replans++;
-    if (froe_kinetic_replan(c->all.kinetic, vertex, plan.count, plan.times, plan.xy, plan.controls, &why))
+    if (froe_kinetic_replan(c->all.kinetic, vertex, plan.count, plan.times, plan.xy, plan.controls,
+                            plan.seconds, &why))
         return BESIDE_FAIL(&c->all, "replan of vertex %u: %s", vertex, why.message);
     return true;
 }
@@ -178,7 +184,8 @@ static inline bool changing_run(changing *c, int steps) {
     window.tick = (double[]){0, 1, 0.5, 0x1p-8}[changing_int(c, 0, 3)];
     c->grid = changing_int(c, 2, 9);
     c->chained = changing_int(c, 0, 2) == 0;
-    c->curved = changing_int(c, 0, 2) == 0;
+    const int degree = changing_int(c, 1, 4);
+    c->curved = degree > 2, c->cubic = degree == 3;
     options.augmented = c->augmented = changing_int(c, 0, 1);
     options.seed = (uint64_t)changing_int(c, 0, 255);
     c->all.why[0] = 0;

@@ -14,6 +14,8 @@ typedef enum motion_kind {
     MOTION_SLIDING,   /* along one line: overlaps for good, ends that meet */
     MOTION_POINTS,    /* segments without length, some of the time or always */
     MOTION_LIVES,     /* lattice motions that begin and end at whole times */
+    MOTION_CUBIC,     /* as MOTION_QUADRATIC, on cubics, too */
+    MOTION_CUBICAL,   /* as MOTION_PARABOLIC, on cubics, too */
     MOTION_KINDS
 } motion_kind;
 
@@ -22,7 +24,8 @@ enum { MOTION_MOST = 24, MOTION_KNOTS = 4 };
 typedef struct motion_arrays {
     size_t starts[2 * MOTION_MOST + 1];
     double times[2 * MOTION_MOST * MOTION_KNOTS], xy[4 * MOTION_MOST * MOTION_KNOTS];
-    double controls[4 * MOTION_MOST * MOTION_KNOTS], births[MOTION_MOST], deaths[MOTION_MOST];
+    double controls[4 * MOTION_MOST * MOTION_KNOTS], seconds[4 * MOTION_MOST * MOTION_KNOTS];
+    double births[MOTION_MOST], deaths[MOTION_MOST];
 } motion_arrays;
 
 static inline double motion_number(fuzz_source *r, motion_kind kind) {
@@ -30,6 +33,7 @@ static inline double motion_number(fuzz_source *r, motion_kind kind) {
     case MOTION_RANDOM:
         return fuzz_unit(r);
     case MOTION_QUADRATIC:
+    case MOTION_CUBIC:
         return fuzz_int(r, -4096, 4096) * 0x1p-12;
     case MOTION_DECIMAL:
         return fuzz_int(r, 0, 2000) * 0.01;
@@ -68,7 +72,8 @@ static inline void motion_place(fuzz_source *r, motion_kind kind, const motion_a
 
 /** Fills the batch, which points into `a`. */
 static inline froe_moving motion_make(fuzz_source *r, motion_kind kind, size_t n, motion_arrays *a) {
-    bool parabolas = kind == MOTION_QUADRATIC || kind == MOTION_PARABOLIC || kind == MOTION_POINTS;
+    const bool cubics = kind == MOTION_CUBIC || kind == MOTION_CUBICAL;
+    bool parabolas = kind == MOTION_QUADRATIC || kind == MOTION_PARABOLIC || kind == MOTION_POINTS || cubics;
     size_t at = 0;
     for (size_t v = 0; v < 2 * n; v++) {
         a->starts[v] = at;
@@ -76,6 +81,8 @@ static inline froe_moving motion_make(fuzz_source *r, motion_kind kind, size_t n
             motion_place(r, kind, a, at, a->xy + 2 * at);
             bool straight = !parabolas || fuzz_int(r, 0, 1);
             for (size_t k = 0; k < 2; k++) a->controls[2 * at + k] = straight ? NAN : motion_number(r, kind);
+            const bool cubic = cubics && !straight && fuzz_int(r, 0, 2);
+            for (size_t k = 0; k < 2; k++) a->seconds[2 * at + k] = cubic ? motion_number(r, kind) : NAN;
         }
     }
     a->starts[2 * n] = at;
@@ -90,6 +97,7 @@ static inline froe_moving motion_make(fuzz_source *r, motion_kind kind, size_t n
     b.times = a->times;
     b.coords = a->xy;
     b.controls = a->controls;
+    b.second_controls = a->seconds;
     b.births = a->births;
     b.deaths = a->deaths;
     return b;

@@ -13,6 +13,8 @@ typedef struct moving_kind {
     int count, grid, length, speed, spin;
     int legs;    /**< pieces of each plan */
     bool curved; /**< on parabolas */
+    bool cubic;  /**< with curved: on cubics */
+    bool mixed;  /**< with cubic: on cubics, parabolas and straight lines, piece by piece */
     bool chains; /**< each segment begins where the last one ends */
     bool rigid;  /**< all with the speed of the first */
     bool twice;  /**< each two segments are the same */
@@ -30,9 +32,19 @@ enum { MOVING_TIME = 64, MOVING_MOST = 256, MOVING_LEGS = 8 };
 typedef struct moving_data {
     size_t starts[2 * MOVING_MOST + 1];
     double times[2 * MOVING_MOST * (MOVING_LEGS + 1)], xy[4 * MOVING_MOST * (MOVING_LEGS + 1)];
-    double controls[4 * MOVING_MOST * (MOVING_LEGS + 1)], births[MOVING_MOST], deaths[MOVING_MOST];
+    double controls[4 * MOVING_MOST * (MOVING_LEGS + 1)], seconds[4 * MOVING_MOST * (MOVING_LEGS + 1)];
+    double births[MOVING_MOST], deaths[MOVING_MOST];
     uint32_t vertices[2 * MOVING_MOST];
 } moving_data;
+
+/* Makes a piece that is a parabola so far a cubic, or something else; `p`: where it begins. */
+static inline void moving_bend(const moving_kind *kind, fuzz_source *r, moving_data *d, size_t i, const double p[2]) {
+    const int around = kind->grid / 4 + 1, degree = kind->mixed ? fuzz_int(r, 1, 3) : kind->cubic ? 3 : 2;
+    for (size_t c = 0; c < 2; c++) {
+        d->seconds[2 * i + c] = degree > 2 ? p[c] + fuzz_int(r, -around, around) : (double)NAN;
+        if (degree < 2) d->controls[2 * i + c] = (double)NAN;
+    }
+}
 
 static inline void moving_plan(const moving_kind *kind, fuzz_source *r, moving_data *d, size_t v, const int at[2],
                                const int speed[2]) {
@@ -41,6 +53,7 @@ static inline void moving_plan(const moving_kind *kind, fuzz_source *r, moving_d
     size_t first = d->starts[v];
     for (int j = 0; j <= legs; j++) {
         size_t i = first + (size_t)j;
+        const double from[2] = {p[0], p[1]};
         d->times[i] = (double)MOVING_TIME * j / legs;
         for (int c = 0; c < 2; c++) {
             d->xy[2 * i + (size_t)c] = kind->back && j == 2 ? at[c] : p[c];
@@ -49,9 +62,13 @@ static inline void moving_plan(const moving_kind *kind, fuzz_source *r, moving_d
             p[c] += w[c] * MOVING_TIME / legs;
             if (!kind->rigid) w[c] = kind->lanes && c ? 0 : -w[c] + fuzz_int(r, -1, 1);
         }
+        moving_bend(kind, r, d, i, from);
     }
-    if (kind->back && kind->curved)
-        for (size_t c = 0; c < 2; c++) d->controls[2 * first + 2 + c] = d->controls[2 * first + c];
+    for (size_t c = 0; c < 2 && kind->back && kind->curved; c++) {
+        const size_t there = 2 * first + c, back = there + 2;
+        d->controls[back] = kind->cubic ? d->seconds[there] : d->controls[there];
+        if (kind->cubic) d->seconds[back] = d->controls[there];
+    }
     d->starts[v + 1] = first + (size_t)legs + 1;
 }
 
@@ -66,6 +83,7 @@ static inline void moving_turn(const moving_kind *kind, moving_data *d, size_t v
         for (size_t c = 0; c < 2; c++) {
             d->xy[2 * i + c] = centre[c] + arm[c];
             d->controls[2 * i + c] = centre[c] + arm[c] + next[c];
+            d->seconds[2 * i + c] = (double)NAN;
         }
         arm[0] = next[0], arm[1] = next[1];
     }
@@ -100,6 +118,7 @@ static inline froe_motion *moving_new(const moving_kind *kind, uint64_t seed, co
                     d->times[to] = d->times[from];
                     memcpy(d->xy + 2 * to, d->xy + 2 * from, 2 * sizeof *d->xy);
                     memcpy(d->controls + 2 * to, d->controls + 2 * from, 2 * sizeof *d->xy);
+                    memcpy(d->seconds + 2 * to, d->seconds + 2 * from, 2 * sizeof *d->xy);
                 }
                 d->starts[2 * i + e + 1] = d->starts[2 * i + e] + legs;
             } else if (kind->turns) {
@@ -121,6 +140,7 @@ static inline froe_motion *moving_new(const moving_kind *kind, uint64_t seed, co
     b.vertex_count = 2 * (size_t)kind->count;
     b.count = (size_t)kind->count;
     b.starts = d->starts, b.times = d->times, b.coords = d->xy, b.controls = d->controls;
+    b.second_controls = d->seconds;
     b.vertices = d->vertices, b.births = d->births, b.deaths = d->deaths;
     froe_motion *m = batch_motion(&w, &b, alloc);
     free(d);
@@ -161,6 +181,48 @@ static const moving_kind moving_kinds[] = {
     {.name = "spinning", .count = 20, .grid = 2000, .length = 2500, .speed = 2, .spin = 80, .curved = true, .legs = 2},
     {.name = "lattice spinning", .count = 20, .grid = 12, .length = 8, .speed = 0, .spin = 2, .legs = 4},
     {.name = "mortal lattice", .count = 24, .grid = 16, .length = 6, .speed = 2, .spin = 1, .mortal = true},
+    {.name = "cubics", .count = 16, .grid = 8000, .length = 3000, .speed = 40, .spin = 30, .curved = true, .cubic = true},
+    {.name = "lattice cubics",
+     .count = 20,
+     .grid = 12,
+     .length = 5,
+     .speed = 1,
+     .spin = 1,
+     .legs = 2,
+     .curved = true,
+     .cubic = true},
+    {.name = "all degrees",
+     .count = 16,
+     .grid = 2000,
+     .length = 900,
+     .speed = 20,
+     .spin = 20,
+     .legs = 3,
+     .curved = true,
+     .cubic = true,
+     .mixed = true},
+    {.name = "mortal lattice of all degrees",
+     .count = 24,
+     .grid = 16,
+     .length = 6,
+     .speed = 2,
+     .spin = 1,
+     .legs = 4,
+     .curved = true,
+     .cubic = true,
+     .mixed = true,
+     .mortal = true},
+    {.name = "cubics back",
+     .count = 16,
+     .grid = 2000,
+     .length = 1500,
+     .speed = 40,
+     .spin = 30,
+     .legs = 2,
+     .curved = true,
+     .cubic = true,
+     .back = true,
+     .chains = true},
 };
 enum { MOVING_KINDS = sizeof moving_kinds / sizeof *moving_kinds };
 #endif

@@ -43,7 +43,7 @@ static void test_no_crossing_of_an_old_plan_is_remembered(void **state) {
         froe_kinetic *k = partition_of(m, 288, augmented);
         assert_int_equal(froe_kinetic_advance(k, 2, NULL, NULL, NULL), FROE_OK);
         const double now[] = {froe_kinetic_time(k), 16}, jump[] = {5, 0, 7, -4};
-        assert_int_equal(froe_kinetic_replan(k, 3, 2, now, jump, NULL, NULL), FROE_OK);
+        assert_int_equal(froe_kinetic_replan(k, 3, 2, now, jump, NULL, NULL, NULL), FROE_OK);
         assert_int_equal(froe_kinetic_audit(k, NULL), FROE_OK);
         froe_kinetic_free(k);
         froe_motion_free(m);
@@ -81,9 +81,9 @@ static void test_segments_that_are_gone_need_no_plan(void **state) {
     froe_motion *m = motion_of_four(coords, times, starts, NULL);
     froe_kinetic *k = partition_of(m, 1, false);
     const double when[] = {froe_kinetic_time(k), 8}, where[] = {1, 1, 2, 2};
-    assert_int_equal(froe_kinetic_replan(k, 0, 2, when, where, NULL, NULL), FROE_E_INPUT);
+    assert_int_equal(froe_kinetic_replan(k, 0, 2, when, where, NULL, NULL, NULL), FROE_E_INPUT);
     assert_int_equal(froe_kinetic_remove(k, 0, NULL), FROE_OK);
-    assert_int_equal(froe_kinetic_replan(k, 0, 2, when, where, NULL, NULL), FROE_OK);
+    assert_int_equal(froe_kinetic_replan(k, 0, 2, when, where, NULL, NULL, NULL), FROE_OK);
     assert_int_equal(froe_kinetic_advance(k, 16, NULL, NULL, NULL), FROE_OK);
     froe_kinetic_free(k);
     froe_motion_free(m);

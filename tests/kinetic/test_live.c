@@ -153,6 +153,16 @@ static void test_reversal(void **state) {
          .legs = 2,
          .curved = true,
          .back = true},
+        {.name = "cubic back",
+         .count = 16,
+         .grid = 4096,
+         .length = 2000,
+         .speed = 64,
+         .spin = 32,
+         .legs = 2,
+         .curved = true,
+         .cubic = true,
+         .back = true},
         {.name = "lattice back", .count = 24, .grid = 16, .length = 6, .speed = 2, .spin = 1, .legs = 2, .back = true},
     };
     for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
@@ -187,11 +197,11 @@ static void test_changes(void **state) {
         if (!froe_motion_position(m, vertex, now, at)) continue;
         for (int c = 0; c < 2; c++) xy[c] = at[c], xy[2 + c] = fuzz_int(&r, 0, 3000);
         if (i % 3 == 0) {
-            assert_int_equal(froe_kinetic_replan(k, vertex, 2, times, xy, NULL, NULL), FROE_OK);
+            assert_int_equal(froe_kinetic_replan(k, vertex, 2, times, xy, NULL, NULL, NULL), FROE_OK);
         } else if (i % 3 == 1) {
             times[1] = now; /* too short */
             froe_diagnostic why = {0};
-            froe_status status = froe_kinetic_replan(k, vertex, 2, times, xy, NULL, &why);
+            froe_status status = froe_kinetic_replan(k, vertex, 2, times, xy, NULL, NULL, &why);
             assert_true(status == FROE_E_INPUT || status == FROE_OK);
         } else {
             uint32_t gone = (uint32_t)fuzz_int(&r, 0, moving_kinds[9].count - 1);
@@ -325,7 +335,7 @@ static void test_calls(void **state) {
     assert_int_equal(froe_kinetic_advance(k, MOVING_TIME + 1, NULL, NULL, &why), FROE_E_ARG);
     assert_int_equal(froe_kinetic_advance(k, (double)NAN, NULL, NULL, &why), FROE_E_ARG);
     assert_int_equal(froe_kinetic_remove(k, 1000, &why), FROE_E_ARG);
-    assert_int_equal(froe_kinetic_replan(k, 1000, 0, NULL, NULL, NULL, &why), FROE_E_ARG);
+    assert_int_equal(froe_kinetic_replan(k, 1000, 0, NULL, NULL, NULL, NULL, &why), FROE_E_ARG);
     froe_kinetic *none = NULL;
     assert_int_equal(froe_kinetic_new(NULL, &(froe_kinetic_options){0}, NULL, &none, &why), FROE_E_ARG);
     assert_int_equal(froe_kinetic_new(m, NULL, NULL, &none, &why), FROE_E_ARG);

@@ -89,17 +89,12 @@ static void expected(mpq_t out, const motion_piece *piece, const mpq_t time, int
         mpq_add(w, a, b);
         mpq_div(a, a, w);
         mpq_div(b, b, w);
-        if (piece->degree == 1) {
-            mpq_mul(p, p, a);
-            mpq_mul(q, q, b);
-            mpq_add(out, p, q);
-        } else {
-            mpq_set_d(c, piece->from->control[k]);
-            mpq_mul(p, p, a), mpq_mul(p, p, a);
-            mpq_mul(q, q, b), mpq_mul(q, q, b);
-            mpq_mul(c, c, a), mpq_mul(c, c, b), mpq_add(c, c, c);
-            mpq_add(out, p, q);
-            mpq_add(out, out, c);
+        for (int n = 0; n < piece->degree; n++) mpq_mul(p, p, a), mpq_mul(q, q, b);
+        mpq_add(out, p, q);
+        for (int i = 1; i < piece->degree; i++) { /* twice one control point, or three times two */
+            mpq_set_d(c, i == 1 ? piece->from->control[k] : piece->second[k]);
+            for (int n = 0; n < piece->degree; n++) mpq_mul(c, c, n < i ? b : a);
+            for (int n = 0; n < piece->degree; n++) mpq_add(out, out, c);
         }
     }
     mpq_clears(p, q, c, a, b, w, NULL);
@@ -128,8 +123,8 @@ static int by_value(const void *a, const void *b) {
 }
 
 /* Adds a vertex whose plan covers the window; false if the random times were too few. */
-static bool add_random(fuzz_source *r, fuzz_class kind, froe_motion *m, bool quadratic) {
-    double times[KNOTS + 2], at[3 * (KNOTS + 2)], controls[3 * (KNOTS + 2)];
+static bool add_random(fuzz_source *r, fuzz_class kind, froe_motion *m, int degree) {
+    double times[KNOTS + 2], at[3 * (KNOTS + 2)], controls[3 * (KNOTS + 2)], seconds[3 * (KNOTS + 2)];
     const size_t dim = (size_t)m->dim;
     size_t starts[2] = {0, 0};
     for (int i = 0; i < KNOTS; i++) {
@@ -143,15 +138,19 @@ static bool add_random(fuzz_source *r, fuzz_class kind, froe_motion *m, bool qua
         if (!starts[1] || times[i] > times[starts[1] - 1]) times[starts[1]++] = times[i];
     fuzz_points(r, kind, m->dim, at, starts[1]);
     fuzz_points(r, kind, m->dim, controls, starts[1]);
-    for (size_t i = 0; i < starts[1]; i++)
-        if (!quadratic || fuzz_int(r, 0, 2) == 0)
-            for (size_t k = 0; k < dim; k++) controls[dim * i + k] = NAN;
+    fuzz_points(r, kind, m->dim, seconds, starts[1]);
+    for (size_t i = 0; i < starts[1]; i++) {
+        const bool straight = degree < 2 || fuzz_int(r, 0, 2) == 0, cubic = !straight && fuzz_int(r, 0, 2);
+        for (size_t k = 0; k < dim && straight; k++) controls[dim * i + k] = NAN;
+        for (size_t k = 0; k < dim && !cubic; k++) seconds[dim * i + k] = NAN;
+    }
     froe_moving b = froe_moving_defaults();
     b.vertex_count = 1;
     b.starts = starts;
     b.times = times;
     b.coords = at;
-    b.controls = quadratic ? controls : NULL;
+    b.controls = degree > 1 ? controls : NULL;
+    b.second_controls = degree > 2 ? seconds : NULL;
     return froe_motion_add(m, &b, NULL) == FROE_OK;
 }
 
@@ -219,7 +218,7 @@ static void check_curve(num_arena *arena, const froe_motion *m, const motion_pie
     const num_ball *near[] = {balls.x, balls.y, balls.z};
     for (int k = 0; k < m->dim; k++) {
         mpq_set_ui(x, 0, 1);
-        for (int i = 2; i >= 0; i--) {
+        for (int i = MOTION_DEGREE; i >= 0; i--) {
             set_dyadic(c, exact[k][i]);
             num_ball ball = near[k][i];
             assert_within(ball.x, ball.e, c);
@@ -259,10 +258,10 @@ static const struct {
 } windows[] = {{0, 30, 0},           {300000, 330000, 0x1p-17}, {1.7e9, 1.7e9 + 1, 0},
                {-0.3, 0.1, 0x1p-20}, {0, 0x1p-1070, 0},         {-1e300, 1e300, 0}};
 
-static void check_motion(fuzz_source *r, num_arena *arena, unsigned dim, fuzz_class kind, size_t window, bool quadratic,
+static void check_motion(fuzz_source *r, num_arena *arena, unsigned dim, fuzz_class kind, size_t window, int degree,
                          tally *seen) {
     froe_motion *m = motion_in(dim, windows[window].begin, windows[window].end, windows[window].tick);
-    for (int i = 0; i < MOST_VERTICES; i++) assert_true(add_random(r, kind, m, quadratic));
+    for (int i = 0; i < MOST_VERTICES; i++) assert_true(add_random(r, kind, m, degree));
     for (uint32_t v = 0; v < MOST_VERTICES; v++) {
         for (int i = 0; i < 4; i++) {
             int64_t tick = (int64_t)(fuzz_bits(r) % (uint64_t)(m->last_tick + 1));
@@ -282,8 +281,8 @@ static void check_places(unsigned dim) {
     for (int kind = 0; kind < FUZZ_CLASSES; kind++) {
         tally seen = {0, 0, 0};
         for (size_t window = 0; window < sizeof windows / sizeof *windows; window++)
-            for (int quadratic = 0; quadratic < 2; quadratic++)
-                check_motion(&r, &arena, dim, (fuzz_class)kind, window, quadratic, &seen);
+            for (int degree = 1; degree <= MOTION_DEGREE; degree++)
+                check_motion(&r, &arena, dim, (fuzz_class)kind, window, degree, &seen);
         if (kind == FUZZ_LATTICE) assert_true(seen.whole > 50 && seen.near > 100);
         if (kind == FUZZ_RANDOM) assert_true(seen.whole > 50 && seen.near > 100);
         if (kind == FUZZ_WIDE) assert_true(seen.wide > 100);
@@ -523,10 +522,10 @@ static void lives_are_clipped_to_the_window(void **state) {
     assert_int_equal(froe_motion_object(m, 3).vertices[0], FROE_NONE);
     const double life[] = {2, 8}, short_times[] = {2, 7}, long_times[] = {1, 9}, at[] = {0, 0, 9, 9};
     froe_diagnostic diag;
-    assert_int_equal(motion_replan(m, 1, 2, short_times, at, NULL, life, &diag), FROE_E_INPUT);
+    assert_int_equal(motion_replan(m, 1, 2, short_times, at, NULL, NULL, life, &diag), FROE_E_INPUT);
     assert_string_equal(diag.message, "The plan of vertex 1 ends at 7, before 8.");
     assert_int_equal(froe_motion_knot(m, 1, 1).time, 8);
-    assert_int_equal(motion_replan(m, 1, 2, long_times, at, NULL, life, &diag), FROE_OK);
+    assert_int_equal(motion_replan(m, 1, 2, long_times, at, NULL, NULL, life, &diag), FROE_OK);
     assert_true(froe_motion_knot(m, 1, 1).time == 9);
     froe_motion_free(m);
 }
@@ -555,7 +554,7 @@ static froe_status make_one(void *user, const froe_allocator *alloc) {
     if (!status) status = froe_motion_add(m, &b, NULL);
     if (!status) assert_string_equal(froe_motion_group(m, froe_motion_object(m, 0).group).name, "car");
     const double life[] = {0, 10};
-    if (!status) status = motion_replan(m, 0, 2, times, xy, NULL, life, NULL);
+    if (!status) status = motion_replan(m, 0, 2, times, xy, NULL, NULL, life, NULL);
     assert_int_equal(froe_motion_object_count(m) + m->plans.count, m->plans.count ? 3 : 0);
     froe_motion_free(m);
     return status;

@@ -430,7 +430,7 @@ static void ghosts_return_when_what_they_meet_goes(void **state) {
         if (way == 0) assert_int_equal(froe_kinetic_remove(k, 0, NULL), FROE_OK);
         for (uint32_t v = 0; way == 1 && v < 3; v++) {
             const double time = 0, to[3] = {v == 1 ? 9 : 0, v == 2 ? 9 : 0, 7};
-            assert_int_equal(froe_kinetic_replan(k, v, 1, &time, to, NULL, NULL), FROE_OK);
+            assert_int_equal(froe_kinetic_replan(k, v, 1, &time, to, NULL, NULL, NULL), FROE_OK);
         }
         assert_false(now_is_ghost(&k->now, 1));
         assert_int_equal(below(k, 5), 1);

@@ -459,7 +459,7 @@ static void send_elsewhere(froe_kinetic *k, froe_motion *m, fuzz_source *r, int 
     assert_true(froe_motion_position(m, vertex, now, coords));
     for (int i = fuzz_int(r, 0, 1) ? 0 : 3; i < 6; i++) coords[i] = i % 3 == 2 ? coords[2] : fuzz_int(r, 0, grid);
     froe_diagnostic why = {0};
-    if (froe_kinetic_replan(k, vertex, 2, times, coords, NULL, &why)) fail_msg("%s", why.message);
+    if (froe_kinetic_replan(k, vertex, 2, times, coords, NULL, NULL, &why)) fail_msg("%s", why.message);
 }
 
 /* Of solids faces only go, as they would cross each other on other ways. */
@@ -652,7 +652,7 @@ static void another_way_leads_past_a_contact(void **state) {
     froe_kinetic *k = start(m, 1);
     (void)state;
     assert_int_equal(froe_kinetic_advance(k, 1, NULL, NULL, NULL), FROE_OK);
-    assert_int_equal(froe_kinetic_replan(k, 3, 2, times, coords, NULL, NULL), FROE_OK);
+    assert_int_equal(froe_kinetic_replan(k, 3, 2, times, coords, NULL, NULL, NULL), FROE_OK);
     assert_int_equal(froe_kinetic_advance(k, 5, NULL, NULL, NULL), FROE_OK); /* the other corners come later */
     assert_int_equal(froe_kinetic_audit(k, NULL), FROE_OK);
     assert_int_equal(froe_kinetic_advance(k, 8, NULL, NULL, NULL), FROE_E_INPUT);

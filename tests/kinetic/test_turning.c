@@ -284,7 +284,7 @@ static void bad_bodies_are_refused_by_name(void **state) {
     assert_int_equal(froe_motion_add(m, &two, &why), FROE_E_INPUT);
     assert_string_equal(why.message, "segment 0: Its ends do not belong to the same body.");
     froe_kinetic *k = start(m, 1);
-    assert_int_equal(froe_kinetic_replan(k, 3, 1, zeros, xy, NULL, &why), FROE_E_UNSUPPORTED);
+    assert_int_equal(froe_kinetic_replan(k, 3, 1, zeros, xy, NULL, NULL, &why), FROE_E_UNSUPPORTED);
     assert_string_equal(why.message, "Vertex 3 flies with body 0, and takes no plan of its own.");
     assert_int_equal(froe_kinetic_audit(k, NULL), FROE_OK);
     froe_kinetic_free(k);

@@ -177,55 +177,52 @@ typedef struct curve {
     poly x[2], w;
 } curve;
 
-static void add_term(mpq_t c[3], const mpq_t factor, const mpq_t u0, int u1, const mpq_t v0, int v1) {
-    /* factor (u0 + u1 t) (v0 + v1 t) */
-    mpq_t term, one;
-    mpq_inits(term, one, NULL);
-    mpq_mul(term, u0, v0);
-    mpq_mul(term, term, factor);
-    mpq_add(c[0], c[0], term);
-    for (int side = 0; side < 2; side++) {
-        mpq_set_si(one, side ? v1 : u1, 1);
-        mpq_mul(term, one, side ? u0 : v0);
-        mpq_mul(term, term, factor);
-        mpq_add(c[1], c[1], term);
+/* c *= u0 + u1 t; what there is beyond the fourth term is lost. */
+static void times_line(mpq_t c[4], const mpq_t u0, int u1) {
+    mpq_t term, slope;
+    mpq_inits(term, slope, NULL);
+    mpq_set_si(slope, u1, 1);
+    for (int i = 3; i >= 0; i--) {
+        mpq_mul(c[i], c[i], u0);
+        if (!i) break;
+        mpq_mul(term, c[i - 1], slope);
+        mpq_add(c[i], c[i], term);
     }
-    mpq_set_si(one, u1 * v1, 1);
-    mpq_mul(term, one, factor);
-    mpq_add(c[2], c[2], term);
-    mpq_clears(term, one, NULL);
+    mpq_clears(term, slope, NULL);
 }
 
-static void set_coordinate(mpq_t c[3], const froe_moving_knot *p, const froe_moving_knot *q, int k) {
-    mpq_t a, b, span, factor, one;
-    mpq_inits(a, b, span, factor, one, NULL);
-    for (int i = 0; i < 3; i++) mpq_set_ui(c[i], 0, 1);
-    mpq_set_d(factor, p->at[k]);
-    if (!q) {
-        mpq_set(c[0], factor);
-    } else {
-        mpq_set_d(a, q->time); /* t1 - t */
-        mpq_set_d(b, p->time); /* t - t0 = -b + t */
-        mpq_sub(span, a, b);
-        mpq_neg(b, b);
-        mpq_set_ui(one, 1, 1);
-        bool straight = isnan(p->control[0]);
-        mpq_div(factor, factor, span);
-        if (!straight) mpq_div(factor, factor, span);
-        add_term(c, factor, a, -1, straight ? one : a, straight ? 0 : -1);
-        mpq_set_d(factor, q->at[k]);
-        mpq_div(factor, factor, span);
-        if (!straight) mpq_div(factor, factor, span);
-        add_term(c, factor, b, 1, straight ? one : b, straight ? 0 : 1);
-        if (!straight) {
-            mpq_set_d(factor, p->control[k]);
-            mpq_add(factor, factor, factor);
-            mpq_div(factor, factor, span);
-            mpq_div(factor, factor, span);
-            add_term(c, factor, a, -1, b, 1);
-        }
+/* out += factor (t1 - t)^(degree - i) (t - t0)^i / (t1 - t0)^degree */
+static void add_weighted(mpq_t out[4], const mpq_t factor, double t0, double t1, int degree, int i) {
+    mpq_t c[4], a, b, span;
+    mpq_inits(c[0], c[1], c[2], c[3], a, b, span, NULL);
+    mpq_set(c[0], factor);
+    mpq_set_d(a, t1);
+    mpq_set_d(b, t0);
+    mpq_sub(span, a, b);
+    mpq_neg(b, b);
+    for (int k = 0; k < degree; k++) {
+        times_line(c, k < i ? b : a, k < i ? 1 : -1);
+        for (int n = 0; n < 4; n++) mpq_div(c[n], c[n], span);
     }
-    mpq_clears(a, b, span, factor, one, NULL);
+    for (int n = 0; n < 4; n++) mpq_add(out[n], out[n], c[n]);
+    mpq_clears(c[0], c[1], c[2], c[3], a, b, span, NULL);
+}
+
+/* Bernstein's form with as many control points as the piece has. */
+static void set_coordinate(mpq_t c[4], const froe_moving_knot *p, const froe_moving_knot *q, int k) {
+    static const unsigned long choose[4][4] = {{1}, {1, 1}, {1, 2, 1}, {1, 3, 3, 1}};
+    const int degree = !q ? 0 : isnan(p->control[0]) ? 1 : isnan(p->second[0]) ? 2 : 3;
+    const double points[4] = {p->at[k], degree > 1 ? p->control[k] : 0, degree > 2 ? p->second[k] : 0};
+    mpq_t factor, times;
+    mpq_inits(factor, times, NULL);
+    for (int i = 0; i < 4; i++) mpq_set_ui(c[i], 0, 1);
+    for (int i = 0; i <= degree; i++) {
+        mpq_set_d(factor, degree && i == degree ? q->at[k] : points[i]);
+        mpq_set_ui(times, choose[degree][i], 1);
+        mpq_mul(factor, factor, times);
+        add_weighted(c, factor, p->time, q ? q->time : p->time, degree, i);
+    }
+    mpq_clears(factor, times, NULL);
 }
 
 /* Number of the piece that is in force just after the time t, or at it at the end of the plan. */
@@ -246,9 +243,11 @@ static bool hulls_apart(const froe_motion *m, const uint32_t v[4], double t) {
         for (size_t j = i; j < i + 2 && j < froe_motion_knot_count(m, v[n]); j++) {
             froe_moving_knot p = froe_motion_knot(m, v[n], j);
             for (int k = 0; k < 2; k++) {
-                double c = j > i || isnan(p.control[k]) ? p.at[k] : p.control[k];
-                lo[n / 2][k] = fmin(lo[n / 2][k], fmin(p.at[k], c));
-                hi[n / 2][k] = fmax(hi[n / 2][k], fmax(p.at[k], c));
+                const double all[3] = {p.at[k], j > i ? NAN : p.control[k], j > i ? NAN : p.second[k]};
+                for (int c = 0; c < 3; c++) { /* NaN: there is none */
+                    lo[n / 2][k] = fmin(lo[n / 2][k], all[c]);
+                    hi[n / 2][k] = fmax(hi[n / 2][k], all[c]);
+                }
             }
         }
     }
@@ -321,8 +320,8 @@ static void curve_in_body(curve *out, const froe_motion *m, uint32_t vertex, dou
     size_t i = 0;
     while (i + 2 < count && froe_motion_body_knot(m, body, i + 1).time <= t) i++;
     const froe_body_knot a = froe_motion_body_knot(m, body, i), b = froe_motion_body_knot(m, body, i + (count > 1));
-    const froe_moving_knot p = {a.time, {a.at[0], a.at[1]}, {a.control[0], a.control[1]}};
-    const froe_moving_knot q = {b.time, {b.at[0], b.at[1]}, {0}}, in = froe_motion_knot(m, vertex, 0);
+    const froe_moving_knot p = {a.time, {a.at[0], a.at[1]}, {a.control[0], a.control[1]}, {NAN}};
+    const froe_moving_knot q = {b.time, {b.at[0], b.at[1]}, {NAN}, {NAN}}, in = froe_motion_knot(m, vertex, 0);
     mpq_t z[5], w[5], cosine[5], sine[5], square[5], place[2][5], centre[2][5], x[2][5];
     mpq_t *const all[] = {z, w, cosine, sine, square, place[0], place[1], centre[0], centre[1], x[0], x[1]};
     for (size_t n = 0; n < sizeof all / sizeof *all; n++) numbers(all[n], 5, true);

@@ -112,26 +112,28 @@ static void point_clear(germ_point *p) {
 
 /* --------------------------------------------------------------- where it all is -- */
 
-/* A vertex as polynomials in the time since the instant: x[0], x[1], x[2] and y[0], .. */
+enum { TERMS = 4 };
+
+/* A vertex as polynomials in the time since the instant: x[0] to x[3] and y[0], .. */
 typedef struct flight {
-    mpq_t c[2][3];
+    mpq_t c[2][TERMS];
 } flight;
 
 static void flight_init(flight *f) {
     for (int k = 0; k < 2; k++)
-        for (int i = 0; i < 3; i++) mpq_init(f->c[k][i]);
+        for (int i = 0; i < TERMS; i++) mpq_init(f->c[k][i]);
 }
 static void flight_clear(flight *f) {
     for (int k = 0; k < 2; k++)
-        for (int i = 0; i < 3; i++) mpq_clear(f->c[k][i]);
+        for (int i = 0; i < TERMS; i++) mpq_clear(f->c[k][i]);
 }
 
-/* The point of two on a line of the parameter a + b d: (1 - a) p + a q, and what comes with d. Each has three terms; p
- * and q have one power of d less than out. */
+/* The point of two on a line of the parameter a + b d: (1 - a) p + a q, and what comes with d. p and q have one power
+ * of d less than out. */
 static void blend(mpq_t *out, mpq_t *p, mpq_t *q, const mpq_t a, const mpq_t b) {
     mpq_t step, term;
     mpq_init(step), mpq_init(term);
-    for (int i = 2; i >= 0; i--) {
+    for (int i = TERMS - 1; i >= 0; i--) {
         mpq_sub(step, q[i], p[i]);
         mpq_mul(term, step, a);
         mpq_add(out[i], p[i], term);
@@ -155,29 +157,32 @@ static void share_of(mpq_t share, mpq_t speed, double from, double to, double ti
 
 /* De Casteljau's algorithm, with the share of the way as a polynomial of degree 1. `to` NULL: it stands still. */
 static void fly_between(flight *f, const froe_moving_knot *from, const froe_moving_knot *to, double time) {
-    for (int k = 0; k < 2; k++) {
-        mpq_set_d(f->c[k][0], from->at[k]);
-        mpq_set_ui(f->c[k][1], 0, 1), mpq_set_ui(f->c[k][2], 0, 1);
-    }
-    if (!to) return;
-    mpq_t share, speed, p[5][3];
+    const int degree = !to ? 0 : isnan(from->control[0]) ? 1 : isnan(from->second[0]) ? 2 : 3;
+    mpq_t share, speed, p[TERMS][TERMS], next[TERMS];
     mpq_init(share), mpq_init(speed);
-    for (int n = 0; n < 5; n++)
-        for (int i = 0; i < 3; i++) mpq_init(p[n][i]);
-    share_of(share, speed, from->time, to->time, time);
-    for (int k = 0; k < 2; k++) {
-        mpq_set_d(p[0][0], from->at[k]), mpq_set_d(p[2][0], to->at[k]);
-        if (isnan(from->control[0])) {
-            blend(f->c[k], p[0], p[2], share, speed);
-            continue;
-        }
-        mpq_set_d(p[1][0], from->control[k]);
-        blend(p[3], p[0], p[1], share, speed);
-        blend(p[4], p[1], p[2], share, speed);
-        blend(f->c[k], p[3], p[4], share, speed);
+    for (int n = 0; n < TERMS; n++) {
+        mpq_init(next[n]);
+        for (int i = 0; i < TERMS; i++) mpq_init(p[n][i]);
     }
-    for (int n = 0; n < 5; n++)
-        for (int i = 0; i < 3; i++) mpq_clear(p[n][i]);
+    if (to) share_of(share, speed, from->time, to->time, time);
+    for (int k = 0; k < 2; k++) {
+        for (int n = 0; n < TERMS; n++)
+            for (int i = 0; i < TERMS; i++) mpq_set_ui(p[n][i], 0, 1);
+        mpq_set_d(p[0][0], from->at[k]);
+        if (degree > 1) mpq_set_d(p[1][0], from->control[k]);
+        if (degree > 2) mpq_set_d(p[2][0], from->second[k]);
+        if (degree) mpq_set_d(p[degree][0], to->at[k]);
+        for (int n = degree; n > 0; n--)
+            for (int j = 0; j < n; j++) {
+                blend(next, p[j], p[j + 1], share, speed);
+                for (int i = 0; i < TERMS; i++) mpq_set(p[j][i], next[i]);
+            }
+        for (int i = 0; i < TERMS; i++) mpq_set(f->c[k][i], p[0][i]);
+    }
+    for (int n = 0; n < TERMS; n++) {
+        mpq_clear(next[n]);
+        for (int i = 0; i < TERMS; i++) mpq_clear(p[n][i]);
+    }
     mpq_clear(share), mpq_clear(speed);
 }
 
@@ -239,8 +244,8 @@ static void fly_in_body(flight *f, const froe_motion *m, uint32_t vertex, double
     while (knot + 2 < count && froe_motion_body_knot(m, body, knot + 1).time <= time) knot++;
     const froe_body_knot from = froe_motion_body_knot(m, body, knot);
     const froe_body_knot to = count > 1 ? froe_motion_body_knot(m, body, knot + 1) : from;
-    const froe_moving_knot centre[2] = {{from.time, {from.at[0], from.at[1]}, {from.control[0], from.control[1]}},
-                                        {to.time, {to.at[0], to.at[1]}, {0}}};
+    const froe_moving_knot centre[2] = {{from.time, {from.at[0], from.at[1]}, {from.control[0], from.control[1]}, {NAN}},
+                                        {to.time, {to.at[0], to.at[1]}, {NAN}, {NAN}}};
     const froe_moving_knot place = froe_motion_knot(m, vertex, 0);
     mpq_t turn[2][3], at[2][3];
     for (int k = 0; k < 2; k++)
@@ -270,9 +275,9 @@ static void fly(flight *f, const froe_motion *m, uint32_t vertex, double time) {
 }
 
 /* The polynomial times the scale, which makes it whole. */
-static void take_whole(germ *out, mpq_t c[3], const mpz_t scale) {
-    germ_zero(out, 2, 0);
-    for (int i = 0; i < 3; i++) {
+static void take_whole(germ *out, mpq_t c[TERMS], const mpz_t scale) {
+    germ_zero(out, TERMS - 1, 0);
+    for (int i = 0; i < TERMS; i++) {
         mpz_divexact(out->c[0][i], scale, mpq_denref(c[i]));
         mpz_mul(out->c[0][i], out->c[0][i], mpq_numref(c[i]));
     }
@@ -287,7 +292,7 @@ static void take_end(germ_point *out, flight *f, const mpz_t scale) {
 
 static void to_common_scale(mpz_t scale, flight *f) {
     for (int k = 0; k < 2; k++)
-        for (int i = 0; i < 3; i++) mpz_lcm(scale, scale, mpq_denref(f->c[k][i]));
+        for (int i = 0; i < TERMS; i++) mpz_lcm(scale, scale, mpq_denref(f->c[k][i]));
 }
 
 /* The sign of a - b by x, then y. */
@@ -345,12 +350,12 @@ void present_clear(present *p) {
 static void turn(germ *out, const germ_point *a, const germ_point *b, const germ_point *q) {
     germ ux, uy, vx, vy;
     germ_init(&ux), germ_init(&uy), germ_init(&vx), germ_init(&vy);
-    germ_zero(&ux, 2, 0), germ_zero(&uy, 2, 0), germ_zero(&vx, 2, 0), germ_zero(&vy, 2, 0);
+    germ_zero(&ux, 3, 0), germ_zero(&uy, 3, 0), germ_zero(&vx, 3, 0), germ_zero(&vy, 3, 0);
     germ_accumulate(&ux, 1, &b->x, 0), germ_accumulate(&ux, -1, &a->x, 0);
     germ_accumulate(&uy, 1, &b->y, 0), germ_accumulate(&uy, -1, &a->y, 0);
     germ_accumulate(&vx, 1, &q->x, 0), germ_accumulate(&vx, -1, &a->x, 0);
     germ_accumulate(&vy, 1, &q->y, 0), germ_accumulate(&vy, -1, &a->y, 0);
-    germ_zero(out, 4, 0);
+    germ_zero(out, 6, 0);
     germ_add_product(out, 1, &ux, &vy, 0);
     germ_add_product(out, -1, &uy, &vx, 0);
     germ_clear(&ux), germ_clear(&uy), germ_clear(&vx), germ_clear(&vy);
@@ -362,7 +367,7 @@ static void cross_lines(germ_point *out, const germ_point s[2], const germ_point
     germ u, v;
     germ_init(&u), germ_init(&v);
     turn(&u, t, t + 1, s), turn(&v, t, t + 1, s + 1);
-    germ_zero(&out->x, 6, 0), germ_zero(&out->y, 6, 0), germ_zero(&out->w, 4, 0);
+    germ_zero(&out->x, 9, 0), germ_zero(&out->y, 9, 0), germ_zero(&out->w, 6, 0);
     germ_add_product(&out->x, 1, &u, &s[1].x, 0), germ_add_product(&out->x, -1, &v, &s[0].x, 0);
     germ_add_product(&out->y, 1, &u, &s[1].y, 0), germ_add_product(&out->y, -1, &v, &s[0].y, 0);
     germ_accumulate(&out->w, 1, &u, 0), germ_accumulate(&out->w, -1, &v, 0);
@@ -438,7 +443,7 @@ static bool restrict_by_border(present *p, part *i, uint32_t s, uint32_t border,
     const germ_point *line = p->end[border];
     turn(&a, line, line + 1, &p->end[s][0]);
     turn(&end, line, line + 1, &p->end[s][1]);
-    germ_zero(&b, 4, 0);
+    germ_zero(&b, 6, 0);
     germ_accumulate(&b, 1, &end, 0), germ_accumulate(&b, -1, &a, 0);
     if (above < 0) germ_minus(&a), germ_minus(&b);
     const bool some = restrict_part(i, &a, &b, border, false);
@@ -451,7 +456,7 @@ static bool restrict_by_wall(present *p, part *i, uint32_t s, const germ_point *
     const germ_point *from = &p->end[s][0], *to = &p->end[s][1];
     germ a, b;
     germ_init(&a), germ_init(&b);
-    germ_zero(&a, 6, 1), germ_zero(&b, 6, 1);
+    germ_zero(&a, 9, 1), germ_zero(&b, 9, 1);
     germ_add_product(&a, 1, &from->x, &wall->w, 0), germ_accumulate(&a, -1, &wall->x, 0);
     germ_add_product(&a, 1, &from->y, &wall->w, 1), germ_accumulate(&a, -1, &wall->y, 1);
     germ_add_product(&b, 1, &to->x, &wall->w, 0), germ_add_product(&b, -1, &from->x, &wall->w, 0);
@@ -604,7 +609,7 @@ static bool height_of(const present *p, uint32_t s, const germ_point *q, bound *
     if (!p->here[s] || compare_ends(a, q) >= 0 || compare_ends(q, b) >= 0) return false;
     turn(&out->num, a, b, q);
     germ_minus(&out->num);
-    germ_zero(&out->den, 2, 1);
+    germ_zero(&out->den, 3, 1);
     germ_accumulate(&out->den, 1, &b->x, 0), germ_accumulate(&out->den, -1, &a->x, 0);
     germ_accumulate(&out->den, 1, &b->y, 1), germ_accumulate(&out->den, -1, &a->y, 1);
     return true;
@@ -641,7 +646,7 @@ static bool meet(const present *p, uint32_t s, const germ_point *a, const germ_p
     bool some = germ_sign(&u) * germ_sign(&v) <= 0 && germ_sign(&f) * germ_sign(&g) <= 0;
     if (some && (germ_sign(&u) || germ_sign(&v))) {
         germ_copy(&out->num, &u); /* u / (u - v) */
-        germ_zero(&out->den, 4, 0);
+        germ_zero(&out->den, 6, 0);
         germ_accumulate(&out->den, 1, &u, 0), germ_accumulate(&out->den, -1, &v, 0);
         if (germ_sign(&out->den) < 0) germ_minus(&out->num), germ_minus(&out->den);
     } else if (some) { /* in one line: how far along the ray the segment's ends are */
@@ -651,7 +656,7 @@ static bool meet(const present *p, uint32_t s, const germ_point *a, const germ_p
         germ_accumulate(&ry, 1, &b->y, 0), germ_accumulate(&ry, -1, &a->y, 0);
         for (int k = 0; k < 2; k++) {
             const germ_point *end = &p->end[s][k];
-            germ_init(&along[k]), germ_zero(&along[k], 2, 0);
+            germ_init(&along[k]), germ_zero(&along[k], 3, 0);
             germ_add_product(&along[k], 1, &end->x, &rx, 0), germ_add_product(&along[k], -1, &a->x, &rx, 0);
             germ_add_product(&along[k], 1, &end->y, &ry, 0), germ_add_product(&along[k], -1, &a->y, &ry, 0);
         }
@@ -662,7 +667,7 @@ static bool meet(const present *p, uint32_t s, const germ_point *a, const germ_p
         const int order = germ_det_sign(&along[0], &one, &along[1], &one);
         const germ *low = &along[order > 0], *high = &along[order <= 0];
         some = germ_sign(high) >= 0 && germ_det_sign(low, &one, &out->den, &one) <= 0;
-        germ_zero(&out->num, 2, 0);
+        germ_zero(&out->num, 3, 0);
         if (germ_sign(low) > 0) germ_copy(&out->num, low);
         germ_clear(&rx), germ_clear(&ry), germ_clear(&along[0]), germ_clear(&along[1]), germ_clear(&one);
     }

@@ -13,7 +13,7 @@
 #include <froe/kinetic.h>
 #include <gmp.h>
 
-enum { PRESENT_MOST = 32, GERM_D = 7, GERM_E = 2 };
+enum { PRESENT_MOST = 32, GERM_D = 10, GERM_E = 2 };
 
 /** A number. */
 typedef struct germ {

@@ -34,22 +34,23 @@ static void share_between(mpq_t out, double from, double to, const mpq_t time) {
 
 /* De Casteljau. */
 static void on_piece(const froe_moving_knot *p, const froe_moving_knot *q, const mpq_t s, mpq_t out[3]) {
-    mpq_t from, middle, last;
-    mpq_inits(from, middle, last, NULL);
+    const int degree = isnan(p->control[0]) ? 1 : isnan(p->second[0]) ? 2 : 3;
+    mpq_t c[4], next;
+    mpq_inits(c[0], c[1], c[2], c[3], next, NULL);
     for (int k = 0; k < 3; k++) {
-        mpq_set_d(from, p->at[k]);
-        mpq_set_d(out[k], q->at[k]);
-        if (isnan(p->control[k])) {
-            go_between(from, out[k], s);
-            continue;
-        }
-        mpq_set_d(middle, p->control[k]);
-        mpq_set(last, middle);
-        go_between(from, middle, s);
-        go_between(last, out[k], s);
-        go_between(middle, out[k], s);
+        mpq_set_d(c[0], p->at[k]);
+        if (degree > 1) mpq_set_d(c[1], p->control[k]);
+        if (degree > 2) mpq_set_d(c[2], p->second[k]);
+        mpq_set_d(c[degree], q->at[k]);
+        for (int n = degree; n > 0; n--)
+            for (int i = 0; i < n; i++) {
+                mpq_set(next, c[i + 1]);
+                go_between(c[i], next, s);
+                mpq_set(c[i], next);
+            }
+        mpq_set(out[k], c[0]);
     }
-    mpq_clears(from, middle, last, NULL);
+    mpq_clears(c[0], c[1], c[2], c[3], next, NULL);
 }
 
 /* v + 2 r x (r x v + w v) / |q|^2, with q = (r, w). */
@@ -86,7 +87,7 @@ static void in_body(const froe_motion *m, uint32_t body, const mpq_t time, mpq_t
     size_t i = 0;
     while (i + 2 < count && oracle_compare_time(time, froe_motion_body_knot(m, body, i + 1).time) > 0) i++;
     const froe_body_knot a = froe_motion_body_knot(m, body, i), b = froe_motion_body_knot(m, body, i + (count > 1));
-    froe_moving_knot p = {.time = a.time}, q = {.time = b.time};
+    froe_moving_knot p = {.time = a.time, .second = {NAN}}, q = {.time = b.time};
     mpq_t share, from, to[4], centre[3];
     mpq_inits(share, from, to[0], to[1], to[2], to[3], centre[0], centre[1], centre[2], NULL);
     for (int k = 0; k < 3; k++) p.at[k] = a.at[k], q.at[k] = b.at[k], p.control[k] = a.control[k];

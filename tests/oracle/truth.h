@@ -7,7 +7,7 @@
 enum { TRUTH_NEAR = 6000 /* halvings of a tick: nothing happens before */ };
 
 typedef struct truth {
-    mpq_t time, x[4][2], cross[2][2], t[6];
+    mpq_t time, x[4][2], cross[2][2], t[7];
 } truth;
 
 static inline void truth_init(truth *g) {
@@ -50,16 +50,18 @@ static inline void truth_place(truth *g, const froe_motion *m, uint32_t vertex, 
     mpq_sub(t[1], t[1], t[0]);
     mpq_sub(t[0], g->time, t[0]);
     if (p.degree) mpq_div(t[0], t[0], t[1]); /* the share that has passed */
-    for (int k = 0; k < 2; k++) {
-        mpq_set_d(t[1], p.from->at[k]), mpq_set_d(out[k], p.to->at[k]);
-        if (p.degree == 2) {
-            mpq_set_d(t[2], p.from->control[k]);
-            mpq_set(t[3], t[2]);
-            truth_between(t[1], t[2], t[0]);
-            truth_between(t[3], out[k], t[0]);
-            mpq_set(t[1], t[2]);
-        }
-        if (p.degree) truth_between(t[1], out[k], t[0]);
+    for (int k = 0; k < 2; k++) { /* De Casteljau: t[1 ..] are the control points */
+        mpq_set_d(t[1], p.from->at[k]);
+        if (p.degree > 1) mpq_set_d(t[2], p.from->control[k]);
+        if (p.degree > 2) mpq_set_d(t[3], p.second[k]);
+        if (p.degree) mpq_set_d(t[1 + p.degree], p.to->at[k]);
+        for (int n = p.degree; n > 0; n--)
+            for (int i = 1; i <= n; i++) {
+                mpq_set(t[5], t[i + 1]);
+                truth_between(t[i], t[5], t[0]);
+                mpq_set(t[i], t[5]);
+            }
+        mpq_set(out[k], t[1]);
     }
 }
 #endif

@@ -19,18 +19,19 @@ static bool is_turnless(const froe_motion *m) {
 }
 
 /* Limbs of the widest coefficient. In the plane a turn is the product of two differences  Xq Wp - Xp Wq:  coordinates
- * once and times up to four times in each. In space a corner has coordinates once and times up to six times, in a body
- * coordinates three times and times twice; the widest is the product of the place of a body and two edges of bodies, or
- * of a flat side and a corner of a body. That is more than where bodies turn in the plane. */
+ * once and times up to six times in each. In space a corner has coordinates once and times up to nine times, in a body
+ * coordinates three times and times twice; the widest is the product of the place of a body and two edges of bodies, of
+ * a flat side and a corner of a body, or of such a side and a corner of no body. That is more than where bodies turn in
+ * the plane. */
 static size_t widest(const froe_motion *m) {
     enum { SPARE_BITS = 64, CUT_BITS = 32 };
     const size_t coordinate = m->top > m->unit ? (size_t)(m->top - m->unit) : 1;
     const size_t time = (m->time_top > m->time_unit ? (size_t)(m->time_top - m->time_unit) : 1) + CUT_BITS;
-    return ((is_turnless(m) ? 2 * coordinate + 8 * time : 7 * coordinate + 30 * time) + SPARE_BITS) / 64 + 3;
+    return ((is_turnless(m) ? 2 * coordinate + 12 * time : 7 * coordinate + 36 * time) + SPARE_BITS) / 64 + 3;
 }
 
 froe_status meet_worker_new(const froe_motion *m, meet_worker *out) {
-    enum { NUMBERS = 500, MORE_NUMBERS = 8000, CHAINS = 4, MORE_CHAINS = 3 };
+    enum { NUMBERS = 800, MORE_NUMBERS = 12000, CHAINS = 4, MORE_CHAINS = 3 };
     /* In space: what one step of a chain needs, and twice as much again: 15 chains of degree 8, or 81 of degree 6, keep
      * less. */
     const size_t limbs = widest(m), numbers = is_turnless(m) ? NUMBERS : MORE_NUMBERS;

@@ -1,9 +1,9 @@
 /* meet_segments.c: when two moving segments of the plane meet.
  *
  * Two closed segments p0p1 and q0q1 meet iff the signs of twelve polynomials in time allow it: of the four turns
- *     o0 = [p0 p1 q0], o1 = [p0 p1 q1], o2 = [q0 q1 p0], o3 = [q0 q1 p1]     (degree up to 4)
+ *     o0 = [p0 p1 q0], o1 = [p0 p1 q1], o2 = [q0 q1 p0], o3 = [q0 q1 p1]     (degree up to 4, of cubics 6)
  * o0 o1 <= 0 and o2 o3 <= 0, and where all four are 0 also their bounding boxes overlap, which is up to the differences
- * of coordinates (degree up to 2). Where bodies turn, both have degree up to 6 (strokes.h).
+ * of coordinates (degree up to 2, of cubics 3). Where bodies turn, both have degree up to 6, beside cubics 8 (strokes.h).
  *
  * Error bounds first: most pairs stay apart for a simple reason. Then exactly. */
 #include "kinetic/contact/strokes.h"
@@ -48,17 +48,26 @@ static bool is_turning(const motion_piece piece[4]) {
     return piece[0].corner || piece[2].corner;
 }
 
+/* Of the polynomials of all four; of lines 2, too. */
+static int degree_of(const motion_piece piece[4]) {
+    int degree = 2;
+    for (int i = 0; i < 4; i++)
+        if (piece[i].degree > degree) degree = piece[i].degree;
+    return degree;
+}
+
 static bool surely_apart(const froe_motion *m, walk_room *w, const motion_piece piece[4]) {
     motion_ball_curve v[4];
     num_ball_poly gap[GAPS], turn[TURNS];
+    const int degree = degree_of(piece);
     if (is_turning(piece)) {
         strokes_near(m, piece, w->from, w->to, gap, turn);
     } else {
         for (int i = 0; i < 4; i++) motion_span_ball(m, &piece[i], w->from, w->to, &v[i]);
-        gaps_ball(NULL, v, v + 2, gap);
+        gaps_ball(NULL, v, v + 2, degree, gap);
     }
     if (all_alike(gap, 4) || all_alike(gap + 4, 4)) return true;
-    if (!is_turning(piece)) turns_ball(NULL, v, v + 2, gap, turn);
+    if (!is_turning(piece)) turns_ball(NULL, v, v + 2, degree, gap, turn);
     for (int i = 0; i < TURNS; i++) w->sign[i] = (signed char)num_ball_poly_sign_throughout(&turn[i]);
     return (w->sign[0] != NUM_UNSURE && w->sign[0] == w->sign[1]) ||
            (w->sign[2] != NUM_UNSURE && w->sign[2] == w->sign[3]);
@@ -74,8 +83,9 @@ static bool list_events(const froe_motion *m, const meeting *g, const motion_pie
         strokes_exact(g->arena, m, piece, w->from, w->to, w->f + TURNS, w->f);
     } else {
         for (int i = 0; i < 4; i++) motion_span_dyadic(g->arena, m, &piece[i], w->from, w->to, &v[i]);
-        gaps_dyadic(g->arena, v, v + 2, w->f + TURNS);
-        turns_dyadic(g->arena, v, v + 2, w->f + TURNS, w->f);
+        const int degree = degree_of(piece);
+        gaps_dyadic(g->arena, v, v + 2, degree, w->f + TURNS);
+        turns_dyadic(g->arena, v, v + 2, degree, w->f + TURNS, w->f);
     }
     bool flat = true;
     for (int i = 0; i < TURNS + GAPS; i++) num_poly_trim(&w->f[i], w->f[i].degree);

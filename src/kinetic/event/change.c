@@ -142,8 +142,11 @@ void change_schedule(froe_kinetic *k, uint32_t segment) {
     if (o->first <= o->last && k->now.tick < o->first) change = odd(o->first);
     if (there && o->last < k->now.motion->last_tick) change = odd(o->last + 1);
     schedule(k, &k->certs.segments.data[segment].life, CERT_LIFE, segment, change);
-    for (int i = 0; i < k->now.motion->dim && there; i++) {
-        int64_t last = now_course_last(&k->now, o->vertices[i]);
-        schedule(k, k->certs.courses.data + o->vertices[i], CERT_COURSE, o->vertices[i], odd(last + 1));
+    for (int i = 0; i < k->now.motion->dim; i++) {
+        uint32_t *course = k->certs.courses.data + o->vertices[i];
+        if (there)
+            schedule(k, course, CERT_COURSE, o->vertices[i], odd(now_course_last(&k->now, o->vertices[i]) + 1));
+        else if (*course != FROE_NONE && k->certs.all.data[*course].tick <= k->now.tick) /* ranges have passed it */
+            cert_set_tick(&k->certs, *course, NOW_NEVER);
     }
 }

@@ -117,6 +117,7 @@ void froe_motion_free(froe_motion *m) {
     if (!m) return;
     froe_allocator alloc = m->alloc;
     array_free(&alloc, &m->knots);
+    array_free(&alloc, &m->seconds);
     array_free(&alloc, &m->plans);
     array_free(&alloc, &m->objects);
     array_free(&alloc, &m->bodies);
@@ -194,5 +195,10 @@ size_t froe_motion_knot_count(const froe_motion *motion, uint32_t vertex) {
 
 froe_moving_knot froe_motion_knot(const froe_motion *motion, uint32_t vertex, size_t knot) {
     const motion_knot *k = motion->knots.data + motion->plans.data[vertex].first + knot;
-    return (froe_moving_knot){k->time, {k->at[0], k->at[1], k->at[2]}, {k->control[0], k->control[1], k->control[2]}};
+    froe_moving_knot out = {k->time,
+                            {k->at[0], k->at[1], k->at[2]},
+                            {k->control[0], k->control[1], k->control[2]},
+                            {(double)NAN, (double)NAN, (double)NAN}};
+    for (int i = 0; i < 3 && k->second != FROE_NONE; i++) out.second[i] = motion->seconds.data[k->second].at[i];
+    return out;
 }

@@ -8,7 +8,8 @@
  *
  * Positions are homogeneous, (X/W, Y/W) or (X/W, Y/W, Z/W) with W > 0. A linear piece p0 -> p1 has
  *     X = p0 (t1-t) + p1 (t-t0),   W = t1-t0,
- * a quadratic one Bezier's form with the squares; so knots are met exactly from both sides, and nothing is divided.
+ * a quadratic or cubic one Bezier's form with the squares or cubes; so knots are met exactly from both sides, and
+ * nothing is divided.
  *
  * It speaks for motion.c, motion_add.c (plans enter a motion), place.c (where a vertex is) and parabolas.c (a motion
  * without bodies). */
@@ -26,7 +27,13 @@ typedef struct motion_knot {
     int64_t tick;                   /**< the first at or after `time`; far away: +- MOTION_FAR */
     int16_t unit, bits; /**< of times while the piece lasts, measured from its ends: whole multiples of 2^unit, below
                              2^bits of them */
+    uint32_t second;    /**< of the motion's `seconds`, or FROE_NONE: no cubic begins here */
 } motion_knot;
+
+/** The second control point of a cubic, in a table of its own, since few pieces have one. */
+typedef struct motion_second {
+    double at[3];
+} motion_second;
 
 #define MOTION_FAR ((int64_t)1 << 62)
 
@@ -64,6 +71,7 @@ struct froe_motion {
     int time_unit, time_top; /**< all times, alike */
     uint64_t edition;        /**< changes when plans change or knots may move in memory */
     ARRAY(motion_knot) knots;
+    ARRAY(motion_second) seconds;
     ARRAY(motion_plan) plans; /**< [vertex] */
     ARRAY(motion_object) objects;
     ARRAY(motion_body) bodies;
@@ -81,13 +89,17 @@ int64_t motion_tick_before(const froe_motion *m, double time);
 /** Gives a vertex another plan; `life` is what it has to cover: two times. What it replaces stays in memory. The
  * same failures as froe_motion_add(), then nothing is changed. */
 froe_status motion_replan(froe_motion *m, uint32_t vertex, size_t count, const double *times, const double *coords,
-                          const double *controls, const double life[2], froe_diagnostic *diag);
+                          const double *controls, const double *second_controls, const double life[2],
+                          froe_diagnostic *diag);
 
 /* ------------------------------------------------------------------ pieces -- */
 
+enum { MOTION_DEGREE = 3, MOTION_TERMS = MOTION_DEGREE + 1 };
+
 typedef struct motion_piece {
     const motion_knot *from, *to; /**< equal: it stands still */
-    int degree;                   /**< 0, 1 or 2 */
+    int degree;                   /**< 0 to MOTION_DEGREE */
+    const double *second;         /**< the second control point of a cubic, else NULL */
     int64_t last;                 /**< the last tick that belongs to it; MOTION_FAR: it ends with the plan */
     const double *corner;         /**< NULL, or the place in a body whose centre flies as said */
     const motion_turn *turn;      /**< of that body at `from` (and, if to is not from, then at `to`) */
@@ -115,18 +127,18 @@ double motion_near(const froe_motion *m, const motion_piece *piece, int64_t tick
 void motion_extend(const froe_motion *m, const motion_piece *piece, double from, double to, double *lo, double *hi);
 
 /** The piece as polynomials in ticks s counted from `tick`:
- *     X = x[0] + x[1] s + x[2] s^2,  Y and Z alike,  W = w (constant)
+ *     X = x[0] + x[1] s + x[2] s^2 + x[3] s^3,  Y and Z alike,  W = w (constant)
  * for degree + 1 coefficients; the others are 0, as is Z in the plane. The tick may lie anywhere. Less than
  * 12000 limbs. */
 typedef struct motion_dyadic_curve {
-    num_dyadic x[3], y[3], z[3], w;
+    num_dyadic x[MOTION_TERMS], y[MOTION_TERMS], z[MOTION_TERMS], w;
 } motion_dyadic_curve;
 typedef struct motion_ball_curve {
-    num_ball x[3], y[3], z[3], w;
+    num_ball x[MOTION_TERMS], y[MOTION_TERMS], z[MOTION_TERMS], w;
 } motion_ball_curve;
 /** The same in the units of motion_whole(). */
 typedef struct motion_whole_curve {
-    num_short x[3], y[3], z[3], w;
+    num_short x[MOTION_TERMS], y[MOTION_TERMS], z[MOTION_TERMS], w;
 } motion_whole_curve;
 /** Each less than 2^126. False: too wide. */
 bool motion_curve_whole(const froe_motion *m, const motion_piece *piece, int64_t tick, motion_whole_curve *out);

@@ -14,6 +14,7 @@ typedef struct plan_adding {
     const froe_moving *batch;
     froe_diagnostic *diag;
     size_t knots;  /* of the batch so far */
+    size_t seconds;
     int unit, top; /* of the coordinates so far */
     int time_unit, time_top;
 } plan_adding;
@@ -61,7 +62,7 @@ static void measure_knot(const froe_motion *m, motion_knot *knot, const motion_k
 
 typedef struct plan_input {
     size_t count;
-    const double *times, *coords, *controls;
+    const double *times, *coords, *controls, *second_controls;
     uint32_t vertex; /* for messages: of the batch, or the number of a body */
     const char *noun;
 } plan_input;
@@ -86,9 +87,41 @@ static void take_time(plan_adding *a, double time) {
     a->time_top = most(a->time_top, top_bit(time));
 }
 
+static bool is_none(const double *point, size_t dim) {
+    bool none = true;
+    for (size_t k = 0; k < dim; k++) none = none && isnan(point[k]);
+    return none;
+}
+
+/* The control points of the piece that begins at a knot, the last one excepted: none, one or two. */
+static froe_status take_controls(plan_adding *a, const plan_input *p, size_t i, motion_knot *knot) {
+    static const char *const names[2][3] = {
+        {"x of control point", "y of control point", "z of control point"},
+        {"x of second control point", "y of second control point", "z of second control point"}};
+    const size_t dim = (size_t)a->motion->dim;
+    const double *const first = p->controls ? p->controls + dim * i : NULL;
+    const double *const second = p->second_controls ? p->second_controls + dim * i : NULL;
+    const bool curved = first && i + 1 < p->count && !is_none(first, dim);
+    const bool cubic = second && i + 1 < p->count && !is_none(second, dim);
+    froe_status status = FROE_OK;
+    if (cubic && !curved)
+        return support_fail_at(a->diag, FROE_E_INPUT, FROE_NONE, p->vertex, FROE_NONE,
+                               "%s %u: It has a second control point %zu, and no first.", p->noun, p->vertex, i);
+    for (size_t k = 0; k < dim && !status && curved; k++)
+        status = take_number(a, p, i, names[0][k], first[k], &knot->control[k]);
+    if (dim == 2 && curved) knot->control[2] = 0;
+    if (!cubic) return status;
+    motion_second *out = a->motion->seconds.data + a->motion->seconds.count + a->seconds;
+    *out = (motion_second){{0, 0, 0}};
+    for (size_t k = 0; k < dim && !status; k++)
+        status = take_number(a, p, i, names[1][k], second[k], &out->at[k]);
+    knot->second = (uint32_t)(a->motion->seconds.count + a->seconds++);
+    return status;
+}
+
 static froe_status take_knot(plan_adding *a, const plan_input *p, size_t i, motion_knot *knot) {
     const size_t dim = (size_t)a->motion->dim;
-    *knot = (motion_knot){.time = p->times[i] + 0.0, .control = {NAN, NAN, NAN}, .bits = 0};
+    *knot = (motion_knot){.time = p->times[i] + 0.0, .control = {NAN, NAN, NAN}, .second = FROE_NONE};
     if (!isfinite(knot->time)) return fail_at_knot(a, p, i, "time", knot->time);
     if (i && !(knot->time > knot[-1].time))
         return support_fail_at(a->diag, FROE_E_INPUT, FROE_NONE, p->vertex, FROE_NONE,
@@ -96,19 +129,11 @@ static froe_status take_knot(plan_adding *a, const plan_input *p, size_t i, moti
                                knot->time, i - 1, knot[-1].time);
     knot->tick = motion_tick_after(a->motion, knot->time);
     take_time(a, knot->time);
-    static const char *const names[2][3] = {{"x", "y", "z"},
-                                            {"x of control point", "y of control point", "z of control point"}};
-    const double *c = p->controls && i + 1 < p->count ? p->controls + dim * i : knot->control;
-    bool straight = true;
+    static const char *const names[] = {"x", "y", "z"};
     froe_status status = FROE_OK;
-    for (size_t k = 0; k < dim && !status; k++) {
-        straight = straight && isnan(c[k]);
-        status = take_number(a, p, i, names[0][k], p->coords[dim * i + k], &knot->at[k]);
-    }
-    for (size_t k = 0; k < dim && !status && !straight; k++)
-        status = take_number(a, p, i, names[1][k], c[k], &knot->control[k]);
-    if (dim == 2 && !straight) knot->control[2] = 0;
-    return status;
+    for (size_t k = 0; k < dim && !status; k++)
+        status = take_number(a, p, i, names[k], p->coords[dim * i + k], &knot->at[k]);
+    return status ? status : take_controls(a, p, i, knot);
 }
 
 /* Appends the knots of a plan. REQUIRES: room. */
@@ -185,9 +210,13 @@ static froe_status take_vertices(plan_adding *a) {
     const size_t dim = (size_t)a->motion->dim;
     for (size_t v = 0; v < b->vertex_count; v++) {
         size_t start = b->starts[v];
-        plan_input plan = {
-            b->starts[v + 1] - start, b->times + start, b->coords + dim * start, NULL, (uint32_t)v, "vertex"};
+        plan_input plan = {.count = b->starts[v + 1] - start,
+                           .times = b->times + start,
+                           .coords = b->coords + dim * start,
+                           .vertex = (uint32_t)v,
+                           .noun = "vertex"};
         if (b->controls) plan.controls = b->controls + dim * start;
+        if (b->second_controls) plan.second_controls = b->second_controls + dim * start;
         motion_plan *taken = a->motion->plans.data + a->motion->plans.count + v;
         froe_status status = take_plan(a, &plan, taken);
         if (!status && b->bodies && b->bodies[v] != FROE_NONE) status = take_into_body(a, v, taken);
@@ -240,6 +269,12 @@ static froe_status take_mover(plan_adding *a, uint32_t j, motion_object *o) {
     return status;
 }
 
+/* Knots are numbered by size_t, their second control points by 32 bits. */
+static bool reserve_knots(froe_motion *m, size_t knots, const double *second_controls) {
+    return array_reserve(&m->alloc, &m->knots, knots) &&
+           array_reserve(&m->alloc, &m->seconds, second_controls ? knots : 0);
+}
+
 static plan_adding begin_adding(froe_motion *m, const froe_moving *batch, froe_diagnostic *diag) {
     plan_adding a = {.motion = m, .batch = batch, .diag = diag, .unit = m->unit, .top = m->top};
     a.time_unit = least_of(m->time_unit, least_of(last_bit(m->begin), last_bit(m->end)));
@@ -254,6 +289,7 @@ static void commit(const plan_adding *a) {
     m->time_unit = a->time_unit;
     m->time_top = a->time_top;
     m->knots.count += a->knots;
+    m->seconds.count += a->seconds;
 }
 
 froe_status froe_motion_add(froe_motion *motion, const froe_moving *batch, froe_diagnostic *diag) {
@@ -264,7 +300,7 @@ froe_status froe_motion_add(froe_motion *motion, const froe_moving *batch, froe_
     if (status) return status;
     const size_t knots = batch->vertex_count ? batch->starts[batch->vertex_count] - batch->starts[0] : 0;
     motion->edition++;
-    if (!array_reserve(&motion->alloc, &motion->knots, knots) ||
+    if (!reserve_knots(motion, knots, batch->second_controls) ||
         !array_reserve(&motion->alloc, &motion->plans, batch->vertex_count) ||
         !array_reserve(&motion->alloc, &motion->objects, batch->count))
         return support_fail_memory(diag);
@@ -321,8 +357,12 @@ froe_status froe_motion_add_body(froe_motion *m, const froe_body *body, uint32_t
     if (body->size != sizeof *body) return support_fail_defaults(diag, "froe_body_defaults");
     if (!body->times || !body->coords) return support_fail_null(diag, __func__);
     plan_adding a = begin_adding(m, NULL, diag);
-    const plan_input input = {body->count, body->times, body->coords, body->controls, (uint32_t)m->bodies.count,
-                              "body"};
+    const plan_input input = {.count = body->count,
+                              .times = body->times,
+                              .coords = body->coords,
+                              .controls = body->controls,
+                              .vertex = (uint32_t)m->bodies.count,
+                              .noun = "body"};
     if (m->bodies.count >= LIMIT) return support_fail(diag, FROE_E_LIMIT, "There are more than %u bodies.", LIMIT);
     m->edition++;
     if (!array_reserve(&m->alloc, &m->knots, body->count) || !array_reserve(&m->alloc, &m->turns, body->count) ||
@@ -343,12 +383,13 @@ froe_status froe_motion_add_body(froe_motion *m, const froe_body *body, uint32_t
 }
 
 froe_status motion_replan(froe_motion *m, uint32_t vertex, size_t count, const double *times, const double *coords,
-                          const double *controls, const double life[2], froe_diagnostic *diag) {
+                          const double *controls, const double *second_controls, const double life[2],
+                          froe_diagnostic *diag) {
     plan_adding a = begin_adding(m, NULL, diag);
-    plan_input input = {count, times, coords, controls, vertex, "vertex"};
+    const plan_input input = {count, times, coords, controls, second_controls, vertex, "vertex"};
     motion_plan plan;
     m->edition++;
-    if (!array_reserve(&m->alloc, &m->knots, count)) return support_fail_memory(diag);
+    if (!reserve_knots(m, count, second_controls)) return support_fail_memory(diag);
     froe_status status = take_plan(&a, &input, &plan);
     if (!status) status = check_cover(&a, &plan, vertex, FROE_NONE, life[0], life[1]);
     if (status) return status;

@@ -41,6 +41,7 @@ typedef struct replacement {
     ARRAY(double) times;
     ARRAY(double) coords;
     ARRAY(double) controls;
+    ARRAY(double) second_controls;
     ARRAY(double) lives;    /* all births, then all deaths */
     ARRAY(uint32_t) sorted; /* vertices by bodies and places, and as many for sorting */
     ARRAY(uint32_t) first;  /* of those of its body in the place of a vertex */
@@ -222,19 +223,25 @@ static froe_status cut_bodies(replacement *r) {
 
 /* ------------------------------------------------------------------------ plans -- */
 
-static void put_knot(replacement *r, double time, const double at[3], const double control[3]) {
+static void put_knot(replacement *r, double time, const double at[3], const double control[3],
+                     const double second[3]) {
     const size_t n = r->times.count++;
     const size_t dim = (size_t)r->from->dim;
     r->times.data[n] = time;
-    for (size_t k = 0; k < dim; k++) r->coords.data[dim * n + k] = at[k], r->controls.data[dim * n + k] = control[k];
+    for (size_t k = 0; k < dim; k++) {
+        r->coords.data[dim * n + k] = at[k];
+        r->controls.data[dim * n + k] = control[k], r->second_controls.data[dim * n + k] = second[k];
+    }
 }
 
+/* No control point. */
 static const double straight[3] = {(double)NAN, (double)NAN, (double)NAN};
 
 static void put_own(replacement *r, const motion_plan *plan) {
     for (size_t i = 0; i < plan->count; i++) {
         const motion_knot *knot = r->from->knots.data + plan->first + i;
-        put_knot(r, knot->time, knot->at, knot->control);
+        const bool cubic = knot->second != FROE_NONE;
+        put_knot(r, knot->time, knot->at, knot->control, cubic ? r->from->seconds.data[knot->second].at : straight);
     }
 }
 
@@ -261,10 +268,10 @@ static double put_carried(replacement *r, uint32_t v, const body_cuts *b) {
         if (!last) after = part_arc(r, v, b, i + 1, &next);
         arc_end(r, &next, last ? 2 : 0, p[2]);
         worst = fmax(worst, bend(r, &piece, &arc, p));
-        put_knot(r, cuts[i].time, p[0], is_straight(&piece) ? straight : p[1]);
+        put_knot(r, cuts[i].time, p[0], is_straight(&piece) ? straight : p[1], straight);
         memcpy(p[0], p[2], sizeof p[0]);
     }
-    if (b->count > 1) put_knot(r, cuts[parts].time, p[0], straight);
+    if (b->count > 1) put_knot(r, cuts[parts].time, p[0], straight, straight);
     return worst;
 }
 
@@ -296,6 +303,7 @@ static froe_status reserve_plans(replacement *r) {
     const bool room =
         array_reserve(r->alloc, &r->starts, m->plans.count + 1) && array_reserve(r->alloc, &r->times, all) &&
         array_reserve(r->alloc, &r->coords, 3 * all) && array_reserve(r->alloc, &r->controls, 3 * all) &&
+        array_reserve(r->alloc, &r->second_controls, 3 * all) &&
         array_reserve(r->alloc, &r->lives, 2 * n + 1) && array_reserve(r->alloc, &r->sorted, 2 * m->plans.count) &&
         array_reserve(r->alloc, &r->first, m->plans.count) && array_reserve(r->alloc, &r->corners, 3 * n) &&
         array_reserve(r->alloc, &r->groups, n) && array_reserve(r->alloc, &r->tags, n);
@@ -354,6 +362,7 @@ static froe_status fill_motion(replacement *r, froe_motion *out) {
     batch.vertex_count = m->plans.count, batch.count = m->objects.count;
     batch.starts = r->starts.data, batch.times = r->times.data;
     batch.coords = r->coords.data, batch.controls = r->controls.data;
+    batch.second_controls = r->second_controls.data;
     batch.births = r->lives.data, batch.deaths = r->lives.data + m->objects.count;
     batch.vertices = r->corners.data, batch.groups = r->groups.data, batch.tags = r->tags.data;
     for (uint32_t i = 0; i < froe_motion_group_count(m); i++) {
@@ -399,6 +408,7 @@ froe_status froe_motion_without_bodies(const froe_motion *motion, double deviati
     array_free(&memory, &r.times);
     array_free(&memory, &r.coords);
     array_free(&memory, &r.controls);
+    array_free(&memory, &r.second_controls);
     array_free(&memory, &r.lives);
     array_free(&memory, &r.sorted);
     array_free(&memory, &r.first);

@@ -63,14 +63,14 @@ static num_short whole_ticks(const froe_motion *m, const motion_piece *piece, in
 }
 
 bool motion_whole(const froe_motion *m, const motion_piece *piece, int64_t tick, num_short *out) {
-    enum { MOST = 125 }; /* a sum of three products with weights whose sum is W */
+    enum { MOST = 125 }; /* a sum of products with weights whose sum is W */
     if (m->top - m->unit + piece->degree * piece->from->bits > MOST) return false;
     place_at_whole(NULL, m, piece, whole_ticks(m, piece, tick), out);
     return true;
 }
 
 bool motion_curve_whole(const froe_motion *m, const motion_piece *piece, int64_t tick, motion_whole_curve *out) {
-    enum { MOST = 122 }; /* a tick is no longer than the piece; twice a sum of four products */
+    enum { MOST = 122 }; /* a tick is no longer than the piece; twice a sum of four products, three times of four */
     const motion_knot *from = piece->from;
     if (piece->degree && m->power - from->unit > from->bits) return false;
     if (m->top - m->unit + piece->degree * from->bits > MOST) return false;
@@ -156,12 +156,24 @@ static num_ball ball_between(double p, double q, num_ball share) {
     return num_ball_add(from, num_ball_mul(share, num_ball_sub(num_ball_from(q), from)));
 }
 
-/* De Casteljau; with two different shares, the blossom. */
-static num_ball along(const motion_piece *piece, num_ball s, num_ball t, int k) {
-    double p = piece->from->at[k], q = piece->to->at[k], c = piece->from->control[k];
+static num_ball between_balls(num_ball from, num_ball to, num_ball share) {
+    return num_ball_add(from, num_ball_mul(share, num_ball_sub(to, from)));
+}
+
+/* De Casteljau with a share for each step; with different ones, the blossom. A piece of degree n takes the first n, and
+ * the order of these does not matter. */
+static num_ball along(const motion_piece *piece, num_ball s, num_ball t, num_ball u, int k) {
+    const double p = piece->from->at[k], q = piece->to->at[k], c = piece->from->control[k];
     if (piece->degree < 2) return ball_between(p, q, s);
-    num_ball from = ball_between(p, c, s), to = ball_between(c, q, s);
-    return num_ball_add(from, num_ball_mul(t, num_ball_sub(to, from)));
+    if (piece->degree == 2) return between_balls(ball_between(p, c, s), ball_between(c, q, s), t);
+    const double d = piece->second[k];
+    const num_ball middle = ball_between(c, d, s);
+    const num_ball from = between_balls(ball_between(p, c, s), middle, t);
+    return between_balls(from, between_balls(middle, ball_between(d, q, s), t), u);
+}
+
+static num_ball along_at(const motion_piece *piece, num_ball s, int k) {
+    return along(piece, s, s, s, k);
 }
 
 /* How much of the piece has passed. */
@@ -207,7 +219,7 @@ double motion_near(const froe_motion *m, const motion_piece *piece, int64_t tick
     num_ball turn[4];
     if (piece->corner) quaternion_at(piece, share, turn);
     for (int k = 0; k < m->dim; k++) {
-        num_ball x = along(piece, share, share, k);
+        num_ball x = along_at(piece, share, k);
         if (piece->corner) x = num_ball_add(x, turned(turn, turn, piece->corner, k));
         out[k] = x.x;
         if (!(x.e <= error)) error = x.e < (double)INFINITY ? x.e : (double)INFINITY; /* NaN, too */
@@ -227,13 +239,14 @@ static void extend_by_turn(const motion_piece *piece, num_ball s, num_ball t, do
     }
 }
 
-/* The ends and, of a parabola, the control point of the part (the blossom of both shares). */
+/* The ends and the control points of the part (blossoms of both shares). */
 static void extend_by_flight(const froe_motion *m, const motion_piece *piece, num_ball s, num_ball t, double *lo,
                              double *hi) {
     for (int k = 0; k < m->dim; k++) {
-        extend(along(piece, s, s, k), &lo[k], &hi[k]);
-        extend(along(piece, t, t, k), &lo[k], &hi[k]);
-        if (piece->degree == 2) extend(along(piece, s, t, k), &lo[k], &hi[k]);
+        extend(along_at(piece, s, k), &lo[k], &hi[k]);
+        extend(along_at(piece, t, k), &lo[k], &hi[k]);
+        if (piece->degree > 1) extend(along(piece, s, t, s, k), &lo[k], &hi[k]);
+        if (piece->degree == 3) extend(along(piece, s, t, t, k), &lo[k], &hi[k]);
     }
 }
 
@@ -278,7 +291,7 @@ void motion_arc_of(const froe_motion *m, const motion_piece *piece, double from,
         out->weight[i] = product_of(a, b);
         for (int k = 0; k < 3; k++) {
             out->turned[i][k] = turned(a, b, piece->corner, k);
-            out->flight[i][k] = along(piece, i < 2 ? s : t, i ? t : s, k);
+            out->flight[i][k] = along(piece, i < 2 ? s : t, i ? t : s, t, k); /* not of a cubic */
         }
     }
     for (int k = 0; k < 3 && piece->degree < 2; k++)
@@ -298,7 +311,8 @@ motion_piece motion_piece_after(const froe_motion *m, uint32_t vertex, uint32_t 
     const motion_knot *from = m->knots.data + plan->first + knot;
     const bool alone = plan->count == 1;
     motion_piece piece = {.from = from, .to = alone ? from : from + 1, .last = MOTION_FAR};
-    if (!alone) piece.degree = isnan(from->control[0]) ? 1 : 2;
+    if (!alone) piece.degree = isnan(from->control[0]) ? 1 : from->second == FROE_NONE ? 2 : 3;
+    if (piece.degree == 3) piece.second = m->seconds.data[from->second].at;
     if (knot + 2 < plan->count) piece.last = from[1].tick - 1;
     if (plan != own) {
         piece.corner = m->knots.data[own->first].at;
@@ -346,7 +360,7 @@ bool froe_motion_position(const froe_motion *m, uint32_t vertex, double time, do
     num_ball turn[4];
     if (piece.corner) quaternion_at(&piece, share, turn);
     for (int k = 0; k < m->dim; k++) {
-        at[k] = share.x < 1 ? along(&piece, share, share, k).x : piece.to->at[k];
+        at[k] = share.x < 1 ? along_at(&piece, share, k).x : piece.to->at[k];
         if (piece.corner) at[k] += turned(turn, turn, piece.corner, k).x;
     }
     return true;

@@ -5,10 +5,12 @@
 #define FROE_KINETIC_POLY_H
 #include "kinetic/motion/motion.h"
 
-/** Coefficients of the worst: the order of two crossings of segments that fly along parabolas. */
-enum { POLY_TERMS = 11 };
-/** Limbs that suffice for any of these polynomials, and for shifting and scaling it. */
-enum { POLY_LIMBS = 1 << 19 };
+/** Coefficients of the worst: the order of two crossings of segments that fly along cubics. */
+enum { POLY_TERMS = 16 };
+/** Limbs that suffice for any of these polynomials, and for shifting and scaling it. A place on a cubic has numbers of
+ * up to 134 limbs, a crossing of 705, the order of two of 1,376: 448 thousand for two crossings, 363 for each
+ * coordinate of their order, and 700 for shifting one polynomial twice. */
+enum { POLY_LIMBS = 1 << 21 };
 
 typedef struct poly_exact {
     int degree;

@@ -1,13 +1,15 @@
 /* course.c: pieces of flight plans in doubles, each looked up when its first tick has come.
  *
- * Positions, times 2^lift, are x[0] + x[1] s + x[2] s^2 for s from 0 to span, and nowhere further off than `error`. */
+ * Positions, times 2^lift, are x[0] + x[1] s + x[2] s^2 + x[3] s^3 for s from 0 to span, and nowhere further off than
+ * `error`. */
 #include "kinetic/now/now.h"
 #include <math.h>
 
 /* The coefficients in doubles, and what is lost by that until s = span. */
-static double in_doubles(const num_ball p[3], int degree, num_ball w, double span, double out[3]) {
+static double in_doubles(const num_ball p[MOTION_TERMS], int degree, num_ball w, double span,
+                         double out[MOTION_TERMS]) {
     double error = 0, size = 0, power = 1;
-    for (int i = 0; i < 3; i++, power *= span) {
+    for (int i = 0; i < MOTION_TERMS; i++, power *= span) {
         num_ball c = i <= degree ? now_divide(p[i], w) : num_ball_from(0);
         out[i] = c.x;
         error += c.e * power;
@@ -16,17 +18,24 @@ static double in_doubles(const num_ball p[3], int degree, num_ball w, double spa
     return (error + size * 0x1p-50) * NUM_BALL_UP + NUM_BALL_TINY;
 }
 
-/* A piece whose knots are lifted, in `knot`. */
-static motion_piece lifted(const now_state *now, const motion_piece *piece, motion_knot knot[2]) {
-    motion_piece out = *piece;
-    knot[0] = *piece->from, knot[1] = *piece->to;
-    for (int i = 0; i < 6; i++) {
-        double *at = i < 3 ? knot[0].at + i : knot[0].control + (i - 3);
-        *at = now_lifted(now, *at);
-        if (i < 3) knot[1].at[i] = now_lifted(now, knot[1].at[i]);
+/* A piece, and room for what it refers to. */
+typedef struct lifted_piece {
+    motion_piece piece;
+    motion_knot knot[2];
+    double second[3];
+} lifted_piece;
+
+static void lift_piece(const now_state *now, const motion_piece *piece, lifted_piece *out) {
+    out->piece = *piece;
+    out->knot[0] = *piece->from, out->knot[1] = *piece->to;
+    for (int k = 0; k < 3; k++) {
+        out->knot[0].at[k] = now_lifted(now, piece->from->at[k]);
+        out->knot[0].control[k] = now_lifted(now, piece->from->control[k]);
+        out->knot[1].at[k] = now_lifted(now, piece->to->at[k]);
+        if (piece->second) out->second[k] = now_lifted(now, piece->second[k]);
     }
-    out.from = knot, out.to = piece->to == piece->from ? knot : knot + 1;
-    return out;
+    out->piece.from = out->knot, out->piece.to = out->knot + (piece->to != piece->from);
+    if (piece->second) out->piece.second = out->second;
 }
 
 static double span_of(const now_course *c) {
@@ -61,14 +70,13 @@ void now_look_up(now_state *now, uint32_t vertex) {
     }
     motion_ball_curve p;
     const int degree = bend->piece.degree;
-    double x[3], y[3];
-    motion_knot knot[2];
-    const motion_piece piece = lifted(now, &bend->piece, knot);
-    motion_curve_ball(m, &piece, c->base, &p);
+    double x[MOTION_TERMS], y[MOTION_TERMS];
+    lifted_piece lifted;
+    lift_piece(now, &bend->piece, &lifted);
+    motion_curve_ball(m, &lifted.piece, c->base, &p);
     const double ex = in_doubles(p.x, degree, p.w, span_of(c), x), ey = in_doubles(p.y, degree, p.w, span_of(c), y);
     if (m->dim == 3) bend->error = in_doubles(p.z, degree, p.w, span_of(c), bend->z);
-    for (int i = 0; i < 2; i++) c->x[i] = x[i], c->y[i] = y[i];
-    bend->x = x[2], bend->y = y[2];
+    for (int i = 0; i < 2; i++) c->x[i] = x[i], c->y[i] = y[i], bend->x[i] = x[2 + i], bend->y[i] = y[2 + i];
     c->error = ex > ey ? ex : ey;
     if (!(c->error < (double)INFINITY)) c->error = (double)INFINITY;
 }
@@ -81,8 +89,9 @@ double now_speed(now_state *now, uint32_t vertex) {
     const now_course *c = now_course_of(now, vertex);
     const now_bend *bend = now->bends.data + vertex;
     if (c->degree == NOW_TURNING) return now_turning_speed(now, vertex);
-    double x = fabs(c->x[1]), y = fabs(c->y[1]);
-    if (c->degree == 2) x += 2 * span_of(c) * fabs(bend->x), y += 2 * span_of(c) * fabs(bend->y);
+    double x = fabs(c->x[1]), y = fabs(c->y[1]), s = span_of(c);
+    for (uint32_t i = 0; i + 2 <= c->degree; i++, s *= span_of(c))
+        x += (i + 2) * s * fabs(bend->x[i]), y += (i + 2) * s * fabs(bend->y[i]);
     return (x > y ? x : y) * (1 + 0x1p-20);
 }
 

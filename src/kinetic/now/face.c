@@ -92,7 +92,8 @@ static ball3 place_of(now_state *now, uint32_t vertex) {
     const now_spot s = now_vertex_spot(now, vertex);
     const now_bend *b = now->bends.data + vertex;
     const double t = (double)(now->tick - now->courses.data[vertex].base);
-    return (ball3){{{s.x, s.error}, {s.y, s.error}, {b->z[0] + t * (b->z[1] + t * b->z[2]), b->error}}};
+    const double height = b->z[0] + t * (b->z[1] + t * (b->z[2] + t * b->z[3]));
+    return (ball3){{{s.x, s.error}, {s.y, s.error}, {height, b->error}}};
 }
 
 static ball3 step_from(ball3 a, ball3 b) {

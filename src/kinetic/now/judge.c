@@ -71,7 +71,8 @@ static int curve_bits(const judge_cast *c, int i) {
     return bits_of(all);
 }
 
-/* Gives all vertices one denominator and drops it. That of a parabola is the square of a linear piece's. */
+/* Gives all vertices one denominator and drops it. Those of pieces that begin and end together are powers of one
+ * number, so the highest is a multiple of the others. */
 static void drop_weights(judge_cast *c) {
     int clock = -1; /* a piece of the highest degree that begins and ends when all others do that move */
     for (int i = 0; i < c->count; i++) {
@@ -86,7 +87,7 @@ static void drop_weights(judge_cast *c) {
         motion_whole_curve *v = c->curve + i;
         const int degree = piece_of(c, i)->degree;
         if (degree == c->degree) continue;
-        const num_short by = degree ? v->w : whole;
+        const num_short by = whole / v->w;
         if (curve_bits(c, i) + bits_of(size_of_short(by)) > SHORT_BITS) return;
         for (int k = 0; k < terms_of(c, i); k++) v->x[k] *= by, v->y[k] *= by;
         for (int k = 0; k < terms_of(c, i) && c->now->motion->dim == 3; k++) v->z[k] *= by;

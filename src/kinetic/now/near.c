@@ -21,7 +21,7 @@ static void subtract(const near_poly *a, const near_poly *b, near_poly *out) {
     out->error = a->error + b->error + size * 0x1p-52;
 }
 
-/* Sums of up to six products. */
+/* Sums of up to seven products. */
 static void multiply(const near_poly *a, const near_poly *b, near_poly *out) {
     out->degree = a->degree + b->degree;
     for (int i = 0; i <= out->degree; i++) out->c[i] = 0;
@@ -51,12 +51,33 @@ typedef struct near_point {
     near_poly at[2];
 } near_point;
 
+/* As place_vertex(). */
+static void place_on_cubic(now_state *now, uint32_t vertex, double span, near_point *out) {
+    const now_course *c = now->courses.data + vertex;
+    const now_bend *bend = now->bends.data + vertex;
+    const double s = (double)(now->tick - c->base), *const x[2] = {c->x, c->y}, *const b[2] = {bend->x, bend->y};
+    for (int i = 0; i < 2; i++) {
+        near_poly *p = out->at + i;
+        p->degree = 3;
+        p->c[0] = x[i][0] + s * (x[i][1] + s * (b[i][0] + s * b[i][1]));
+        p->c[1] = (x[i][1] + s * (2 * b[i][0] + 3 * s * b[i][1])) * span;
+        p->c[2] = (b[i][0] + 3 * s * b[i][1]) * span * span;
+        p->c[3] = b[i][1] * span * span * span;
+        p->size = fabs(p->c[0]) + fabs(p->c[1]) + fabs(p->c[2]) + fabs(p->c[3]);
+        p->error = 2 * c->error;
+    }
+}
+
 /* Of what rounding adds there is less than the error of the course once more. */
 static void place_vertex(now_state *now, uint32_t vertex, double span, near_point *out) {
     const now_course *c = now_course_of(now, vertex);
     const double s = (double)(now->tick - c->base), *const x[2] = {c->x, c->y};
     double b[2] = {0, 0};
-    if (c->degree > 1) b[0] = now->bends.data[vertex].x, b[1] = now->bends.data[vertex].y;
+    if (c->degree > 2) {
+        place_on_cubic(now, vertex, span, out);
+        return;
+    }
+    if (c->degree > 1) b[0] = now->bends.data[vertex].x[0], b[1] = now->bends.data[vertex].y[0];
     for (int i = 0; i < 2; i++) {
         near_poly *p = out->at + i;
         p->degree = (int)c->degree;
@@ -190,7 +211,7 @@ static void round_exact(num_arena *arena, const poly_exact *p, double span, near
         out->size += fabs(out->c[i]);
     }
     out->size *= 1 + 0x1p-40;
-    out->error = out->size * 0x1p-46 + 0x1p-400; /* a product and up to ten of powers */
+    out->error = out->size * 0x1p-46 + 0x1p-400; /* a product and up to fifteen of powers */
 }
 
 static void find_turning(now_state *now, const now_claim *claim, int axis, double span, near_poly *out) {

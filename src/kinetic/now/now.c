@@ -64,7 +64,7 @@ uint32_t now_ask(now_state *now, const double *from, const double *to) {
         double place[3] = {0, 0, 0};
         bool finite = true; /* it may be far away from all that moves */
         motion_knot *knot = now->asked + i;
-        *knot = (motion_knot){.control = {(double)NAN, (double)NAN}};
+        *knot = (motion_knot){.control = {(double)NAN, (double)NAN}, .second = FROE_NONE};
         for (int k = 0; k < now->motion->dim; k++) {
             knot->at[k] = at[k];
             place[k] = now_lifted(now, at[k]);
@@ -168,7 +168,8 @@ static bool is_above_for_good(now_state *now, uint32_t p, uint32_t q) {
     if (a->degree != b->degree || a->from->at[0] != b->from->at[0] || a->to->at[0] != b->to->at[0]) return false;
     if (!a->degree) return true;
     if (a->from->time != b->from->time || a->to->time != b->to->time) return false;
-    return a->degree == 1 || a->from->control[0] == b->from->control[0];
+    if (a->degree > 1 && a->from->control[0] != b->from->control[0]) return false;
+    return a->degree < 3 || a->second[0] == b->second[0];
 }
 
 /* A point on the line is behind it. */

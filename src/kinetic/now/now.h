@@ -17,25 +17,25 @@
 #include "num/context.h"
 #include <math.h>
 
-/** A vertex on its way: a piece of its plan in doubles, x[0] + x[1] s + x[2] s^2 with s = tick - base. Coefficients of
- * s^2 are kept elsewhere, so that this is a cache line. */
+/** A vertex on its way: a piece of its plan in doubles, x[0] + x[1] s and what bends it, with s = tick - base.
+ * Coefficients of s^2 and s^3 are kept elsewhere, so that this is a cache line. */
 typedef struct now_course {
     int64_t base, last; /**< ticks of the piece for which it holds; base > last: not looked up yet */
     double x[2], y[2];
     double error;    /**< no coordinate is further off while it holds */
-    uint32_t degree; /**< 0, 1 or 2, or NOW_TURNING: it is of a body in the plane, and the rest is 0 */
+    uint32_t degree; /**< 0 to 3, or NOW_TURNING: it is of a body in the plane, and the rest is 0 */
 } now_course;
-enum { NOW_TURNING = 3 };
+enum { NOW_TURNING = MOTION_DEGREE + 1 };
 
 /** Roughly where a point is: no coordinate is further off than `error`. */
 typedef struct now_spot {
     double x, y, error;
 } now_spot;
 
-/** What is needed less often: the place of the piece, and the coefficients of s^2. */
+/** What is needed less often: the place of the piece, and the coefficients of s^2 and s^3. */
 typedef struct now_bend {
-    double x, y;
-    double z[3], error; /**< in space: the height, as x and y of a course, and how far off it is at most */
+    double x[2], y[2];
+    double z[MOTION_TERMS], error; /**< in space: the height as a polynomial, and how far off it is at most */
     motion_piece piece;
     int64_t tick; /**< of a body in the plane: the last at which its place was asked for, which is `spot` */
     now_spot spot;
@@ -195,7 +195,10 @@ static inline now_spot now_vertex_spot(now_state *now, uint32_t vertex) {
     const now_course *c = now_course_of(now, vertex);
     if (c->degree == NOW_TURNING) return now_turning_spot(now, vertex);
     double s = (double)(now->tick - c->base), bend[2] = {0, 0};
-    if (c->degree == 2) bend[0] = now->bends.data[vertex].x, bend[1] = now->bends.data[vertex].y;
+    if (c->degree > 1) {
+        const now_bend *b = now->bends.data + vertex;
+        bend[0] = b->x[0] + s * b->x[1], bend[1] = b->y[0] + s * b->y[1];
+    }
     return (now_spot){c->x[0] + s * (c->x[1] + s * bend[0]), c->y[0] + s * (c->y[1] + s * bend[1]), c->error};
 }
 /** Up to and including which tick the flight of a vertex is one polynomial. */

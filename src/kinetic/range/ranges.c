@@ -70,9 +70,8 @@ static bool new_window(froe_kinetic *k, window *out) {
 
 /* ----------------------------------------------------------------- extents -- */
 
-static void extend_by_knot(const motion_knot *knot, bool curved, double low[3], double high[3]) {
-    const double x = curved ? knot->control[0] : knot->at[0];
-    low[0] = fmin(low[0], x), high[0] = fmax(high[0], x); /* NaN: straight */
+static void extend_by(double x, double low[3], double high[3]) {
+    low[0] = fmin(low[0], x), high[0] = fmax(high[0], x); /* NaN: there is none */
 }
 
 /* Where a vertex comes between two times, in x. */
@@ -85,8 +84,9 @@ static void extend_by_plan(const froe_motion *m, uint32_t vertex, double from, d
     for (;;) {
         const bool ends = piece.last != MOTION_FAR && piece.to->time < to;
         if (own && ends && piece.from->time >= from) { /* all of it */
-            for (int i = 0; i < 2; i++) extend_by_knot(piece.from, i, low, high);
-            extend_by_knot(piece.to, false, low, high);
+            extend_by(piece.from->at[0], low, high), extend_by(piece.to->at[0], low, high);
+            extend_by(piece.from->control[0], low, high);
+            if (piece.second) extend_by(piece.second[0], low, high);
         } else {
             motion_extend(m, &piece, from, ends ? piece.to->time : to, low, high);
         }

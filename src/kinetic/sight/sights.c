@@ -275,11 +275,16 @@ static froe_status check_motion(const froe_motion *m, bool parallel, froe_diagno
             if (plan->body != FROE_NONE)
                 return support_fail_at(diag, FROE_E_UNSUPPORTED, i, FROE_NONE, FROE_NONE,
                                        "object %u: It is of a body, which may turn.", i);
-            for (uint32_t n = 0; n < plan->count && !parallel; n++)
-                if (!isnan(m->knots.data[plan->first + n].control[0]))
+            for (uint32_t n = 0; n < plan->count; n++) {
+                const motion_knot *knot = m->knots.data + plan->first + n;
+                if (knot->second != FROE_NONE)
+                    return support_fail_at(diag, FROE_E_UNSUPPORTED, i, FROE_NONE, FROE_NONE,
+                                           "object %u: It flies along a cubic, which no eye can follow exactly.", i);
+                if (!isnan(knot->control[0]) && !parallel)
                     return support_fail_at(
                         diag, FROE_E_UNSUPPORTED, i, FROE_NONE, FROE_NONE,
                         "object %u: It flies along a parabola, which only a parallel eye can follow.", i);
+            }
         }
     return FROE_OK;
 }

@@ -130,25 +130,27 @@ static PyObject *change(PyObject *object, PyObject *const *args, Py_ssize_t coun
     return end(self, &call, status) ? Py_NewRef(Py_None) : NULL;
 }
 
-/* replan(vertex, times, coords, controls) */
+/* replan(vertex, times, coords, controls, second_controls) */
 static PyObject *replan(PyObject *object, PyObject *const *args, Py_ssize_t count) {
     core_kinetic *self = (core_kinetic *)object;
-    core_input times = {0}, coords = {0}, controls = {0};
+    core_input times = {0}, coords = {0}, controls = {0}, second_controls = {0};
     const size_t dim = self->motion->dim;
     uint32_t vertex;
     core_call call;
-    if (!core_arguments("replan", count, 4) || !core_unsigned(args[0], "vertex", FROE_NONE, &vertex)) return NULL;
+    if (!core_arguments("replan", count, 5) || !core_unsigned(args[0], "vertex", FROE_NONE, &vertex)) return NULL;
     bool done = core_input_take(&times, args[1], "times", 'd', 1, false) &&
                 core_input_take_count(&coords, args[2], "coords", 'd', dim, times.count, false) &&
                 core_input_take_count(&controls, args[3], "controls", 'd', dim, times.count, true) &&
+                core_input_take_count(&second_controls, args[4], "second_controls", 'd', dim, times.count, true) &&
                 begin(self, &call, Py_None);
     if (done)
         done = end(self, &call,
                    froe_kinetic_replan(self->kinetic, vertex, times.count, times.data, coords.data, controls.data,
-                                       &call.diag));
+                                       second_controls.data, &call.diag));
     core_input_give(&times);
     core_input_give(&coords);
     core_input_give(&controls);
+    core_input_give(&second_controls);
     return done ? Py_NewRef(Py_None) : NULL;
 }
 

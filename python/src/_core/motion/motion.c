@@ -57,7 +57,7 @@ static PyObject *new_motion(PyObject *module, PyObject *const *args, Py_ssize_t 
 
 /* -------------------------------------------------------------------- batch -- */
 
-enum { TIMES, COORDS, STARTS, CONTROLS, VERTICES, BODIES, BIRTHS, DEATHS, TAGS, GROUPS, INPUTS };
+enum { TIMES, COORDS, STARTS, CONTROLS, SECOND_CONTROLS, VERTICES, BODIES, BIRTHS, DEATHS, TAGS, GROUPS, INPUTS };
 
 static bool check_starts(const core_input *in) {
     const size_t *starts = in[STARTS].data, last = in[STARTS].count - 1;
@@ -68,28 +68,31 @@ static bool check_starts(const core_input *in) {
     return true;
 }
 
-/* args: times, coords, starts, controls, vertices, bodies, births, deaths, tags, groups */
+/* args: times, coords, starts, controls, second_controls, vertices, bodies, births, deaths, tags, groups */
 static bool take_batch(const core_motion *self, core_input *in, PyObject *const *args, froe_moving *b) {
     const size_t each = self->dim; /* segments of the plane have 2 corners, triangles in space 3 */
     if (!core_input_take(&in[TIMES], args[0], "times", 'd', 1, false) ||
         !core_input_take_count(&in[COORDS], args[1], "coords", 'd', self->dim, in[TIMES].count, false) ||
         !core_input_take(&in[STARTS], args[2], "starts", 'Q', 1, false) || !check_starts(in) ||
         !core_input_take_count(&in[CONTROLS], args[3], "controls", 'd', self->dim, in[TIMES].count, true) ||
-        !core_input_take(&in[VERTICES], args[4], "vertices", 'I', each, true))
+        !core_input_take_count(&in[SECOND_CONTROLS], args[4], "second_controls", 'd', self->dim, in[TIMES].count,
+                               true) ||
+        !core_input_take(&in[VERTICES], args[5], "vertices", 'I', each, true))
         return false;
     *b = froe_moving_defaults();
     b->vertex_count = in[STARTS].count - 1;
     b->count = in[VERTICES].data ? in[VERTICES].count : b->vertex_count / each;
     if (!in[VERTICES].data && b->vertex_count % each)
         return core_fail_as("ArrayError", "There are %zu vertices, and each object takes %zu.", b->vertex_count, each);
-    if (!core_input_take_count(&in[BODIES], args[5], "bodies", 'I', 1, b->vertex_count, true) ||
-        !core_input_take_count(&in[BIRTHS], args[6], "births", 'd', 1, b->count, true) ||
-        !core_input_take_count(&in[DEATHS], args[7], "deaths", 'd', 1, b->count, true) ||
-        !core_input_take_count(&in[TAGS], args[8], "tags", 'Q', 1, b->count, true) ||
-        !core_input_take_count(&in[GROUPS], args[9], "groups", 'I', 1, b->count, true))
+    if (!core_input_take_count(&in[BODIES], args[6], "bodies", 'I', 1, b->vertex_count, true) ||
+        !core_input_take_count(&in[BIRTHS], args[7], "births", 'd', 1, b->count, true) ||
+        !core_input_take_count(&in[DEATHS], args[8], "deaths", 'd', 1, b->count, true) ||
+        !core_input_take_count(&in[TAGS], args[9], "tags", 'Q', 1, b->count, true) ||
+        !core_input_take_count(&in[GROUPS], args[10], "groups", 'I', 1, b->count, true))
         return false;
     b->times = in[TIMES].data, b->coords = in[COORDS].data, b->starts = in[STARTS].data;
-    b->controls = in[CONTROLS].data, b->vertices = in[VERTICES].data, b->bodies = in[BODIES].data;
+    b->controls = in[CONTROLS].data, b->second_controls = in[SECOND_CONTROLS].data;
+    b->vertices = in[VERTICES].data, b->bodies = in[BODIES].data;
     b->births = in[BIRTHS].data, b->deaths = in[DEATHS].data, b->tags = in[TAGS].data, b->groups = in[GROUPS].data;
     return true;
 }
@@ -98,7 +101,7 @@ static PyObject *add(PyObject *object, PyObject *const *args, Py_ssize_t count) 
     core_motion *self = (core_motion *)object;
     core_input in[INPUTS] = {0};
     froe_moving batch;
-    if (!core_arguments("add", count, 10) || !core_motion_take(self)) return NULL;
+    if (!core_arguments("add", count, 11) || !core_motion_take(self)) return NULL;
     bool done = take_batch(self, in, args, &batch);
     if (done) {
         core_call call;
