@@ -37,6 +37,19 @@ static froe_motion *read_text(const char *text, froe_motion_report *report) {
     return m;
 }
 
+/* What is in a file from some words on, up to a mark; valid until the next call. */
+static const char *part_of_file(const char *path, const char *words, char end) {
+    static char text[1 << 16];
+    FILE *file = fopen(path, "r");
+    assert_non_null(file);
+    text[fread(text, 1, sizeof text - 1, file)] = 0;
+    assert_int_equal(fclose(file), 0);
+    char *from = strstr(text, words), *to = from ? strchr(from + strlen(words), end) : NULL;
+    assert_non_null(to);
+    *to = 0;
+    return from;
+}
+
 static void assert_refused(const char *text, froe_status status, const char *message) {
     froe_motion *m = NULL;
     froe_diagnostic diag;
@@ -82,6 +95,25 @@ static void instants_are_milliseconds_since_1970(void **state) {
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         double value;
         assert_false(formats_datetime(bad[i], &value));
+    }
+}
+
+static void assert_same_motion(const froe_motion *a, const froe_motion *b) {
+    assert_int_equal(froe_motion_object_count(a), froe_motion_object_count(b));
+    for (uint32_t i = 0; i < froe_motion_object_count(a); i++) {
+        froe_moving_object p = froe_motion_object(a, i), q = froe_motion_object(b, i);
+        assert_true(p.birth == q.birth && p.death == q.death);
+        for (int k = 0; k < 3 && p.vertices[k] != FROE_NONE; k++) {
+            size_t knots = froe_motion_knot_count(a, p.vertices[k]);
+            assert_int_equal(knots, froe_motion_knot_count(b, q.vertices[k]));
+            for (size_t j = 0; j < knots; j++) {
+                froe_moving_knot x = froe_motion_knot(a, p.vertices[k], j), y = froe_motion_knot(b, q.vertices[k], j);
+                assert_true(x.time == y.time && x.at[0] == y.at[0] && x.at[1] == y.at[1] && x.at[2] == y.at[2]);
+                if (!isnan(x.control[0])) assert_memory_equal(x.control, y.control, sizeof x.control);
+                assert_int_equal(isnan(x.second[0]), isnan(y.second[0]));
+                if (!isnan(x.second[0])) assert_memory_equal(x.second, y.second, sizeof x.second);
+            }
+        }
     }
 }
 
@@ -132,6 +164,64 @@ static void quadratic_interpolation_continues_its_velocity(void **state) {
                   NULL);
     assert_true(froe_motion_knot(m, 0, 0).control[0] == 0.1 && froe_motion_knot(m, 1, 0).control[1] == 8);
     froe_motion_free(m);
+}
+
+/* Instants on the parabola y = x^2 give that parabola, at all times. */
+static void cubic_interpolation_takes_velocities_from_parabolas(void **state) {
+    (void)state;
+    const double y[] = {0, 1, 4, 16}, ends[] = {0, 1, 2, 4};
+    double at[2];
+    froe_motion *m = read_text(LINE("[0,1,2,4]", "[[[0,0],[9,9]],[[1,1],[9,9]],[[2,4],[9,9]],[[4,16],[9,9]]]",
+                                    ",\"interpolation\":\"Cubic\""),
+                               NULL);
+    for (size_t i = 0; i < 3; i++) {
+        const froe_moving_knot knot = froe_motion_knot(m, 0, i);
+        const double h = ends[i + 1] - ends[i];
+        assert_true(fabs(knot.control[0] - (ends[i] + h / 3)) < 1e-15);
+        assert_true(fabs(knot.control[1] - (y[i] + 2 * ends[i] * h / 3)) < 1e-14);
+        assert_true(fabs(knot.second[1] - (y[i + 1] - 2 * ends[i + 1] * h / 3)) < 1e-14);
+    }
+    for (double time = 0; time <= 4; time += 0.125) {
+        assert_true(froe_motion_position(m, 0, time, at));
+        assert_true(fabs(at[0] - time) < 1e-14 && fabs(at[1] - time * time) < 1e-14);
+    }
+    assert_true(froe_motion_knot(m, 1, 1).second[0] == 9);
+    froe_motion_free(m);
+}
+
+/* A cubic, a parabola and a straight piece at one time, in a line and in a ring, and in space. */
+static void what_is_no_control_point_is_null(void **state) {
+    (void)state;
+    static const char *const files[] = {
+        LINE("[0,4]", "[[[0,0],[9,9],[5,5]],[[1,1],[9,9],[7,5]]]",
+             ",\"interpolation\":\"Cubic\",\"controls\":[[[0.1,7],[8,8],null]],"
+             "\"secondControls\":[[[0.3,-2],null,null]]"),
+        HEAD "{\"type\":\"Feature\",\"temporalGeometry\":{\"type\":\"MovingPolygon\",\"datetimes\":[0,4],"
+             "\"coordinates\":[[[[0,0],[9,9],[5,5],[0,0]]],[[[1,1],[9,9],[7,5],[1,1]]]],\"interpolation\":\"Cubic\","
+             "\"controls\":[[[[0.1,7],[8,8],null,[0.1,7]]]],\"secondControls\":[[[[0.3,-2],null,null,[0.3,-2]]]]}}]}",
+        HEAD "{\"type\":\"Feature\",\"temporalGeometry\":{\"type\":\"MovingPointCloud\",\"datetimes\":[0,4],"
+             "\"coordinates\":[[[0,0,1],[9,9,1],[5,5,1]],[[1,1,2],[9,9,2],[7,5,2]]],\"interpolation\":\"Cubic\","
+             "\"controls\":[[[0.1,7,3],[8,8,3],null]],\"secondControls\":[[[0.3,-2,3],null,null]],"
+             "\"triangles\":[[0,1,2]]}}]}"};
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        froe_motion *read = NULL, *m = read_text(files[i], NULL);
+        const froe_moving_knot cubic = froe_motion_knot(m, 0, 0), parabola = froe_motion_knot(m, 1, 0);
+        assert_true(cubic.control[0] == 0.1 && cubic.second[1] == -2);
+        assert_true(parabola.control[0] == 8 && isnan(parabola.second[0]));
+        assert_true(isnan(froe_motion_knot(m, 2, 0).control[0]) && isnan(froe_motion_knot(m, 0, 1).second[0]));
+        assert_int_equal(froe_write_motion(m, "made.mfjson", NULL), FROE_OK);
+        assert_int_equal(froe_read_motion("made.mfjson", NULL, &read, NULL, NULL), FROE_OK);
+        assert_same_motion(m, read);
+        assert_true(isnan(froe_motion_knot(read, 2, 0).control[0]));
+        if (froe_motion_window(m).dim == 2) {
+            assert_int_equal(froe_animate(m, NULL, 0, NULL, "cubic.svg", NULL), FROE_OK);
+            assert_int_equal(froe_animate(m, NULL, 0, NULL, "cubic.html", NULL), FROE_OK);
+            const char *way = part_of_file("cubic.svg", "class=\"way\" d=\"", '"');
+            assert_true(strchr(way, 'C') && strchr(way, 'Q'));
+            (void)part_of_file("cubic.html", "[0,0,0,0.1,7,0.3", ']');
+        }
+        froe_motion_free(m), froe_motion_free(read);
+    }
 }
 
 /* Two triangles of a cloud, and a tetrahedron's side that a body carries. */
@@ -228,9 +318,27 @@ static void what_is_wrong_is_said_with_the_feature(void **state) {
     assert_refused(LINE("[2,2]", "[[[0,0],[1,1]],[[0,0],[1,1]]]", ""), FROE_E_INPUT,
                    "bad.mfjson: All of the file is at one instant, 2.");
     assert_refused(LINE("[0,1]", "[[[0,0],[1,1]],[[0,0],[1,1]]]", ",\"interpolation\":\"Step\""), FROE_E_UNSUPPORTED,
-                   "bad.mfjson: feature 0: There is no interpolation 'Step'. There are: Linear, Quadratic.");
+                   "bad.mfjson: feature 0: There is no interpolation 'Step'. There are: Linear, Quadratic, Cubic.");
     assert_refused(LINE("[0,1]", "[[[0,0],[1,1]],[[0,0],[1,1]]]", ",\"interpolation\":\"Quadratic\""), FROE_E_INPUT,
                    "bad.mfjson: feature 0: Quadratic interpolation needs three instants.");
+    assert_refused(LINE("[0,1]", "[[[0,0],[1,1]],[[0,0],[1,1]]]", ",\"interpolation\":\"Cubic\""), FROE_E_INPUT,
+                   "bad.mfjson: feature 0: Cubic interpolation needs three instants.");
+    assert_refused(LINE("[0,1]", "[[[0,0],[1,1]],[[0,0],[1,1]]]",
+                        ",\"interpolation\":\"Cubic\",\"controls\":[[[0,0],[1,1]]]"),
+                   FROE_E_FORMAT, "bad.mfjson: feature 0: There are 0 second controls for 2 instants.");
+    assert_refused(LINE("[0,1]", "[[[0,0],[1,1]],[[0,0],[1,1]]]",
+                        ",\"interpolation\":\"Cubic\",\"controls\":[[[0,0],null]],"
+                        "\"secondControls\":[[[0,0],[1,1]]]"),
+                   FROE_E_INPUT,
+                   "bad.mfjson: feature 0: vertex 1: It has a second control point 0, and no first.");
+    assert_refused(LINE("[0,1]", "[[[0,0],[1,1]],[[0,0],[1,1]]]",
+                        ",\"interpolation\":\"Quadratic\",\"controls\":[[[0,0],null]]"),
+                   FROE_E_FORMAT, "bad.mfjson: feature 0: At instant 0 a position is no array of two numbers.");
+    assert_refused(HAND("MovingPoint\",\"interpolation\":\"Cubic\",\"controls\":[[1,1]],\"secondControls\":[[1,1]],\"x\":\"",
+                        "[[0,1],[0,1]]", "[[2,0]]"),
+                   FROE_E_UNSUPPORTED,
+                   "bad.mfjson: feature 0: It is a body, which does not fly along cubics. There are: Linear, "
+                   "Quadratic.");
     assert_refused("{\"type\":\"Feature\",\"temporalGeometry\":{\"type\":\"MovingPolygon\",\"datetimes\":[0,1],"
                    "\"coordinates\":[[[[0,0],[1,1],[2,0]]],[]]}}",
                    FROE_E_INPUT,
@@ -249,23 +357,6 @@ static void what_is_wrong_is_said_with_the_feature(void **state) {
 }
 
 /* -------------------------------------------------------------------- writing -- */
-
-static void assert_same_motion(const froe_motion *a, const froe_motion *b) {
-    assert_int_equal(froe_motion_object_count(a), froe_motion_object_count(b));
-    for (uint32_t i = 0; i < froe_motion_object_count(a); i++) {
-        froe_moving_object p = froe_motion_object(a, i), q = froe_motion_object(b, i);
-        assert_true(p.birth == q.birth && p.death == q.death);
-        for (int k = 0; k < 3 && p.vertices[k] != FROE_NONE; k++) {
-            size_t knots = froe_motion_knot_count(a, p.vertices[k]);
-            assert_int_equal(knots, froe_motion_knot_count(b, q.vertices[k]));
-            for (size_t j = 0; j < knots; j++) {
-                froe_moving_knot x = froe_motion_knot(a, p.vertices[k], j), y = froe_motion_knot(b, q.vertices[k], j);
-                assert_true(x.time == y.time && x.at[0] == y.at[0] && x.at[1] == y.at[1] && x.at[2] == y.at[2]);
-                if (!isnan(x.control[0])) assert_memory_equal(x.control, y.control, sizeof x.control);
-            }
-        }
-    }
-}
 
 static void assert_same_bodies(const froe_motion *a, const froe_motion *b) {
     assert_int_equal(froe_motion_body_count(a), froe_motion_body_count(b));
@@ -454,6 +545,8 @@ int main(void) {
         cmocka_unit_test(instants_are_milliseconds_since_1970),
         cmocka_unit_test(lines_rings_and_points_become_segments),
         cmocka_unit_test(quadratic_interpolation_continues_its_velocity),
+        cmocka_unit_test(cubic_interpolation_takes_velocities_from_parabolas),
+        cmocka_unit_test(what_is_no_control_point_is_null),
         cmocka_unit_test(triangles_move_in_space),
         cmocka_unit_test(what_is_wrong_in_space_is_said_with_the_feature),
         cmocka_unit_test(bodies_of_the_plane_turn_on_circles),
