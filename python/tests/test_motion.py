@@ -182,6 +182,31 @@ def test_bodies_of_the_plane_turn_on_circles() -> None:
     assert len(motion.kinetic().advance(4)) > 0
 
 
+def test_cubics_are_followed_and_may_be_learned_of():
+    """A cubic whose control points are those of a line or a parabola is that; another one passes where Bezier says."""
+    nan = [np.nan, np.nan]
+    motion = froe.Motion(0, 4)
+    motion.add([0, 4, 0, 4, 0, 0], [[0, 0], [12, 0], [0, 5], [12, 5], [6, -9], [6, 9]], [0, 2, 4, 5, 6],
+               controls=[[0, 9], nan, [4, 5], nan, nan, nan],
+               second_controls=[[12, -9], nan, [8, 5], nan, nan, nan])  # fmt: skip
+    u = np.linspace(0, 1, 9)
+    places = np.array([motion.positions(4 * share) for share in u])
+    assert np.allclose(places[:, 0, 0], 36 * (1 - u) * u**2 + 12 * u**3)
+    assert np.allclose(places[:, 0, 1], 27 * (1 - u) ** 2 * u - 27 * (1 - u) * u**2)
+    assert np.allclose(places[:, 1], np.stack([12 * u, 5 + 0 * u], axis=1))
+    contacts = motion.contacts()
+    assert len(contacts) == 1 and contacts.begin[0, 0] > 0 and contacts.end[0, 1] < 4
+    kinetic = motion.kinetic()
+    kinetic.advance(1)
+    kinetic.replan(3, [1, 4], [[6, 9], [6, 9]], controls=[[9, 9], nan], second_controls=[[3, 9], nan])
+    while kinetic.time < 3.9:
+        kinetic.advance(min(kinetic.time + 0.5, 4))
+        kinetic.audit()
+    for wrong in ({"second_controls": [[1, 1], nan]}, {"controls": [[1, 1], nan], "second_controls": [[1, np.nan], nan]}):
+        with pytest.raises(InputError):
+            motion.add([0, 4], [[0, 0], [1, 1]], [0, 2], vertices=[[0, 0]], **wrong)
+
+
 def test_replans_are_as_if_planned_before():
     """A partition that learns of a plan when it begins is one that knew it."""
     plans = [[0, 0], [0, 9], [20, 3], [20, 7]]

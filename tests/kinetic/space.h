@@ -33,6 +33,7 @@ typedef struct space_kind {
     int still;       /**< one in so many stands still */
     bool turning;    /**< in a ball: it turns over on its way */
     bool curved;     /**< on parabolas */
+    bool cubic;      /**< with curved: on cubics */
     int legs;        /**< pieces of each plan, there and back again; 0: one */
     bool mortal;     /**< they come and go */
     bool offbeat;    /**< knots of each vertex at times of its own */
@@ -41,7 +42,7 @@ typedef struct space_kind {
 typedef struct space_data {
     size_t starts[3 * SPACE_MOST + 1];
     int at[3 * SPACE_MOST][3], to[3 * SPACE_MOST][3];
-    double times[27 * SPACE_MOST], coords[81 * SPACE_MOST], controls[81 * SPACE_MOST];
+    double times[27 * SPACE_MOST], coords[81 * SPACE_MOST], controls[81 * SPACE_MOST], seconds[81 * SPACE_MOST];
     double births[SPACE_MOST], deaths[SPACE_MOST];
     uint32_t vertices[3 * SPACE_MOST];
     size_t vertex_count, count;
@@ -265,7 +266,9 @@ static inline void space_plan(const space_kind *kind, space_data *d, size_t v) {
             /* halfway in z, so that layers stay apart */
             const int middle = (p[k] + q[k]) / 2,
                       bend = k < 2 ? fuzz_int(&d->random, -kind->reach / 2, kind->reach / 2) : 0;
+            const int other = kind->cubic && k < 2 ? fuzz_int(&d->random, -kind->reach / 2, kind->reach / 2) : 0;
             d->controls[3 * (first + i) + k] = kind->curved ? ldexp(middle + bend + away, kind->scale) : (double)NAN;
+            d->seconds[3 * (first + i) + k] = kind->cubic ? ldexp(middle + other + away, kind->scale) : (double)NAN;
         }
     }
     d->starts[v + 1] = first + legs + 1;
@@ -293,7 +296,7 @@ static inline froe_motion *space_new(const space_kind *kind, uint64_t seed, cons
     w.dim = 3, w.begin = 0, w.end = SPACE_WINDOW, w.tick = kind->curved ? 0x1p-8 : 0x1p-16;
     froe_moving b = froe_moving_defaults();
     b.vertex_count = d->vertex_count, b.starts = d->starts, b.times = d->times, b.coords = d->coords;
-    b.controls = d->controls, b.births = d->births, b.deaths = d->deaths;
+    b.controls = d->controls, b.second_controls = d->seconds, b.births = d->births, b.deaths = d->deaths;
     b.count = d->count, b.vertices = d->vertices;
     froe_motion *m = batch_motion(&w, &b, alloc);
     free(d);
@@ -397,6 +400,25 @@ static const space_kind space_kinds[] = {
      .speed = 300,
      .spin = 99,
      .curved = true},
+    {.name = "cubics",
+     .form = SPACE_LAYERS,
+     .count = 12,
+     .grid = 1000,
+     .reach = 200,
+     .speed = 300,
+     .spin = 99,
+     .curved = true,
+     .cubic = true},
+    {.name = "lattice of cubics",
+     .form = SPACE_LAYERS,
+     .count = 8,
+     .grid = 12,
+     .reach = 6,
+     .speed = 6,
+     .spin = 4,
+     .curved = true,
+     .cubic = true,
+     .legs = 2},
     {.name = "one", .form = SPACE_LAYERS, .count = 1, .grid = 1000, .reach = 300, .speed = 300, .spin = 900},
     {.name = "bouncing",
      .form = SPACE_LAYERS,

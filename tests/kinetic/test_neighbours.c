@@ -23,7 +23,7 @@ enum { WINDOW = 8, VERTICES = 7, FACES = 5, KNOTS = 3 };
 typedef enum scene_kind {
     RANDOM,
     LATTICE, /* small whole numbers */
-    CURVED,  /* the same on parabolas */
+    CURVED,  /* the same on parabolas and cubics */
     STILL,   /* the same, and most vertices do not move */
     SLIDING, /* all in one plane */
     LINED,   /* all in one line */
@@ -34,6 +34,7 @@ typedef enum scene_kind {
 typedef struct scene {
     size_t starts[VERTICES + 1];
     double times[VERTICES * KNOTS], at[3 * VERTICES * KNOTS], controls[3 * VERTICES * KNOTS];
+    double seconds[3 * VERTICES * KNOTS];
     uint32_t faces[3 * FACES];
 } scene;
 
@@ -57,8 +58,10 @@ static froe_moving make(fuzz_source *r, scene_kind kind, scene *s) {
                 for (int k = 0; k < 3; k++)
                     if (k != axis) s->at[3 * n + (size_t)k] = s->at[3 * n - 3 + (size_t)k];
             }
-            for (size_t k = 0; k < 3; k++) s->controls[3 * n + k] = NAN;
-            if (kind == CURVED && fuzz_int(r, 0, 1)) place(r, kind, s->controls + 3 * n);
+            for (size_t k = 0; k < 3; k++) s->controls[3 * n + k] = s->seconds[3 * n + k] = NAN;
+            const int degree = kind == CURVED ? fuzz_int(r, 1, 3) : 1;
+            if (degree > 1) place(r, kind, s->controls + 3 * n);
+            if (degree > 2) place(r, kind, s->seconds + 3 * n);
         }
     }
     s->starts[VERTICES] = n;
@@ -70,7 +73,7 @@ static froe_moving make(fuzz_source *r, scene_kind kind, scene *s) {
         }
     froe_moving b = froe_moving_defaults();
     b.vertex_count = VERTICES, b.count = FACES, b.starts = s->starts, b.times = s->times, b.coords = s->at;
-    b.controls = s->controls, b.vertices = s->faces;
+    b.controls = s->controls, b.second_controls = s->seconds, b.vertices = s->faces;
     return b;
 }
 

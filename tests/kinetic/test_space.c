@@ -70,7 +70,7 @@ static void faces_turn_over_into_other_cells(void **state) {
 
 /* In general position there is nothing to fall back to. */
 static void nothing_is_made_anew_in_general_position(void **state) {
-    static const char *const general[] = {"layers", "small", "swarm", "soft", "still", "curved"};
+    static const char *const general[] = {"layers", "small", "swarm", "soft", "still", "curved", "cubics"};
     (void)state;
     for (size_t i = 0; i < sizeof general / sizeof *general; i++) {
         froe_motion *m = space_new(kind_named(general[i]), 9, NULL);
@@ -371,14 +371,17 @@ static froe_motion *walls_on(const froe_motion *plane) {
         for (size_t i = 0; i < count; i++) {
             const froe_moving_knot knot = froe_motion_knot(plane, from, i);
             double *at = d->coords + 3 * (d->starts[v] + i), *control = d->controls + 3 * (d->starts[v] + i);
+            double *second = d->seconds + 3 * (d->starts[v] + i);
             d->times[d->starts[v] + i] = knot.time;
-            for (int k = 0; k < 2; k++) at[k] = knot.at[k], control[k] = knot.control[k];
+            for (int k = 0; k < 2; k++) at[k] = knot.at[k], control[k] = knot.control[k], second[k] = knot.second[k];
             at[2] = (double)(2 * (v / 3) + (v % 3 == 2));
             control[2] = isnan(control[0]) ? control[0] : at[2];
+            second[2] = isnan(second[0]) ? second[0] : at[2];
         }
     }
     w.dim = 3;
     b.starts = d->starts, b.times = d->times, b.coords = d->coords, b.controls = d->controls;
+    b.second_controls = d->seconds;
     froe_motion *out = batch_motion(&w, &b, NULL);
     free(d);
     return out;
@@ -410,7 +413,7 @@ static bool are_shadows(const froe_kinetic *plane, const froe_kinetic *space) {
 
 /* A partition of walls is that of the segments they stand on, node for node. */
 static void walls_have_the_tree_of_the_segments_below_them(void **state) {
-    static const size_t kinds[] = {0, 2, 6, 8};
+    static const size_t kinds[] = {0, 2, 6, 8, MOVING_KINDS - 5, MOVING_KINDS - 3};
     (void)state;
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         froe_motion *plane = moving_new(moving_kinds + kinds[i], 4, NULL), *walls = walls_on(plane);

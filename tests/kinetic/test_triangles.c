@@ -29,19 +29,23 @@ typedef enum scene_kind {
     LINED,     /* all corners on one line */
     LIVES,     /* lattice motions that begin and end at whole times */
     FAR,       /* lattice, 2^40 from the origin */
+    CUBIC,     /* as RANDOM, on cubics and parabolas */
+    CUBICAL,   /* as LATTICE, on them */
     BODIES,    /* each a body of its own that turns, by right angles and others */
     FALLING,   /* the same along parabolas, and shapes that are no bodies */
+    TUMBLING,  /* the same, and these on cubics */
     SCENES
 } scene_kind;
 
 typedef struct scene {
     size_t starts[3 * MOST + 1], count;
-    double times[3 * MOST * KNOTS], at[9 * MOST * KNOTS], controls[9 * MOST * KNOTS], births[MOST], deaths[MOST];
+    double times[3 * MOST * KNOTS], at[9 * MOST * KNOTS], controls[9 * MOST * KNOTS], seconds[9 * MOST * KNOTS];
+    double births[MOST], deaths[MOST];
     uint32_t bodies[3 * MOST];
 } scene;
 
 static double number(fuzz_source *r, scene_kind kind) {
-    return kind == RANDOM || kind == CURVED ? fuzz_int(r, -64, 64) * 0x1p-6 : fuzz_int(r, 0, 3);
+    return kind == RANDOM || kind == CURVED || kind == CUBIC ? fuzz_int(r, -64, 64) * 0x1p-6 : fuzz_int(r, 0, 3);
 }
 
 static size_t times_of(fuzz_source *r, scene_kind kind, bool in_body, double *times) {
@@ -69,17 +73,20 @@ static void corner(fuzz_source *r, scene_kind kind, const scene *s, size_t v, si
 }
 
 static froe_moving make(fuzz_source *r, scene_kind kind, size_t n, scene *s) {
-    const bool curved = kind == CURVED || kind == PARABOLIC || kind == FALLING;
+    const bool cubic = kind == CUBIC || kind == CUBICAL || kind == TUMBLING;
+    const bool curved = kind == CURVED || kind == PARABOLIC || kind == FALLING || cubic;
     size_t at = 0;
     for (size_t v = 0; v < 3 * n; v++) {
         s->starts[v] = at;
-        const bool in_body = kind == BODIES || (kind == FALLING && v / 3 % 2);
+        const bool in_body = kind == BODIES || (kind >= FALLING && v / 3 % 2);
         const size_t count = times_of(r, kind, in_body, s->times + at);
         s->bodies[v] = in_body ? (uint32_t)(v / 3) : FROE_NONE;
         for (size_t i = 0; i < count; i++, at++) {
             corner(r, kind, s, v, i, s->at + 3 * at);
             const bool straight = !curved || fuzz_int(r, 0, 1);
             for (size_t k = 0; k < 3; k++) s->controls[3 * at + k] = straight ? NAN : number(r, kind);
+            const bool again = cubic && !straight && fuzz_int(r, 0, 3);
+            for (size_t k = 0; k < 3; k++) s->seconds[3 * at + k] = again ? number(r, kind) : NAN;
         }
     }
     s->starts[3 * n] = at;
@@ -89,7 +96,7 @@ static froe_moving make(fuzz_source *r, scene_kind kind, size_t n, scene *s) {
     }
     froe_moving b = froe_moving_defaults();
     b.vertex_count = 3 * n, b.count = n, b.starts = s->starts, b.times = s->times, b.coords = s->at;
-    b.controls = s->controls, b.births = s->births, b.deaths = s->deaths;
+    b.controls = s->controls, b.second_controls = s->seconds, b.births = s->births, b.deaths = s->deaths;
     if (kind >= BODIES) b.bodies = s->bodies;
     return b;
 }
@@ -249,7 +256,7 @@ static void contacts_are_those_of_linear_programs(void **state) {
             froe_motion_free(m);
         }
         assert_true(t.contacts >= 12);
-        if (kind >= LATTICE && kind != LINED && kind != LIVES && kind < BODIES)
+        if (kind >= LATTICE && kind != LINED && kind != LIVES && kind < CUBIC)
             assert_true(t.instants > 5 && t.known > 5);
         if (kind != STACKED) assert_true(t.lasting > 8);
     }
@@ -478,16 +485,22 @@ static void neighbours_are_left_out(void **state) {
     froe_motion_free(m);
 }
 
-/* The widest numbers that doubles make: the arena must hold whatever comes. */
+/* The widest numbers that doubles make: the arena must hold whatever comes. Chains of cubics of the widest take hours. */
 static void nasty_coordinates_stay_within_the_arena(void **state) {
     (void)state;
     static scene s;
     fuzz_source r = {5};
-    for (int kind = 0; kind < FUZZ_CLASSES; kind++) {
-        const froe_moving batch = make(&r, kind % 3 == 0 ? PARABOLIC : kind % 3 == 1 ? BODIES : FALLING, 2, &s);
+    for (int i = 0; i < FUZZ_CLASSES + FUZZ_WIDE; i++) {
+        const int kind = i % FUZZ_CLASSES;
+        const bool cubic = i >= FUZZ_CLASSES;
+        const scene_kind curved[2][3] = {{PARABOLIC, BODIES, FALLING}, {CUBICAL, TUMBLING, CUBIC}};
+        const froe_moving batch = make(&r, curved[cubic][kind % 3], 2, &s);
         fuzz_points(&r, (fuzz_class)kind, 3, s.at, s.starts[6]);
-        for (size_t i = 0; i < 3 * s.starts[6]; i++)
-            if (!isnan(s.controls[i])) s.controls[i] = fuzz_coordinate(&r, (fuzz_class)kind);
+        for (size_t k = 0; k < 3 * s.starts[6]; k++)
+            for (int second = 0; second < 2; second++) {
+                double *x = second ? s.seconds + k : s.controls + k;
+                if (!isnan(*x)) *x = fuzz_coordinate(&r, (fuzz_class)kind);
+            }
         froe_motion *m = motion_of(&batch);
         meet_worker w;
         assert_int_equal(meet_worker_new(m, &w), FROE_OK);

@@ -22,6 +22,7 @@ static const web_member moving_members[] = {
     {"times", WEB_ADDRESS, AT(times), NULL},
     {"coords", WEB_ADDRESS, AT(coords), NULL},
     {"controls", WEB_ADDRESS, AT(controls), NULL},
+    {"secondControls", WEB_ADDRESS, AT(second_controls), NULL},
     {"count", WEB_INT, AT(count), NULL},
     {"vertices", WEB_ADDRESS, AT(vertices), NULL},
     {"bodies", WEB_ADDRESS, AT(bodies), NULL},

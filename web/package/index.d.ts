@@ -506,6 +506,8 @@ export interface MovingBatch {
     coords: Numbers;
     /** Control points of parabolas; NaN: straight. */
     controls?: Numbers;
+    /** With `controls`, the second control points of cubics; NaN: none. */
+    secondControls?: Numbers;
     /** Two for each segment of the plane, three for each triangle in space. */
     vertices?: Numbers;
     vertexCount?: number;

@@ -4,8 +4,9 @@ import { addGroup, groupOf } from "./groups.js";
 import { Kinetic } from "./kinetic.js";
 import { AT, CORE, HANDLE, Handle, Resource } from "./resource.js";
 
-const MOVING = { starts: Uint32Array, times: Float64Array, coords: Float64Array, controls: Float64Array, vertices: Uint32Array,
-    bodies: Uint32Array, births: Float64Array, deaths: Float64Array, tags: BigUint64Array, groups: Uint32Array };
+const MOVING = { starts: Uint32Array, times: Float64Array, coords: Float64Array, controls: Float64Array,
+    secondControls: Float64Array, vertices: Uint32Array, bodies: Uint32Array, births: Float64Array, deaths: Float64Array,
+    tags: BigUint64Array, groups: Uint32Array };
 const BODY = { times: Float64Array, coords: Float64Array, controls: Float64Array, turns: Float64Array };
 const WINDOW = 32, OBJECT = 48, CONTACT = 48; // bytes of froe_motion_options, froe_moving_object, froe_contact
 
@@ -35,15 +36,16 @@ export class Motion extends Resource {
 
     /** Adds objects. Vertex v passes the point coords[i] at times[i], for i from starts[v] to starts[v + 1] - 1, in
      * between straight on at constant speed, or on the parabola with the control point controls[i] where that is not
-     * NaN; one with one time stands still. Segments and triangles join the vertices in `vertices`, by default each once,
-     * in order; births and deaths are the times when they appear and disappear. */
+     * NaN, or on the cubic with that and secondControls[i] where neither is; one with one time stands still. Segments and
+     * triangles join the vertices in `vertices`, by default each once, in order; births and deaths are the times when they
+     * appear and disappear. */
     add(batch) {
         const options = arraysOf(MOVING, batch), dim = this.dim;
         for (const name of ["starts", "times", "coords"])
             if (!options[name]) throw new TypeError(`A batch of moving objects has ${name}.`);
         whole(options.vertexCount ??= Math.max(options.starts.length - 1, 0), "vertexCount");
         checkStarts(options.starts, options.vertexCount, options.times.length);
-        checkLengths(options, ["coords", "controls"], dim * options.starts[options.vertexCount], "coordinates");
+        checkLengths(options, ["coords", "controls", "secondControls"], dim * options.starts[options.vertexCount], "coordinates");
         checkLengths(options, ["bodies"], options.vertexCount, "vertices");
         const joined = options.vertices?.length ?? options.vertexCount;
         options.count ??= joined / dim;

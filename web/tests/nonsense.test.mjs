@@ -9,7 +9,7 @@ const VALUES = [undefined, null, true, -1, 0, 0.5, 3, 1e300, NaN, Infinity, 2n *
     new ArrayBuffer(8), new DataView(new ArrayBuffer(8)), new Date(0), Object.create(null)];
 /** Members of options, so that each is tried with each value, too. */
 const OPTIONS = {
-    add: ["kind", "coords", "count", "indices", "starts", "radii", "tags", "faces", "groups", "group", "times", "controls", "vertices",
+    add: ["kind", "coords", "count", "indices", "starts", "radii", "tags", "faces", "groups", "group", "times", "controls", "secondControls", "vertices",
         "bodies", "births", "deaths", "vertexCount", "pointCount", "nothing"],
     build: ["method", "purpose", "settings", "leaf", "seed", "order", "orderCount", "maxFragments"],
     range: ["shape", "points", "offsets", "radius", "eps", "walk", "count"],

@@ -156,6 +156,7 @@ class Motion:
         starts: npt.ArrayLike,
         *,
         controls: npt.ArrayLike | None = None,
+        second_controls: npt.ArrayLike | None = None,
         vertices: npt.ArrayLike | None = None,
         bodies: npt.ArrayLike | None = None,
         births: npt.ArrayLike | None = None,
@@ -170,6 +171,7 @@ class Motion:
         :param coords: (m, dim)
         :param starts: (vertices + 1,)
         :param controls: (m, dim); where it is not NaN, the vertex follows the parabola with this control point
+        :param second_controls: (m, dim); where it is not NaN, the vertex follows the cubic with both control points
         :param vertices: (objects, dim) numbers of vertices that each object joins; None: each vertex once, in order
         :param bodies: (vertices,) the body of each vertex, which then has one time and its place in the body, from the
             centre; None: of none
@@ -184,6 +186,7 @@ class Motion:
             rows(coords, "coords", self.dim, self.dim),
             whole(starts, "starts", np.uint64).ravel(),
             None if controls is None else rows(controls, "controls", self.dim, self.dim),
+            None if second_controls is None else rows(second_controls, "second_controls", self.dim, self.dim),
             None if vertices is None else whole(vertices, "vertices", np.uint32).ravel(),
             None if bodies is None else whole(bodies, "bodies", np.uint32),
             None if births is None else doubles(births, "births"),
@@ -406,14 +409,20 @@ class Kinetic:
         self._core.change(_REMOVE, number)
 
     def replan(
-        self, vertex: int, times: npt.ArrayLike, coords: npt.ArrayLike, *, controls: npt.ArrayLike | None = None
+        self,
+        vertex: int,
+        times: npt.ArrayLike,
+        coords: npt.ArrayLike,
+        *,
+        controls: npt.ArrayLike | None = None,
+        second_controls: npt.ArrayLike | None = None,
     ) -> None:
         """Gives a vertex another plan from the present on. Where it is now may change, too.
 
         :param vertex: its number
         :param times: (m,), ascending, from the present or earlier on
         :param coords: (m, dim)
-        :param controls: (m, dim), as for ``Motion.add``
+        :param controls, second_controls: (m, dim), as for ``Motion.add``
         :cost: O(log n) expected for each crossing of its objects
 
         >>> import froe
@@ -430,6 +439,7 @@ class Kinetic:
             doubles(times, "times").ravel(),
             rows(coords, "coords", dim, dim),
             None if controls is None else rows(controls, "controls", dim, dim),
+            None if second_controls is None else rows(second_controls, "second_controls", dim, dim),
         )
 
     def order(self, eye: npt.ArrayLike) -> tuple[Ids, Doubles]:
