@@ -197,8 +197,9 @@ const cli_command cli_command_simulate = {
     .name = "simulate",
     .summary = "find when moving objects meet, and show it",
     .about =
-        "MOVING is a file of OGC Moving Features JSON: lines, polygons and points whose vertices move straight, or on "
-        "parabolas, from instant to instant. All contacts between its segments are found, the shortest included: "
+        "MOVING is a file of OGC Moving Features JSON: lines, polygons and points whose vertices move straight, on "
+        "parabolas or on cubics, from instant to instant. All contacts between its segments are found, the shortest "
+        "included: "
         "when they begin and end is known to lie between two doubles that are neighbours or nearly so. Segments that "
         "share a vertex are not said to meet. Features with triangles move in space, corner by corner or as bodies "
         "that "

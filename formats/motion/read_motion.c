@@ -36,8 +36,8 @@ typedef struct reading {
     bool flat; /* no z so far */
     bool gaps; /* a position may be null: no control point */
     /* of one geometry */
-    size_t instants, points;         /* points: of each instant, rings without their last */
-    sizes rings, here;               /* points of each line or ring: at instant 0, and at the one being read */
+    size_t instants, points; /* points: of each instant, rings without their last */
+    sizes rings, here;       /* points of each line or ring: at instant 0, and at the one being read */
     doubles times, coords, controls, second_controls;                     /* one instant after the other */
     doubles plan_times, plan_coords, plan_controls, plan_second_controls; /* one point after the other */
     doubles turns;                                                        /* of a body */
@@ -337,8 +337,9 @@ static froe_status take_body(reading *r, const formats_json *geometry, int degre
     froe_body body = froe_body_defaults();
     uint32_t id;
     if (degree == 3)
-        return fail_feature(r, FROE_E_UNSUPPORTED, "It is a body, which does not fly along cubics. There are: Linear, "
-                                                   "Quadratic.");
+        return fail_feature(r, FROE_E_UNSUPPORTED,
+                            "It is a body, which does not fly along cubics. There are: Linear, "
+                            "Quadratic.");
     froe_status status = take_turns(r, formats_json_get(geometry, "turns"));
     if (status) return status;
     body.count = r->instants, body.times = r->times.data, body.coords = r->coords.data;
@@ -556,9 +557,9 @@ static froe_status read_file(reading *r) {
     if (!status) status = take_features(r, values.data);
     array_free(alloc, &values);
     array_free(alloc, &text);
-    doubles *const numbers[] = {&r->times,       &r->coords,        &r->controls,             &r->second_controls,
-                                &r->plan_times,  &r->plan_coords,   &r->plan_controls,        &r->plan_second_controls,
-                                &r->births,      &r->deaths,        &r->turns};
+    doubles *const numbers[] = {&r->times,      &r->coords,      &r->controls,      &r->second_controls,
+                                &r->plan_times, &r->plan_coords, &r->plan_controls, &r->plan_second_controls,
+                                &r->births,     &r->deaths,      &r->turns};
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) array_free(alloc, numbers[i]);
     array_free(alloc, &r->rings);
     array_free(alloc, &r->here);

@@ -57,7 +57,7 @@ static froe_status check_motion(const chain *c, froe_diagnostic *diag) {
 }
 
 /* The greatest degree of a piece of the chain. */
-static int degree_of(const chain *c, size_t knots) {
+static int chain_degree(const chain *c, size_t knots) {
     int degree = 1;
     for (uint32_t i = 0; i < point_count(c); i++)
         for (size_t k = 0; k + 1 < knots; k++) {
@@ -99,7 +99,7 @@ static void put_feature(formats_writer *w, const chain *c) {
     uint32_t v0 = vertex_of(c, 0);
     size_t count = froe_motion_knot_count(c->motion, v0);
     const bool point = v0 == vertex_of(c, 1);
-    const int degree = degree_of(c, count);
+    const int degree = chain_degree(c, count);
     formats_put(w, "{\"type\":\"Feature\",\"properties\":{");
     if (o.group != FROE_NONE) {
         formats_put(w, "\"name\":");

@@ -128,7 +128,7 @@ static froe_moving_knot flight_knot(const solid *s, uint32_t vertex, size_t k) {
 }
 
 /* The greatest degree of a piece. */
-static int degree_of(const solid *s) {
+static int solid_degree(const solid *s) {
     const size_t count = instants_of(s, s->corners[0]);
     int degree = 1;
     for (uint32_t i = 0; i < (s->body == FROE_NONE ? s->count : 1); i++)
@@ -192,7 +192,7 @@ static void put_base(formats_writer *w, const solid *s, size_t count) {
 static void put_solid(formats_writer *w, const solid *s) {
     const froe_moving_object o = object_at(s, s->first);
     const size_t count = instants_of(s, s->corners[0]);
-    const int degree = degree_of(s);
+    const int degree = solid_degree(s);
     formats_put(w, "{\"type\":\"Feature\",\"properties\":{");
     if (o.group != FROE_NONE) {
         formats_put(w, "\"name\":");

@@ -82,21 +82,21 @@ FROE_API froe_status froe_motion_add_body(froe_motion *motion, const froe_body *
  * vertex of a body has one time, which does not matter: its coordinates are those in the body, from the centre, before
  * the turn. The corners of a triangle, and the ends of a segment, are all of one body, or of none. */
 typedef struct froe_moving {
-    size_t size;              /**< set by froe_moving_defaults() */
-    size_t vertex_count;      /**< flight plans */
-    const size_t *starts;     /**< vertex_count + 1 offsets into times */
-    const double *times;      /**< strictly increasing in each plan */
-    const double *coords;     /**< x, y (and z) for each time */
-    const double *controls;   /**< as many for each time but each plan's last (ignored); NULL: all pieces linear */
+    size_t size;                   /**< set by froe_moving_defaults() */
+    size_t vertex_count;           /**< flight plans */
+    const size_t *starts;          /**< vertex_count + 1 offsets into times */
+    const double *times;           /**< strictly increasing in each plan */
+    const double *coords;          /**< x, y (and z) for each time */
+    const double *controls;        /**< as many for each time but each plan's last (ignored); NULL: all pieces linear */
     const double *second_controls; /**< alike, and NaN where controls are; NULL: no piece is cubic */
-    size_t count;             /**< objects: segments or triangles */
-    const uint32_t *vertices; /**< 2 a segment, 3 a triangle; NULL: each number once, in order */
-    const uint32_t *bodies;   /**< of each vertex, or FROE_NONE; NULL: none */
-    const double *births;     /**< count times at which objects appear; NULL: with the window, as is -INFINITY */
-    const double *deaths;     /**< last times at which they are there; NULL: with the window, as is INFINITY */
-    const uint64_t *tags;     /**< the caller's names; NULL: each object's own id */
-    const uint32_t *groups;   /**< group of each object; NULL: `group` for all */
-    uint32_t group;           /**< FROE_NONE: no group */
+    size_t count;                  /**< objects: segments or triangles */
+    const uint32_t *vertices;      /**< 2 a segment, 3 a triangle; NULL: each number once, in order */
+    const uint32_t *bodies;        /**< of each vertex, or FROE_NONE; NULL: none */
+    const double *births;          /**< count times at which objects appear; NULL: with the window, as is -INFINITY */
+    const double *deaths;          /**< last times at which they are there; NULL: with the window, as is INFINITY */
+    const uint64_t *tags;          /**< the caller's names; NULL: each object's own id */
+    const uint32_t *groups;        /**< group of each object; NULL: `group` for all */
+    uint32_t group;                /**< FROE_NONE: no group */
 } froe_moving;
 FROE_DEFAULTS(froe_moving, froe_moving_defaults); /**< none, no groups */
 
@@ -220,7 +220,8 @@ typedef bool froe_contact_fn(void *user, const froe_contact *contact);
  * with a body 10). Triangles may lie in one plane, and may have no area,
  * at an instant or always. Objects that share a vertex always meet there, and are left out (but see `neighbours`), as
  * are two of one body. options NULL: the defaults. FROE_E_OPTIONS: from > to, or outside the window. FROE_E_LIMIT: two
- * things happen within 2^-2047 of the time between two knots. FROE_E_UNSUPPORTED: neighbours in the plane.
+ * things happen within 2^-2047 of the time between two knots; or in space a vertex flies along a cubic, and numbers are
+ * as wide as coordinates of 400 bits with times of 180. FROE_E_UNSUPPORTED: neighbours in the plane.
  * FROE_E_MEMORY, FROE_E_CANCELLED. O(n log^2 n + candidates). */
 FROE_API froe_status froe_motion_contacts(const froe_motion *motion, const froe_contact_options *options,
                                           froe_contact_fn *fn, void *user, froe_diagnostic *diag);
@@ -356,8 +357,8 @@ FROE_API froe_status froe_kinetic_update(froe_kinetic *kinetic, froe_diagnostic 
  * second controls (NULL: no cubic). Where it is now may change: then its segments leave here and appear there. The failures of froe_motion_add, and then
  * nothing is changed. FROE_E_UNSUPPORTED: the vertex belongs to a body. */
 FROE_API froe_status froe_kinetic_replan(froe_kinetic *kinetic, uint32_t vertex, size_t count, const double *times,
-                                         const double *coords, const double *controls,
-                                         const double *second_controls, froe_diagnostic *diag);
+                                         const double *coords, const double *controls, const double *second_controls,
+                                         froe_diagnostic *diag);
 /** Takes an object out, for good. FROE_E_ARG: there is no such object. */
 FROE_API froe_status froe_kinetic_remove(froe_kinetic *kinetic, uint32_t object, froe_diagnostic *diag);
 

@@ -159,19 +159,22 @@ size_t num_poly_arena(size_t limbs, size_t argument) {
     return (size_t)NUMBERS * ((limbs + 2) * GROWTH + NUM_DEGREE * (argument + 2));
 }
 
+/* Binomial coefficients. */
+typedef double row[NUM_DEGREE + 1];
+static const row choose[NUM_DEGREE + 1] = {{1},
+                                           {1, 1},
+                                           {1, 2, 1},
+                                           {1, 3, 3, 1},
+                                           {1, 4, 6, 4, 1},
+                                           {1, 5, 10, 10, 5, 1},
+                                           {1, 6, 15, 20, 15, 6, 1},
+                                           {1, 7, 21, 35, 35, 21, 7, 1},
+                                           {1, 8, 28, 56, 70, 56, 28, 8, 1},
+                                           {1, 9, 36, 84, 126, 126, 84, 36, 9, 1},
+                                           {1, 10, 45, 120, 210, 252, 210, 120, 45, 10, 1}};
+
 /* Coefficient j of Bernstein, times C(n, j): the sum of c[i] C(n - i, j - i). */
 static num_ball bernstein(const num_ball_poly *f, int j) {
-    static const double choose[NUM_DEGREE + 1][NUM_DEGREE + 1] = {{1},
-                                                                  {1, 1},
-                                                                  {1, 2, 1},
-                                                                  {1, 3, 3, 1},
-                                                                  {1, 4, 6, 4, 1},
-                                                                  {1, 5, 10, 10, 5, 1},
-                                                                  {1, 6, 15, 20, 15, 6, 1},
-                                                                  {1, 7, 21, 35, 35, 21, 7, 1},
-                                                                  {1, 8, 28, 56, 70, 56, 28, 8, 1},
-                                                                  {1, 9, 36, 84, 126, 126, 84, 36, 9, 1},
-                                                                  {1, 10, 45, 120, 210, 252, 210, 120, 45, 10, 1}};
     num_ball sum = f->c[j];
     for (int i = 0; i < j; i++)
         sum = num_ball_add(sum, num_ball_mul(num_ball_from(choose[f->degree - i][j - i]), f->c[i]));

@@ -171,9 +171,9 @@ static void cubic_interpolation_takes_velocities_from_parabolas(void **state) {
     (void)state;
     const double y[] = {0, 1, 4, 16}, ends[] = {0, 1, 2, 4};
     double at[2];
-    froe_motion *m = read_text(LINE("[0,1,2,4]", "[[[0,0],[9,9]],[[1,1],[9,9]],[[2,4],[9,9]],[[4,16],[9,9]]]",
-                                    ",\"interpolation\":\"Cubic\""),
-                               NULL);
+    froe_motion *m = read_text(
+        LINE("[0,1,2,4]", "[[[0,0],[9,9]],[[1,1],[9,9]],[[2,4],[9,9]],[[4,16],[9,9]]]", ",\"interpolation\":\"Cubic\""),
+        NULL);
     for (size_t i = 0; i < 3; i++) {
         const froe_moving_knot knot = froe_motion_knot(m, 0, i);
         const double h = ends[i + 1] - ends[i];
@@ -323,22 +323,22 @@ static void what_is_wrong_is_said_with_the_feature(void **state) {
                    "bad.mfjson: feature 0: Quadratic interpolation needs three instants.");
     assert_refused(LINE("[0,1]", "[[[0,0],[1,1]],[[0,0],[1,1]]]", ",\"interpolation\":\"Cubic\""), FROE_E_INPUT,
                    "bad.mfjson: feature 0: Cubic interpolation needs three instants.");
-    assert_refused(LINE("[0,1]", "[[[0,0],[1,1]],[[0,0],[1,1]]]",
-                        ",\"interpolation\":\"Cubic\",\"controls\":[[[0,0],[1,1]]]"),
-                   FROE_E_FORMAT, "bad.mfjson: feature 0: There are 0 second controls for 2 instants.");
+    assert_refused(
+        LINE("[0,1]", "[[[0,0],[1,1]],[[0,0],[1,1]]]", ",\"interpolation\":\"Cubic\",\"controls\":[[[0,0],[1,1]]]"),
+        FROE_E_FORMAT, "bad.mfjson: feature 0: There are 0 second controls for 2 instants.");
     assert_refused(LINE("[0,1]", "[[[0,0],[1,1]],[[0,0],[1,1]]]",
                         ",\"interpolation\":\"Cubic\",\"controls\":[[[0,0],null]],"
                         "\"secondControls\":[[[0,0],[1,1]]]"),
-                   FROE_E_INPUT,
-                   "bad.mfjson: feature 0: vertex 1: It has a second control point 0, and no first.");
-    assert_refused(LINE("[0,1]", "[[[0,0],[1,1]],[[0,0],[1,1]]]",
-                        ",\"interpolation\":\"Quadratic\",\"controls\":[[[0,0],null]]"),
-                   FROE_E_FORMAT, "bad.mfjson: feature 0: At instant 0 a position is no array of two numbers.");
-    assert_refused(HAND("MovingPoint\",\"interpolation\":\"Cubic\",\"controls\":[[1,1]],\"secondControls\":[[1,1]],\"x\":\"",
-                        "[[0,1],[0,1]]", "[[2,0]]"),
-                   FROE_E_UNSUPPORTED,
-                   "bad.mfjson: feature 0: It is a body, which does not fly along cubics. There are: Linear, "
-                   "Quadratic.");
+                   FROE_E_INPUT, "bad.mfjson: feature 0: vertex 1: It has a second control point 0, and no first.");
+    assert_refused(
+        LINE("[0,1]", "[[[0,0],[1,1]],[[0,0],[1,1]]]", ",\"interpolation\":\"Quadratic\",\"controls\":[[[0,0],null]]"),
+        FROE_E_FORMAT, "bad.mfjson: feature 0: At instant 0 a position is no array of two numbers.");
+    assert_refused(
+        HAND("MovingPoint\",\"interpolation\":\"Cubic\",\"controls\":[[1,1]],\"secondControls\":[[1,1]],\"x\":\"",
+             "[[0,1],[0,1]]", "[[2,0]]"),
+        FROE_E_UNSUPPORTED,
+        "bad.mfjson: feature 0: It is a body, which does not fly along cubics. There are: Linear, "
+        "Quadratic.");
     assert_refused("{\"type\":\"Feature\",\"temporalGeometry\":{\"type\":\"MovingPolygon\",\"datetimes\":[0,1],"
                    "\"coordinates\":[[[[0,0],[1,1],[2,0]]],[]]}}",
                    FROE_E_INPUT,

@@ -107,8 +107,7 @@ static inline bool changing_replan(changing *c) {
         c->counts.jumps++;
     }
     c->counts.replans++;
-    if (froe_kinetic_replan(c->all.kinetic, vertex, plan.count, plan.times, plan.xy, plan.controls,
-                            plan.seconds, &why))
+    if (froe_kinetic_replan(c->all.kinetic, vertex, plan.count, plan.times, plan.xy, plan.controls, plan.seconds, &why))
         return BESIDE_FAIL(&c->all, "replan of vertex %u: %s", vertex, why.message);
     return true;
 }

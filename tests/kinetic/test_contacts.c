@@ -20,7 +20,8 @@ static void contacts_are_those_of_exact_brute_force(void **state) {
     for (int kind = 0; kind < MOTION_KINDS; kind++) {
         judged_contacts t = {0};
         for (int round = 0; round < 2; round++) {
-            froe_moving batch = motion_make(&r, (motion_kind)kind, kind == MOTION_QUADRATIC || kind == MOTION_CUBIC ? 4 : 6, &arrays);
+            froe_moving batch =
+                motion_make(&r, (motion_kind)kind, kind == MOTION_QUADRATIC || kind == MOTION_CUBIC ? 4 : 6, &arrays);
             froe_motion *m = motion_of(&batch, NULL);
             judge_contacts(m, &t);
             froe_motion_free(m);

@@ -485,7 +485,7 @@ static void neighbours_are_left_out(void **state) {
     froe_motion_free(m);
 }
 
-/* The widest numbers that doubles make: the arena must hold whatever comes. Chains of cubics of the widest take hours. */
+/* The widest numbers that doubles make: the arena must hold whatever comes. Cubics of the widest would take hours. */
 static void nasty_coordinates_stay_within_the_arena(void **state) {
     (void)state;
     static scene s;
@@ -510,6 +510,29 @@ static void nasty_coordinates_stay_within_the_arena(void **state) {
         }
         assert_true(w.arena.high < w.arena.capacity / 2);
         meet_worker_free(m, &w);
+        froe_motion_free(m);
+    }
+}
+
+/* Chains of cubics would take hours. */
+static void wide_numbers_of_cubics_are_refused(void **state) {
+    (void)state;
+    static scene s;
+    static found f;
+    for (int wide = 0; wide < 2; wide++) {
+        fuzz_source r = {5};
+        froe_diagnostic why;
+        const froe_moving batch = make(&r, CUBICAL, 2, &s);
+        f.count = 0;
+        s.at[0] = wide ? 0x1p-1074 : 0x1p-90, s.at[1] = wide ? 0x1p300 : 1;
+        froe_motion *m = motion_of(&batch);
+        if (wide) {
+            assert_int_equal(froe_motion_contacts(m, NULL, found_note, &f, &why), FROE_E_LIMIT);
+            assert_string_equal(why.message, "Coordinates of 1375 bits and times of 4 are too wide for contacts along "
+                                             "cubics in space.");
+        } else {
+            assert_int_equal(froe_motion_contacts(m, NULL, found_note, &f, &why), FROE_OK);
+        }
         froe_motion_free(m);
     }
 }
@@ -544,6 +567,7 @@ int main(void) {
         cmocka_unit_test(touches_of_every_kind_are_told_to_the_instant),
         cmocka_unit_test(neighbours_are_left_out),
         cmocka_unit_test(nasty_coordinates_stay_within_the_arena),
+        cmocka_unit_test(wide_numbers_of_cubics_are_refused),
         cmocka_unit_test(every_allocation_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

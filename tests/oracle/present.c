@@ -244,8 +244,9 @@ static void fly_in_body(flight *f, const froe_motion *m, uint32_t vertex, double
     while (knot + 2 < count && froe_motion_body_knot(m, body, knot + 1).time <= time) knot++;
     const froe_body_knot from = froe_motion_body_knot(m, body, knot);
     const froe_body_knot to = count > 1 ? froe_motion_body_knot(m, body, knot + 1) : from;
-    const froe_moving_knot centre[2] = {{from.time, {from.at[0], from.at[1]}, {from.control[0], from.control[1]}, {NAN}},
-                                        {to.time, {to.at[0], to.at[1]}, {NAN}, {NAN}}};
+    const froe_moving_knot centre[2] = {
+        {from.time, {from.at[0], from.at[1]}, {from.control[0], from.control[1]}, {NAN}},
+        {to.time, {to.at[0], to.at[1]}, {NAN}, {NAN}}};
     const froe_moving_knot place = froe_motion_knot(m, vertex, 0);
     mpq_t turn[2][3], at[2][3];
     for (int k = 0; k < 2; k++)

@@ -50,7 +50,7 @@ static inline void truth_place(truth *g, const froe_motion *m, uint32_t vertex, 
     mpq_sub(t[1], t[1], t[0]);
     mpq_sub(t[0], g->time, t[0]);
     if (p.degree) mpq_div(t[0], t[0], t[1]); /* the share that has passed */
-    for (int k = 0; k < 2; k++) { /* De Casteljau: t[1 ..] are the control points */
+    for (int k = 0; k < 2; k++) {            /* De Casteljau: t[1 ..] are the control points */
         mpq_set_d(t[1], p.from->at[k]);
         if (p.degree > 1) mpq_set_d(t[2], p.from->control[k]);
         if (p.degree > 2) mpq_set_d(t[3], p.second[k]);

@@ -232,6 +232,10 @@ static froe_status check_contact_search(contact_search *s, froe_diagnostic *diag
                             s->from, s->to, s->m->begin, s->m->end);
     if (o->neighbours && s->m->dim == 2)
         return support_fail(diag, FROE_E_UNSUPPORTED, "Contacts of segments that share a vertex are not told of.");
+    if (meet_is_too_wide(s->m))
+        return support_fail(diag, FROE_E_LIMIT,
+                            "Coordinates of %d bits and times of %d are too wide for contacts along cubics in space.",
+                            s->m->top - s->m->unit, s->m->time_top - s->m->time_unit);
     return FROE_OK;
 }
 

@@ -30,6 +30,11 @@ static size_t widest(const froe_motion *m) {
     return ((is_turnless(m) ? 2 * coordinate + 12 * time : 7 * coordinate + 36 * time) + SPARE_BITS) / 64 + 3;
 }
 
+bool meet_is_too_wide(const froe_motion *m) {
+    enum { MOST_LIMBS = 160 };
+    return m->dim == 3 && m->seconds.count && widest(m) > MOST_LIMBS;
+}
+
 froe_status meet_worker_new(const froe_motion *m, meet_worker *out) {
     enum { NUMBERS = 800, MORE_NUMBERS = 12000, CHAINS = 4, MORE_CHAINS = 3 };
     /* In space: what one step of a chain needs, and twice as much again: 15 chains of degree 8, or 81 of degree 6, keep

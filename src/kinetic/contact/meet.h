@@ -35,6 +35,8 @@ typedef struct meet_worker {
     const meet_span *spans; /**< what was found */
     int span_count;
 } meet_worker;
+/** Are the numbers of triangles along cubics so wide that chains of degree 9 or 10 would take minutes a pair? */
+bool meet_is_too_wide(const froe_motion *m);
 /** FROE_E_MEMORY. */
 froe_status meet_worker_new(const froe_motion *m, meet_worker *out);
 void meet_worker_free(const froe_motion *m, meet_worker *worker);

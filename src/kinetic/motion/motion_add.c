@@ -13,7 +13,7 @@ typedef struct plan_adding {
     froe_motion *motion;
     const froe_moving *batch;
     froe_diagnostic *diag;
-    size_t knots;  /* of the batch so far */
+    size_t knots; /* of the batch so far */
     size_t seconds;
     int unit, top; /* of the coordinates so far */
     int time_unit, time_top;
@@ -113,8 +113,7 @@ static froe_status take_controls(plan_adding *a, const plan_input *p, size_t i, 
     if (!cubic) return status;
     motion_second *out = a->motion->seconds.data + a->motion->seconds.count + a->seconds;
     *out = (motion_second){{0, 0, 0}};
-    for (size_t k = 0; k < dim && !status; k++)
-        status = take_number(a, p, i, names[1][k], second[k], &out->at[k]);
+    for (size_t k = 0; k < dim && !status; k++) status = take_number(a, p, i, names[1][k], second[k], &out->at[k]);
     knot->second = (uint32_t)(a->motion->seconds.count + a->seconds++);
     return status;
 }

@@ -223,8 +223,7 @@ static froe_status cut_bodies(replacement *r) {
 
 /* ------------------------------------------------------------------------ plans -- */
 
-static void put_knot(replacement *r, double time, const double at[3], const double control[3],
-                     const double second[3]) {
+static void put_knot(replacement *r, double time, const double at[3], const double control[3], const double second[3]) {
     const size_t n = r->times.count++;
     const size_t dim = (size_t)r->from->dim;
     r->times.data[n] = time;
@@ -303,10 +302,10 @@ static froe_status reserve_plans(replacement *r) {
     const bool room =
         array_reserve(r->alloc, &r->starts, m->plans.count + 1) && array_reserve(r->alloc, &r->times, all) &&
         array_reserve(r->alloc, &r->coords, 3 * all) && array_reserve(r->alloc, &r->controls, 3 * all) &&
-        array_reserve(r->alloc, &r->second_controls, 3 * all) &&
-        array_reserve(r->alloc, &r->lives, 2 * n + 1) && array_reserve(r->alloc, &r->sorted, 2 * m->plans.count) &&
-        array_reserve(r->alloc, &r->first, m->plans.count) && array_reserve(r->alloc, &r->corners, 3 * n) &&
-        array_reserve(r->alloc, &r->groups, n) && array_reserve(r->alloc, &r->tags, n);
+        array_reserve(r->alloc, &r->second_controls, 3 * all) && array_reserve(r->alloc, &r->lives, 2 * n + 1) &&
+        array_reserve(r->alloc, &r->sorted, 2 * m->plans.count) && array_reserve(r->alloc, &r->first, m->plans.count) &&
+        array_reserve(r->alloc, &r->corners, 3 * n) && array_reserve(r->alloc, &r->groups, n) &&
+        array_reserve(r->alloc, &r->tags, n);
     return room ? FROE_OK : support_fail_memory(r->diag);
 }
 
