@@ -73,20 +73,22 @@ int cli_fail_status(cli_stage stage, const char *file, froe_status status, const
     const int code = (unsigned)status < FROE_STATUS_COUNT ? codes[status][stage] : CLI_USE;
     if (!diag || diag->status != status || !diag->message[0])
         return cli_fail(code, file, "The call failed: %s.", froe_status_text(status));
-    const char *sentence = diag->message, *inside = ""; /* of the folder `file`: a file, and what is wrong */
-    if (file) { /* The library names a file by the end of its path. Messages of readers begin with it. */
+    const char *sentence = diag->message;
+    bool inside = false; /* does it name a file in the folder `file`? */
+    if (file) {          /* The library names a file by the end of its path. Messages of readers begin with it. */
         char end[sizeof diag->message];
         snprintf(end, sizeof end, "%s", support_short(file));
         support_one_line(end);
         const size_t length = strlen(end);
         const bool begins = strncmp(sentence, end, length) == 0;
-        if (begins && sentence[length] == '/')
-            inside = sentence + length;
+        inside = begins && sentence[length] == '/';
+        if (inside)
+            sentence += length;
         else if (begins && strncmp(sentence + length, ": ", 2) == 0)
             sentence += length + 2;
     }
     /* The sentence may name the object already, as such or as "segment 17: ". A reader names a row or a feature. */
-    bool named = strstr(sentence, "object ") || (stage == CLI_READING && islower((unsigned char)*sentence));
+    bool named = inside || strstr(sentence, "object ") || (stage == CLI_READING && islower((unsigned char)*sentence));
     for (int kind = 0; kind < FROE_KIND_COUNT; kind++) {
         const char *name = froe_kind_name((froe_kind)kind);
         const size_t length = strlen(name);
@@ -99,8 +101,8 @@ int cli_fail_status(cli_stage stage, const char *file, froe_status status, const
         else
             snprintf(where, sizeof where, "object %u, corner %u: ", diag->object, diag->corner);
     }
-    if (status == FROE_E_OPTIONS && stage != CLI_READING && sentence == diag->message && !*inside)
+    if (status == FROE_E_OPTIONS && stage != CLI_READING && sentence == diag->message)
         file = NULL; /* the command line is wrong, not the file */
-    if (*inside && !*where) return cli_fail(code, NULL, "%s%s", file, inside);
+    if (inside) return cli_fail(code, NULL, "%s%s", file, sentence);
     return cli_fail(code, file, "%s%s", where, sentence);
 }

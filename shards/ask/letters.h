@@ -4,11 +4,11 @@
  *                      of each shard: its number and how many follow
  *                          a byte each: is it put to this shard alone?
  *                          rows of doubles; directions; or of each range its parts
- *     of answers       of each shard, in the same order: how many; the number of the first bad question, or that of all,
- *                      and its diagnostic if there is one
+ *     of answers       of each shard, in the same order: how many; the number of the first bad question, or that of
+ *                      all, and its diagnostic if there is one
  *                          of each question: how many, 4 bytes
- *                          of each answer its tag; then of each its object, 4 bytes; then, where answers have values, of
- *                          each its value; where they are only counted, none of these */
+ *                          of each answer its tag; then of each its object, 4 bytes; then, where answers have values,
+ *                          of each its value; where they are only counted, none of these */
 #ifndef FROE_SHARDS_LETTERS_H
 #define FROE_SHARDS_LETTERS_H
 #include "shards/ask/share.h"
@@ -30,7 +30,7 @@ typedef struct shards_list {
     const bool *alone;
     const double *points, *directions; /**< in the words that came */
     froe_range *ranges;                /**< or NULL; its arrays lie in the words that came */
-    const size_t *which;               /**< the numbers that questions of this process itself have; then nothing below */
+    const size_t *which;               /**< of this process's own questions, their numbers; then nothing else here */
     size_t limit;                      /**< as in shards_call */
     froe_diagnostic bad;
     uint32_t *counts; /**< answers of each question */

@@ -107,8 +107,9 @@ static bool take_found(void *user, size_t i, const froe_find *find) {
     const size_t j = i - b->before;
     if (l->which) return call->take(call->take_user, l->which[j], find);
     l->counts[j] += call->q->counted ? (uint32_t)find->tag : 1;
-    return call->q->counted || (array_push(alloc, &l->tags, find->tag) && array_push(alloc, &l->objects, find->object) &&
-                                (!call->q->bound || array_push(alloc, &l->values, find->value)));
+    return call->q->counted ||
+           (array_push(alloc, &l->tags, find->tag) && array_push(alloc, &l->objects, find->object) &&
+            (!call->q->bound || array_push(alloc, &l->values, find->value)));
 }
 
 /* Question i of the batch is bad: its list is answered no further. */

@@ -129,8 +129,7 @@ static void memory_is_used_up_where_a_folder_has_no_more_shards(void **state) {
         copy[2] = (uint64_t)(cases[i].weight * (double)memory); /* see froe_shard_sample_words() */
         assert_int_equal(froe_shard_sample_new(2, NULL, &heavy), FROE_OK);
         assert_int_equal(froe_shard_sample_merge(heavy, copy, count), FROE_OK);
-        assert_int_equal(froe_shard_plan_new(heavy, 0, memory, &plan, &diag),
-                         cases[i].shards ? FROE_OK : FROE_E_LIMIT);
+        assert_int_equal(froe_shard_plan_new(heavy, 0, memory, &plan, &diag), cases[i].shards ? FROE_OK : FROE_E_LIMIT);
         if (cases[i].shards)
             assert_int_equal(froe_shard_plan_count(plan), cases[i].shards);
         else

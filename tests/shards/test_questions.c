@@ -1,8 +1,8 @@
 /* test_questions.c: folders of 1, 2, 7 and 64 shards answer every question as a single tree does, also where cuts go
  * through corners of objects and of questions. With a number as argument: so many objects of every kind, in all of
  * these folders, and a row of Markdown for each folder that says what was compared. A pattern of names as a second
- * argument: these tests alone ("*space"). A kind as a third: its objects alone ("ball"), or "all" kinds mixed. A fourth:
- * one folder alone, of so many shards by medians ("7"), or on the lattice ("-64"). */
+ * argument: these tests alone ("*space"). A kind as a third: its objects alone ("ball"), or "all" kinds mixed. A
+ * fourth: one folder alone, of so many shards by medians ("7"), or on the lattice ("-64"). */
 #include "shards/folders.h"
 #include "shards/plan.h"
 #include <froe/shard_parts.h>
