@@ -74,15 +74,21 @@ int cli_fail_status(cli_stage stage, const char *file, froe_status status, const
     if (!diag || diag->status != status || !diag->message[0])
         return cli_fail(code, file, "The call failed: %s.", froe_status_text(status));
     const char *sentence = diag->message;
-    if (file) { /* The library names a file by the end of its path. Messages of readers begin with it. */
+    bool inside = false; /* does it name a file in the folder `file`? */
+    if (file) {          /* The library names a file by the end of its path. Messages of readers begin with it. */
         char end[sizeof diag->message];
         snprintf(end, sizeof end, "%s", support_short(file));
         support_one_line(end);
         const size_t length = strlen(end);
-        if (strncmp(sentence, end, length) == 0 && strncmp(sentence + length, ": ", 2) == 0) sentence += length + 2;
+        const bool begins = strncmp(sentence, end, length) == 0;
+        inside = begins && sentence[length] == '/';
+        if (inside)
+            sentence += length;
+        else if (begins && strncmp(sentence + length, ": ", 2) == 0)
+            sentence += length + 2;
     }
     /* The sentence may name the object already, as such or as "segment 17: ". A reader names a row or a feature. */
-    bool named = strstr(sentence, "object ") || (stage == CLI_READING && islower((unsigned char)*sentence));
+    bool named = inside || strstr(sentence, "object ") || (stage == CLI_READING && islower((unsigned char)*sentence));
     for (int kind = 0; kind < FROE_KIND_COUNT; kind++) {
         const char *name = froe_kind_name((froe_kind)kind);
         const size_t length = strlen(name);
@@ -97,5 +103,6 @@ int cli_fail_status(cli_stage stage, const char *file, froe_status status, const
     }
     if (status == FROE_E_OPTIONS && stage != CLI_READING && sentence == diag->message)
         file = NULL; /* the command line is wrong, not the file */
+    if (inside) return cli_fail(code, NULL, "%s%s", file, sentence);
     return cli_fail(code, file, "%s%s", where, sentence);
 }

@@ -222,6 +222,8 @@ static int run(const mpi_ranks *ranks, int argc, char **argv) {
     const char *command = argc > 1 ? argv[1] : "";
     j.query.command = mpi_command_named(command);
     const bool builds = !strcmp(command, "build");
+    char name[] = "froe-mpi"; /* by which getopt_long() begins its messages */
+    if (argc > 1) argv[1] = name;
     const bool good = (builds || j.query.command != MPI_NO_COMMAND) && read_options(argc - 1, argv + 1, &j);
     if (good && builds) return build(ranks, &j);
     const mpi_asking asking = {.folder = j.operand, .input = j.queries, .output = j.output, .query = j.query};

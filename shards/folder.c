@@ -45,7 +45,7 @@ bool froe_is_shards(const char *path) {
     if (!path) return false;
     const int folder = open(path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (folder < 0) return false;
-    const bool is = !faccessat(folder, SHARDS_MANIFEST, F_OK, 0);
+    const bool is = !faccessat(folder, SHARDS_MANIFEST, F_OK, 0) || !faccessat(folder, "shard-0000.froe", F_OK, 0);
     close(folder);
     return is;
 }

@@ -196,23 +196,31 @@ static bool cut_places(froe_shard_plan *plan, const places *p, size_t count, uin
     return true;
 }
 
-/* How many shards a plan is to have; 0: too many. Samples err by some percent, so a quarter of the memory is left. */
-static uint64_t shards_wanted(const froe_shard_sample *s, uint32_t shards, uint64_t memory) {
-    if (!memory) memory = UINT64_C(1) << 32;
-    const uint64_t each = memory / 4 * 3;
-    const uint64_t wanted = shards ? shards : each ? s->weight / each + 1 : UINT64_MAX;
-    return wanted > FROE_SHARDS_MOST ? 0 : wanted;
+/* How many shards objects of this weight are to have for the memory; 0: too many. Samples err by some percent, so a
+ * quarter of the memory is left, or less, where a folder has not so many shards. */
+static uint64_t shards_for(uint64_t weight, uint64_t memory) {
+    const uint64_t each = memory / 4 * 3, wanted = each ? weight / each + 1 : UINT64_MAX;
+    if (wanted <= FROE_SHARDS_MOST) return wanted;
+    return memory && weight / memory < FROE_SHARDS_MOST ? FROE_SHARDS_MOST : 0;
+}
+
+static froe_status fail_little_memory(uint64_t weight, uint64_t memory, froe_diagnostic *diag) {
+    const uint64_t least = (weight / FROE_SHARDS_MOST >> 20) + 1;
+    return support_fail(diag, FROE_E_LIMIT,
+                        "A folder has at most %d shards, and building one of so many takes up to %llu MiB of memory. "
+                        "%.4g MiB were given.",
+                        FROE_SHARDS_MOST, (unsigned long long)least, (double)memory / (1 << 20));
 }
 
 froe_status froe_shard_plan_new(froe_shard_sample *s, uint32_t shards, uint64_t memory, froe_shard_plan **out,
                                 froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
     if (!s || !out) return support_fail_null(diag, __func__);
-    const uint64_t wanted = shards_wanted(s, shards, memory);
-    if (!wanted && shards) return support_fail(diag, FROE_E_ARG, "A folder has at most %d shards.", FROE_SHARDS_MOST);
-    if (!wanted)
-        return support_fail(diag, FROE_E_LIMIT, "Trees for so little memory would be more than %d shards.",
-                            FROE_SHARDS_MOST);
+    if (shards > FROE_SHARDS_MOST)
+        return support_fail(diag, FROE_E_ARG, "A folder has at most %d shards.", FROE_SHARDS_MOST);
+    if (!memory) memory = UINT64_C(1) << 32;
+    const uint64_t wanted = shards ? shards : shards_for(s->weight, memory);
+    if (!wanted) return fail_little_memory(s->weight, memory, diag);
     const uint64_t *items = shards_sample_settle(s);
     const size_t dim = (size_t)s->dim, size = s->count * dim * sizeof(double);
     const places p = {.at = support_calloc(&s->alloc, s->count, dim * sizeof(double)), .dim = dim};

@@ -102,8 +102,9 @@ static int read_whole(const cli_common *common, const cli_scene_args *args, maki
 static int report_shards(const cli_common *common, const char *scene, const char *folder, const froe_shards_report *r,
                          double seconds) {
     char headline[400];
-    snprintf(headline, sizeof headline, "%.200s: %llu objects in %u shards, the largest of %llu, in %.3g s", scene,
-             (unsigned long long)r->objects, r->shards, (unsigned long long)r->most, seconds);
+    snprintf(headline, sizeof headline, "%.200s: %llu object%s in %u shard%s, the largest of %llu, in %.3g s", scene,
+             (unsigned long long)r->objects, r->objects == 1 ? "" : "s", r->shards, r->shards == 1 ? "" : "s",
+             (unsigned long long)r->most, seconds);
     return cli_report(common, headline,
                       json_pack("{s:o, s:o, s:I, s:I, s:I, s:I, s:I, s:f}", "scene", cli_name_json(scene), "folder",
                                 cli_name_json(folder), "shards", (json_int_t)r->shards, "objects",

@@ -83,7 +83,7 @@ FROE_API void froe_shards_abandon(froe_shards_builder *builder);
 
 /** A folder that is open. */
 typedef struct froe_shards froe_shards;
-/** Is the path a folder with a file froe.shards? */
+/** Is the path a folder with a file froe.shards, or shard-0000.froe? */
 FROE_API bool froe_is_shards(const char *path);
 /** Opens a folder: reads its manifest and nothing else. The folder must stay as it is as long as it is open; replacing
  * it, as froe_shards_finish() does, is noticed when a shard is opened that is not from then. FROE_E_IO: there is none.

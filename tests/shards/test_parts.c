@@ -98,6 +98,52 @@ static void samples_of_many_objects_do_not_depend_on_their_order(void **state) {
     free(coords), free(tags);
 }
 
+/* As many shards as leave a quarter of the memory, or as a folder can have, if these take no more than all of it. */
+static void memory_is_used_up_where_a_folder_has_no_more_shards(void **state) {
+    (void)state;
+    enum { OBJECTS = 9000 };
+    const uint64_t memory = 1 << 20;
+    const struct {
+        double weight; /* of the objects, in units of the memory */
+        uint32_t shards;
+    } cases[] = {{0.7, 1}, {2.9, 4}, {3000, 4001}, {3071, 4095}, {3073, 4096}, {4095.5, 4096}, {4096.5, 0}};
+    double *coords = calloc(OBJECTS, 2 * sizeof *coords);
+    assert_non_null(coords);
+    for (int i = 0; i < OBJECTS; i++) coords[2 * i] = i, coords[2 * i + 1] = i * 7919 % OBJECTS;
+    froe_objects batch = froe_objects_defaults();
+    batch.kind = FROE_POINT, batch.count = OBJECTS, batch.coords = coords;
+    froe_shard_records records = {0};
+    froe_shard_sample *one;
+    assert_int_equal(froe_shard_records_add(&records, 2, &batch, 0, NULL), FROE_OK);
+    assert_int_equal(froe_shard_sample_new(2, NULL, &one), FROE_OK);
+    assert_int_equal(froe_shard_sample_add(one, records.bytes, records.count), FROE_OK);
+    size_t count;
+    const uint64_t *words = froe_shard_sample_words(one, &count);
+    uint64_t *copy = malloc(count * sizeof *copy);
+    assert_non_null(copy);
+    memcpy(copy, words, count * sizeof *copy);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        froe_shard_sample *heavy;
+        froe_shard_plan *plan = NULL;
+        froe_diagnostic diag;
+        copy[2] = (uint64_t)(cases[i].weight * (double)memory); /* see froe_shard_sample_words() */
+        assert_int_equal(froe_shard_sample_new(2, NULL, &heavy), FROE_OK);
+        assert_int_equal(froe_shard_sample_merge(heavy, copy, count), FROE_OK);
+        assert_int_equal(froe_shard_plan_new(heavy, 0, memory, &plan, &diag), cases[i].shards ? FROE_OK : FROE_E_LIMIT);
+        if (cases[i].shards)
+            assert_int_equal(froe_shard_plan_count(plan), cases[i].shards);
+        else
+            assert_string_equal(diag.message,
+                                "A folder has at most 4096 shards, and building one of so many takes up to 2 MiB of "
+                                "memory. 1 MiB were given.");
+        froe_shard_plan_free(plan);
+        froe_shard_sample_free(heavy);
+    }
+    free(coords), free(copy);
+    froe_shard_records_free(&records);
+    froe_shard_sample_free(one);
+}
+
 /* ------------------------------------------------------------------- ranks -- */
 
 /* What a process of a program of several holds. */
@@ -347,6 +393,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(order_and_threads_make_no_difference),
         cmocka_unit_test(samples_of_many_objects_do_not_depend_on_their_order),
+        cmocka_unit_test(memory_is_used_up_where_a_folder_has_no_more_shards),
         cmocka_unit_test(processes_build_the_same_folder_together),
         cmocka_unit_test(an_object_goes_to_every_cell_that_its_box_meets),
         cmocka_unit_test(places_that_are_one_make_one_shard),

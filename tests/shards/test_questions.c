@@ -1,7 +1,8 @@
 /* test_questions.c: folders of 1, 2, 7 and 64 shards answer every question as a single tree does, also where cuts go
  * through corners of objects and of questions. With a number as argument: so many objects of every kind, in all of
  * these folders, and a row of Markdown for each folder that says what was compared. A pattern of names as a second
- * argument: these tests alone ("*space"). A kind as a third: its objects alone ("ball"), or "all" kinds mixed. */
+ * argument: these tests alone ("*space"). A kind as a third: its objects alone ("ball"), or "all" kinds mixed. A
+ * fourth: one folder alone, of so many shards by medians ("7"), or on the lattice ("-64"). */
 #include "shards/folders.h"
 #include "shards/plan.h"
 #include <froe/shard_parts.h>
@@ -11,6 +12,7 @@ enum { USUAL = 400, QUESTIONS = 200, EDGES = 6, CLOSE = 10000 };
 static size_t object_count = USUAL;
 static bool thorough;
 static const char *only; /* a kind, or NULL: all of them */
+static int only_shards;  /* as in compare_everything(); 0: all of them */
 
 /* ------------------------------------------------------------------- worlds -- */
 
@@ -525,7 +527,9 @@ static void compare_everything(int dim, froe_kind kind, bool areas) {
     const size_t count = object_count;
     if (only && strcmp(only, kind == FROE_KIND_COUNT ? "all" : froe_kind_name(kind))) return;
     if (areas) object_count -= object_count % EDGES;
-    for (size_t i = 0; i < folders; i++) compare_in_folder(dim, kind, areas, shards[i], 1 + i + 10 * (uint64_t)kind);
+    for (size_t i = 0; i < folders; i++)
+        if (!only_shards || shards[i] == only_shards)
+            compare_in_folder(dim, kind, areas, shards[i], 1 + i + 10 * (uint64_t)kind);
     object_count = count;
 }
 
@@ -595,6 +599,7 @@ int main(int argc, char **argv) {
     if (thorough) object_count = (size_t)strtoull(argv[1], NULL, 10);
     if (argc > 2) cmocka_set_test_filter(argv[2]);
     if (argc > 3) only = argv[3];
+    if (argc > 4) only_shards = (int)strtol(argv[4], NULL, 10);
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(of_objects_in_the_plane),      cmocka_unit_test(of_areas),
         cmocka_unit_test(groups_in_space_are_no_areas), cmocka_unit_test(of_objects_in_space),

@@ -1,11 +1,13 @@
 /* test_share.c: threads share the shards of a folder, as processes of an MPI program do, and get the answers that one
  * alone gets: in any number, on cuts through corners of objects and questions, with bad questions, and with memory
  * refused in one of them. */
+#include "shards/ask/kinds.h"
 #include "shards/folders.h"
 #include "support/memory.h"
 #include <froe/shard_parts.h>
 #include <math.h>
 #include <pthread.h>
+#include <stdatomic.h>
 
 enum { COUNT = 400, MOST = 24, QUESTIONS = 120, RANKS = 4 };
 
@@ -164,7 +166,8 @@ enum {
     COUNT_BELOW,
     COUNT_RAYS,
     COUNT_NEAR,
-    ALL = COUNT_NEAR + 6
+    ALL = COUNT_NEAR + 6,
+    BATCHES = ALL /* points, of which a shard counts how often it is asked */
 };
 
 static const size_t some[] = {1, 3, 20}; /* neighbours */
@@ -185,6 +188,21 @@ static froe_status ask_counts(asking *a, const double *points, const double *dir
         return froe_shards_near_count(a->shards, points, n, some[(a->kind - COUNT_NEAR) % 3],
                                       a->kind < COUNT_NEAR + 3 ? INFINITY : 2, NULL, a->counts, &a->diag);
     }
+}
+
+static atomic_int batches; /* that shards were asked */
+
+static froe_status ask_and_count(const shards_question *q, froe_query *query, const size_t *which, size_t count,
+                                 const froe_batch_options *o, shards_answers *out, froe_diagnostic *diag) {
+    const shards_question usual = shards_kind_points(&(froe_shards){.dim = q->dim, .alloc = q->alloc}, NULL, 0, NULL);
+    batches++;
+    return usual.ask(q, query, which, count, o, out, diag);
+}
+
+static froe_status ask_counted(asking *a, const double *points) {
+    shards_question q = shards_kind_points(a->shards, points, a->count, froe_batch_locate);
+    q.ask = ask_and_count;
+    return shards_find_all(a->shards, &q, NULL, &a->finds, &a->diag);
 }
 
 static froe_status ask(asking *a) {
@@ -213,6 +231,8 @@ static froe_status ask(asking *a) {
         return froe_shards_ray_any(s, points, directions, n, 2, NULL, a->found, &a->diag);
     case RAY_ALL:
         return froe_shards_ray_all(s, points, directions, n, 3, NULL, &a->finds, &a->diag);
+    case BATCHES:
+        return ask_counted(a, points);
     default:
         return a->kind < COUNT_LOCATE ? froe_shards_near(s, points, n, some[(a->kind - NEAR) % 3],
                                                          a->kind < NEAR + 3 ? INFINITY : 2, NULL, &a->finds, &a->diag)
@@ -242,7 +262,7 @@ typedef struct worker {
     froe_allocator alloc;
     test_memory *memory; /* from the opened folder on, call number `fail_at` is refused; 0: none */
     size_t fail_at, calls;
-    record_of_answers answers[ALL];
+    record_of_answers answers[ALL + 1];
     froe_status status;   /* agreed */
     froe_status own;      /* of this thread's last call */
     froe_diagnostic diag; /* of this thread's last call */
@@ -285,7 +305,7 @@ static void run_workers(office *o, worker *workers, int ranks, const questions *
         workers[r].member = (member){o, r};
         workers[r].q = q, workers[r].first_kind = first_kind, workers[r].end_kind = end_kind;
         if (!workers[r].alloc.fn) workers[r].alloc = support_allocator(NULL);
-        for (int k = 0; k < ALL; k++) workers[r].answers[k].alloc = support_allocator(NULL);
+        for (int k = 0; k <= ALL; k++) workers[r].answers[k].alloc = support_allocator(NULL);
         assert_int_equal(pthread_create(&threads[r], NULL, work, &workers[r]), 0);
     }
     for (int r = 0; r < ranks; r++) pthread_join(threads[r], NULL);
@@ -294,7 +314,7 @@ static void run_workers(office *o, worker *workers, int ranks, const questions *
 
 static void free_answers(worker *workers, int ranks) {
     for (int r = 0; r < ranks; r++)
-        for (int k = 0; k < ALL; k++) array_free(&workers[r].answers[k].alloc, &workers[r].answers[k].words);
+        for (int k = 0; k <= ALL; k++) array_free(&workers[r].answers[k].alloc, &workers[r].answers[k].words);
 }
 
 static void build_shared(int dim, uint32_t shards, uint64_t seed) {
@@ -354,6 +374,18 @@ static void threads_get_the_answers_of_one(void **state) {
     compare_numbers_of_threads(5, 7, 5);
 }
 
+/* Has a thread the answers to questions of a kind that one alone gets? */
+static void expect_answers_of_one(const worker *w, int kind) {
+    office o = {.spoils = false};
+    worker alone = {.first = w->first, .count = w->count};
+    run_workers(&o, &alone, 1, w->q, kind, kind + 1);
+    assert_int_equal(alone.status, FROE_OK);
+    assert_int_equal(w->answers[kind].words.count, alone.answers[kind].words.count);
+    assert_memory_equal(w->answers[kind].words.data, alone.answers[kind].words.data,
+                        alone.answers[kind].words.count * sizeof(uint64_t));
+    free_answers(&alone, 1);
+}
+
 /* A bad question is the failure of the thread that has it, and the others get their answers. */
 static void a_bad_question_is_one_of_its_own_thread(void **state) {
     (void)state;
@@ -372,7 +404,7 @@ static void a_bad_question_is_one_of_its_own_thread(void **state) {
         for (int r = 0; r < 3; r++) {
             assert_int_equal(workers[r].status, FROE_E_INPUT);
             assert_int_equal(workers[r].own, r == 1 ? FROE_E_INPUT : FROE_OK);
-            assert_true(r == 1 || workers[r].answers[k].words.count >= 40);
+            if (r != 1) expect_answers_of_one(&workers[r], k);
         }
         assert_int_equal(workers[1].diag.object, 30);
         free_answers(workers, 3);
@@ -442,6 +474,28 @@ static void numbers_of_answers_are_sent_without_the_answers(void **state) {
     free(q);
 }
 
+/* A shard is asked once for the questions of all threads, which keeps its tree in the cache; once more where one of
+ * them is bad. */
+static void a_shard_is_asked_once_for_all(void **state) {
+    (void)state;
+    enum { SHARDS = 7 };
+    questions *q = calloc(1, sizeof *q);
+    assert_non_null(q);
+    make_questions(q, 2, 11);
+    build_shared(2, SHARDS, 11);
+    for (int bad = 0; bad < 2; bad++) {
+        office o = {.spoils = false};
+        worker workers[3] = {{.first = 0, .count = 40}, {.first = 40, .count = 40}, {.first = 80, .count = 40}};
+        atomic_store(&batches, 0);
+        if (bad) q->points[2 * 60] = NAN;
+        run_workers(&o, workers, 3, q, BATCHES, BATCHES + 1);
+        assert_int_equal(atomic_load(&batches), SHARDS + bad);
+        for (int r = 0; r < 3; r++) assert_int_equal(workers[r].own, bad && r == 1 ? FROE_E_INPUT : FROE_OK);
+        free_answers(workers, 3);
+    }
+    free(q);
+}
+
 /* What another process sends is not believed: a range has as many points as have come. */
 static void a_range_of_more_points_than_have_come_is_refused(void **state) {
     (void)state;
@@ -505,6 +559,7 @@ int main(void) {
         cmocka_unit_test(a_bad_question_is_one_of_its_own_thread),
         cmocka_unit_test(memory_is_refused_to_one),
         cmocka_unit_test(numbers_of_answers_are_sent_without_the_answers),
+        cmocka_unit_test(a_shard_is_asked_once_for_all),
         cmocka_unit_test(a_range_of_more_points_than_have_come_is_refused),
         cmocka_unit_test(every_shard_has_an_owner_and_every_turn_begins_with_the_next),
         cmocka_unit_test(what_is_no_process_is_refused),
