@@ -152,7 +152,7 @@ target_sources(test_files_writer PRIVATE tests/faults/faults.c)
 target_link_options(test_files_writer PRIVATE ${fault_options})
 if(FROE_HAS_CLI)
   foreach(call malloc calloc realloc strdup strndup fopen open_memstream getline mmap pthread_create cli_progress_step
-          json_set_alloc_funcs main)
+          json_set_alloc_funcs main read pread fstat stat opendir)
     list(APPEND fault_options -Wl,--wrap=${call})
   endforeach()
   # With all libraries inside, so that faults reach them; and without, which starts ten times as fast.
@@ -162,12 +162,12 @@ if(FROE_HAS_CLI)
   target_link_libraries(froe_faulty_core PRIVATE $<TARGET_OBJECTS:froe_cli_opened> froe_static PkgConfig::JANSSON m
                                                  ${CMAKE_DL_LIBS})
   foreach(target froe_faulty froe_faulty_core)
-    target_sources(${target} PRIVATE tests/faults/faults.c tests/faults/memory.c $<TARGET_OBJECTS:froe_program>
+    target_sources(${target} PRIVATE tests/faults/faults.c tests/faults/memory.c tests/faults/reads.c $<TARGET_OBJECTS:froe_program>
                                      $<TARGET_OBJECTS:froe_support>)
     set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
     target_link_options(${target} PRIVATE ${fault_options})
   endforeach()
-  foreach(test faults allocations)
+  foreach(test faults allocations reads)
     set_property(TEST cli/${test} APPEND PROPERTY ENVIRONMENT FROE_FAULTY=$<TARGET_FILE:froe_faulty>
                  FROE_FAULTY_CORE=$<TARGET_FILE:froe_faulty_core>)
   endforeach()
