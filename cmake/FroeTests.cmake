@@ -148,7 +148,8 @@ set(fault_options "")
 foreach(call open write fsync fchmod rename unlink readlink close getentropy)
   list(APPEND fault_options -Wl,--wrap=${call})
 endforeach()
-target_sources(test_files_writer PRIVATE tests/faults/faults.c)
+target_sources(test_files_writer PRIVATE tests/faults/faults.c tests/faults/power.c)
+target_sources(test_shards_faults PRIVATE tests/faults/power.c)
 target_link_options(test_files_writer PRIVATE ${fault_options})
 if(FROE_HAS_CLI)
   foreach(call malloc calloc realloc strdup strndup fopen open_memstream getline mmap pthread_create cli_progress_step
@@ -162,7 +163,8 @@ if(FROE_HAS_CLI)
   target_link_libraries(froe_faulty_core PRIVATE $<TARGET_OBJECTS:froe_cli_opened> froe_static PkgConfig::JANSSON m
                                                  ${CMAKE_DL_LIBS})
   foreach(target froe_faulty froe_faulty_core)
-    target_sources(${target} PRIVATE tests/faults/faults.c tests/faults/memory.c tests/faults/reads.c $<TARGET_OBJECTS:froe_program>
+    target_sources(${target} PRIVATE tests/faults/faults.c tests/faults/memory.c tests/faults/power.c
+                                     tests/faults/reads.c $<TARGET_OBJECTS:froe_program>
                                      $<TARGET_OBJECTS:froe_support>)
     set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
     target_link_options(${target} PRIVATE ${fault_options})

@@ -1,5 +1,6 @@
 /* faults.c: __wrap_NAME() takes the place of NAME(), which it reaches as __real_NAME(). */
 #include "faults.h"
+#include "power.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -29,6 +30,10 @@ static void read_environment(void) {
     if (log) faults.log = atoi(log);
 }
 
+static bool is_power(const fault_plan *plan) {
+    return plan->kind == FAULT_POWER || plan->kind == FAULT_POWER_BACK;
+}
+
 static bool needs_room(const char *name) {
     return !strcmp(name, "open") || !strcmp(name, "write") || !strcmp(name, "fsync");
 }
@@ -40,7 +45,8 @@ bool fault_meets(fault_plan *plan, const char *name) {
     const bool lasts = plan->kind == FAULT_FOREVER || plan->kind == FAULT_FULL;
     bool now = plan->at && (number == plan->at || (lasts && number > plan->at));
     if (!now) return false;
-    if (plan->kind == FAULT_KILL) raise(SIGKILL);
+    if (is_power(plan)) power_lose(plan->kind == FAULT_POWER_BACK);
+    if (plan->kind == FAULT_KILL || is_power(plan)) raise(SIGKILL);
     if (plan->kind == FAULT_INTERRUPT) raise(SIGINT);
     if (plan->kind == FAULT_TERMINATE) raise(SIGTERM);
     if (plan->kind == FAULT_FULL) return errno = ENOSPC, needs_room(name);
@@ -73,6 +79,7 @@ int __wrap_open(const char *path, int flags, ...) {
     if (!output && !folder && fault_reading_fails("open")) return -1;
     int file = __real_open(path, flags, mode);
     if (output) outputs |= bit(file);
+    if (output && file >= 0 && is_power(&faults)) power_wrote(file);
     if (folder) folders |= bit(file);
     return file;
 }
@@ -82,6 +89,7 @@ ssize_t __wrap_write(int file, const void *bytes, size_t count);
 ssize_t __wrap_write(int file, const void *bytes, size_t count) {
     if (!(outputs & bit(file))) return __real_write(file, bytes, count);
     if (fails("write")) return -1;
+    if (is_power(&faults)) power_wrote(file);
     bool cut = faults.kind == FAULT_SHORT && faults.calls == faults.at && count > 1;
     return __real_write(file, bytes, cut ? 1 : count);
 }
@@ -89,7 +97,10 @@ ssize_t __wrap_write(int file, const void *bytes, size_t count) {
 int __real_fsync(int file);
 int __wrap_fsync(int file);
 int __wrap_fsync(int file) {
-    return fails(folders & bit(file) ? "fsync folder" : "fsync") ? -1 : __real_fsync(file);
+    if (fails(folders & bit(file) ? "fsync folder" : "fsync")) return -1;
+    const int result = __real_fsync(file);
+    if (!result && is_power(&faults)) power_synced(file);
+    return result;
 }
 
 int __real_fchmod(int file, mode_t mode);
@@ -101,7 +112,11 @@ int __wrap_fchmod(int file, mode_t mode) {
 int __real_rename(const char *from, const char *to);
 int __wrap_rename(const char *from, const char *to);
 int __wrap_rename(const char *from, const char *to) {
-    return fails("rename") ? -1 : __real_rename(from, to);
+    if (fails("rename")) return -1;
+    if (is_power(&faults)) power_renames(to);
+    const int result = __real_rename(from, to);
+    if (!result && is_power(&faults)) power_renamed(from, to);
+    return result;
 }
 
 int __real_unlink(const char *path);

@@ -14,16 +14,18 @@
 
 typedef enum fault_kind {
     FAULT_NONE,
-    FAULT_EIO,       /* this call fails: Input/output error */
-    FAULT_ENOSPC,    /* No space left on device */
-    FAULT_EINTR,     /* Interrupted system call */
-    FAULT_SHORT,     /* write() writes, or read() reads, one byte only */
-    FAULT_FOREVER,   /* this call and all after it: Input/output error */
-    FAULT_KILL,      /* kill -9 instead of this call */
-    FAULT_INTERRUPT, /* Ctrl-C, then the call */
-    FAULT_TERMINATE, /* kill, then the call */
-    FAULT_END,       /* read() finds the end of the file */
-    FAULT_FULL,      /* this call and all after it that need room: No space left on device */
+    FAULT_EIO,        /* this call fails: Input/output error */
+    FAULT_ENOSPC,     /* No space left on device */
+    FAULT_EINTR,      /* Interrupted system call */
+    FAULT_SHORT,      /* write() writes, or read() reads, one byte only */
+    FAULT_FOREVER,    /* this call and all after it: Input/output error */
+    FAULT_KILL,       /* kill -9 instead of this call */
+    FAULT_INTERRUPT,  /* Ctrl-C, then the call */
+    FAULT_TERMINATE,  /* kill, then the call */
+    FAULT_END,        /* read() finds the end of the file */
+    FAULT_FULL,       /* this call and all after it that need room: No space left on device */
+    FAULT_POWER,      /* the power is lost instead of this call (power.h) */
+    FAULT_POWER_BACK, /* so it is, and names are what they were before */
     FAULT_KINDS
 } fault_kind;
 

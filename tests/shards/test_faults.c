@@ -1,5 +1,6 @@
-/* test_faults.c: a folder is whole whatever happens while another takes its place: kill -9 at any call that changes
- * files, a full disk; and no change of its manifest goes unnoticed. */
+/* test_faults.c: a folder is whole whatever happens while another takes its place: kill -9 and a loss of power at any
+ * call that changes files, a full disk; and no change of its manifest goes unnoticed. */
+#include "faults/power.h"
 #include "shards/folder.h"
 #include "shards/folders.h"
 #include <signal.h>
@@ -13,9 +14,18 @@ enum { OLD_OBJECTS = 400, NEW_OBJECTS = 3000, SHARDS = 5 };
 
 /* The linker leads the calls of cmake/FroeTests.cmake here: call number `killed_at`, from 1, is a kill -9 instead. */
 static unsigned calls, killed_at;
+typedef enum end_kind { KILLED, POWER, POWER_BACK } end_kind;
+static end_kind how_ends;
 
 static void count_call(void) {
-    if (++calls == killed_at) raise(SIGKILL);
+    if (++calls != killed_at) return;
+    if (how_ends != KILLED) power_lose(how_ends == POWER_BACK);
+    raise(SIGKILL);
+}
+
+/* The same for calls of which power.h is told: after(), in a process that loses its power. */
+static bool is_told(void) {
+    return killed_at && how_ends != KILLED;
 }
 
 #define COUNTED(type, name, parameters, arguments)                                                                     \
@@ -27,16 +37,56 @@ static void count_call(void) {
     }
 
 COUNTED(int, mkdir, (const char *path, mode_t mode), (path, mode))
-COUNTED(FILE *, fopen, (const char *path, const char *mode), (path, mode))
 COUNTED(int, fflush, (FILE * file), (file))
-COUNTED(ssize_t, write, (int file, const void *bytes, size_t count), (file, bytes, count))
 COUNTED(size_t, fwrite, (const void *bytes, size_t size, size_t count, FILE *file), (bytes, size, count, file))
 COUNTED(ssize_t, pwrite, (int file, const void *bytes, size_t count, off_t place), (file, bytes, count, place))
-COUNTED(int, fsync, (int file), (file))
-COUNTED(int, rename, (const char *from, const char *to), (from, to))
-COUNTED(int, renameat2, (int in, const char *from, int out, const char *to, unsigned how), (in, from, out, to, how))
 COUNTED(int, unlinkat, (int folder, const char *name, int how), (folder, name, how))
 COUNTED(int, rmdir, (const char *path), (path))
+
+FILE *__real_fopen(const char *path, const char *mode);
+FILE *__wrap_fopen(const char *path, const char *mode);
+FILE *__wrap_fopen(const char *path, const char *mode) {
+    count_call();
+    FILE *file = __real_fopen(path, mode);
+    if (file && *mode == 'w' && is_told()) power_wrote(fileno(file));
+    return file;
+}
+
+ssize_t __real_write(int file, const void *bytes, size_t count);
+ssize_t __wrap_write(int file, const void *bytes, size_t count);
+ssize_t __wrap_write(int file, const void *bytes, size_t count) {
+    count_call();
+    if (is_told()) power_wrote(file);
+    return __real_write(file, bytes, count);
+}
+
+int __real_fsync(int file);
+int __wrap_fsync(int file);
+int __wrap_fsync(int file) {
+    count_call();
+    const int result = __real_fsync(file);
+    if (!result && is_told()) power_synced(file);
+    return result;
+}
+
+int __real_rename(const char *from, const char *to);
+int __wrap_rename(const char *from, const char *to);
+int __wrap_rename(const char *from, const char *to) {
+    count_call();
+    if (is_told()) power_renames(to);
+    const int result = __real_rename(from, to);
+    if (!result && is_told()) power_renamed(from, to);
+    return result;
+}
+
+int __real_renameat2(int in, const char *from, int out, const char *to, unsigned how);
+int __wrap_renameat2(int in, const char *from, int out, const char *to, unsigned how);
+int __wrap_renameat2(int in, const char *from, int out, const char *to, unsigned how) {
+    count_call();
+    const int result = __real_renameat2(in, from, out, to, how);
+    if (!result && is_told()) power_exchanged(from, to);
+    return result;
+}
 
 static froe_status build(const char *path, size_t count) {
     one_object *list = lattice_objects(2, FROE_SEGMENT, count, 50, count);
@@ -57,8 +107,8 @@ static uint64_t objects_of(const char *path) {
     return objects;
 }
 
-static void a_killed_program_leaves_the_old_folder_or_the_new_one(void **state) {
-    (void)state;
+/* The program ends at each call. */
+static void end_everywhere(end_kind kind) {
     int old = 0, new = 0, ended;
     for (unsigned at = 1;; at++) {
         assert_int_equal(build("killed.froes", OLD_OBJECTS), FROE_OK); /* which tidies up */
@@ -67,7 +117,7 @@ static void a_killed_program_leaves_the_old_folder_or_the_new_one(void **state) 
         const pid_t child = fork();
         assert_true(child >= 0);
         if (!child) {
-            calls = 0, killed_at = at;
+            calls = 0, killed_at = at, how_ends = kind;
             _exit(build("killed.froes", NEW_OBJECTS) != FROE_OK);
         }
         assert_int_equal(waitpid(child, &ended, 0), child);
@@ -81,6 +131,17 @@ static void a_killed_program_leaves_the_old_folder_or_the_new_one(void **state) 
     assert_true(WIFEXITED(ended) && !WEXITSTATUS(ended));
     assert_int_equal(objects_of("killed.froes"), NEW_OBJECTS);
     if (!(old > 10 && new > 5)) fail_msg("%d left the old folder, %d the new one", old, new);
+}
+
+static void a_killed_program_leaves_the_old_folder_or_the_new_one(void **state) {
+    (void)state;
+    end_everywhere(KILLED);
+}
+
+static void so_does_a_loss_of_power(void **state) {
+    (void)state;
+    end_everywhere(POWER);
+    end_everywhere(POWER_BACK);
 }
 
 static void a_full_disk_leaves_the_old_folder_and_nothing_beside_it(void **state) {
@@ -176,6 +237,7 @@ static void a_shard_that_the_manifest_calls_empty_is_found(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_killed_program_leaves_the_old_folder_or_the_new_one),
+        cmocka_unit_test(so_does_a_loss_of_power),
         cmocka_unit_test(a_full_disk_leaves_the_old_folder_and_nothing_beside_it),
         cmocka_unit_test(every_changed_byte_of_a_manifest_is_noticed),
         cmocka_unit_test(a_shard_that_the_manifest_calls_empty_is_found),
