@@ -139,7 +139,8 @@ target_link_options(test_tree_reading PRIVATE -Wl,--wrap=read)
 target_link_options(test_files_shared PRIVATE -Wl,--wrap=flock)
 target_link_options(test_shards_drafts PRIVATE -Wl,--wrap=flock)
 target_link_options(test_tree_machine PRIVATE -Wl,--wrap=num_rounding_check -Wl,--wrap=file_check_machine)
-foreach(call mkdir fopen fflush fwrite write pwrite fsync rename renameat2 unlinkat rmdir)
+foreach(call mkdir fopen fflush fwrite write pwrite pread fsync rename renameat2 unlinkat rmdir opendir openat mkstemp
+        fstat fclose)
   target_link_options(test_shards_faults PRIVATE -Wl,--wrap=${call})
 endforeach()
 
