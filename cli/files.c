@@ -19,8 +19,7 @@ int cli_write_text(const char *path, cli_write_fn *fn, const void *user) {
     size_t length = 0;
     FILE *out = open_memstream(&text, &length);
     if (!out) return cli_fail_memory();
-    fn(out, user);
-    const bool whole = !ferror(out) && !cli_report_short();
+    const bool whole = fn(out, user) && !ferror(out) && !cli_report_short();
     const int code = fclose(out) || !whole ? cli_fail_memory() : cli_write_file(path, text, length);
     free(text);
     return code;

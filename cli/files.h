@@ -6,8 +6,8 @@
 
 /** A file that appears whole or not at all (support/writer.h). Returns 0 or an exit code after saying why. */
 int cli_write_file(const char *path, const void *bytes, size_t count);
-/** The same, of what a function writes. */
-typedef void cli_write_fn(FILE *out, const void *user);
+/** The same, of what a function writes, which returns false without memory. */
+typedef bool cli_write_fn(FILE *out, const void *user);
 int cli_write_text(const char *path, cli_write_fn *fn, const void *user);
 
 enum { CLI_FOLDER = 4000 };

@@ -139,7 +139,8 @@ target_link_options(test_tree_reading PRIVATE -Wl,--wrap=read)
 target_link_options(test_files_shared PRIVATE -Wl,--wrap=flock)
 target_link_options(test_shards_drafts PRIVATE -Wl,--wrap=flock)
 target_link_options(test_tree_machine PRIVATE -Wl,--wrap=num_rounding_check -Wl,--wrap=file_check_machine)
-foreach(call mkdir fopen fflush fwrite write pwrite fsync rename renameat2 unlinkat rmdir)
+foreach(call mkdir fopen fflush fwrite write pwrite pread fsync rename renameat2 unlinkat rmdir opendir openat mkstemp
+        fstat fclose)
   target_link_options(test_shards_faults PRIVATE -Wl,--wrap=${call})
 endforeach()
 
@@ -148,11 +149,12 @@ set(fault_options "")
 foreach(call open write fsync fchmod rename unlink readlink close getentropy)
   list(APPEND fault_options -Wl,--wrap=${call})
 endforeach()
-target_sources(test_files_writer PRIVATE tests/faults/faults.c)
+target_sources(test_files_writer PRIVATE tests/faults/faults.c tests/faults/power.c)
+target_sources(test_shards_faults PRIVATE tests/faults/power.c)
 target_link_options(test_files_writer PRIVATE ${fault_options})
 if(FROE_HAS_CLI)
   foreach(call malloc calloc realloc strdup strndup fopen open_memstream getline mmap pthread_create cli_progress_step
-          json_set_alloc_funcs main)
+          json_set_alloc_funcs main read pread fstat stat opendir)
     list(APPEND fault_options -Wl,--wrap=${call})
   endforeach()
   # With all libraries inside, so that faults reach them; and without, which starts ten times as fast.
@@ -162,12 +164,13 @@ if(FROE_HAS_CLI)
   target_link_libraries(froe_faulty_core PRIVATE $<TARGET_OBJECTS:froe_cli_opened> froe_static PkgConfig::JANSSON m
                                                  ${CMAKE_DL_LIBS})
   foreach(target froe_faulty froe_faulty_core)
-    target_sources(${target} PRIVATE tests/faults/faults.c tests/faults/memory.c $<TARGET_OBJECTS:froe_program>
+    target_sources(${target} PRIVATE tests/faults/faults.c tests/faults/memory.c tests/faults/power.c
+                                     tests/faults/reads.c $<TARGET_OBJECTS:froe_program>
                                      $<TARGET_OBJECTS:froe_support>)
     set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
     target_link_options(${target} PRIVATE ${fault_options})
   endforeach()
-  foreach(test faults allocations)
+  foreach(test faults allocations reads)
     set_property(TEST cli/${test} APPEND PROPERTY ENVIRONMENT FROE_FAULTY=$<TARGET_FILE:froe_faulty>
                  FROE_FAULTY_CORE=$<TARGET_FILE:froe_faulty_core>)
   endforeach()

@@ -13,6 +13,13 @@ static bool is_collection(const char *path) {
     return !formats_source_open(path, NULL, &source, NULL) && formats_is_collection(&source);
 }
 
+/* Is a file left to libraries whose reading by the core has ended so? One that cannot be read is not: a read that fails
+ * must not choose the reader. */
+static bool is_left(const char *path, froe_status status) {
+    if (status == FROE_E_IO) return support_path_is_beyond(path);
+    return status == FROE_E_UNSUPPORTED && (!froe_reads_own(path) || is_collection(path));
+}
+
 froe_status froe_read(const char *path, const froe_read_options *options, froe_scene **out, froe_read_report *report,
                       froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
@@ -21,9 +28,6 @@ froe_status froe_read(const char *path, const froe_read_options *options, froe_s
     if (status) return status;
     froe_read_options o = options ? *options : froe_read_defaults();
     if (!o.image) o.image = io_read_image;
-    if (froe_reads_own(path)) {
-        status = froe_read_own(path, &o, out, report, diag);
-        if (status != FROE_E_UNSUPPORTED || !is_collection(path)) return status;
-    }
-    return formats_read(&libraries, path, &o, out, report, diag);
+    status = froe_read_own(path, &o, out, report, diag);
+    return !is_left(path, status) ? status : formats_read(&libraries, path, &o, out, report, diag);
 }

@@ -6,6 +6,7 @@
  * A file that has been unlinked goes away with the last program that holds it, so that no failure leaves it behind. */
 #define _GNU_SOURCE 1 /* fallocate, mkstemp */
 #include "record.h"
+#include "shard.h"
 #include "support/fail.h"
 #include "support/floats.h"
 #include <errno.h>
@@ -141,12 +142,8 @@ froe_status froe_shard_buckets_add(froe_shard_buckets *b, uint32_t number, const
 /* Reads a block to its place, and gives back its place on the disk. */
 static froe_status read_block(const froe_shard_buckets *b, uint32_t number, unsigned char *to, froe_diagnostic *diag) {
     const off_t place = (off_t)number * (off_t)b->block;
-    for (size_t done = 0; done < b->block;) {
-        const ssize_t got = pread(b->file, to + done, b->block - done, place + (off_t)done);
-        if (got < 0 && errno == EINTR) continue;
-        if (got <= 0) return support_fail_file(diag, "read", b->folder, got ? errno : EIO);
-        done += (size_t)got;
-    }
+    const ssize_t got = shards_read_at(b->file, to, b->block, place);
+    if (got < (ssize_t)b->block) return support_fail_file(diag, "read", b->folder, got < 0 ? errno : EIO);
 #ifdef FALLOC_FL_PUNCH_HOLE
     (void)fallocate(b->file, FALLOC_FL_PUNCH_HOLE | FALLOC_FL_KEEP_SIZE, place, (off_t)b->block);
 #endif

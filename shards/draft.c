@@ -275,6 +275,17 @@ static froe_status lock_old(froe_shard_draft *d, froe_diagnostic *diag) {
     return FROE_OK;
 }
 
+/* The new name is on the disk, before anything of the old folder is removed: a loss of power may undo a name and keep
+ * what was done afterwards. */
+static void sync_name(froe_shard_draft *d) {
+    char *end = strrchr(d->target, '/');
+    end += end == d->target;
+    const char kept = *end;
+    *end = '\0';
+    sync_folder(d->target);
+    *end = kept;
+}
+
 froe_status froe_shard_draft_place(froe_shard_draft *d, bool *replaced, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
     if (!d || !replaced) return support_fail_null(diag, __func__);
@@ -289,6 +300,7 @@ froe_status froe_shard_draft_place(froe_shard_draft *d, bool *replaced, froe_dia
         d->old = -1;
         return support_fail_file(diag, "written", d->target, error);
     }
+    sync_name(d);
     close(d->lock);
     d->lock = -1;
     *replaced = d->old >= 0;
@@ -304,11 +316,6 @@ froe_status froe_shard_draft_end(froe_shard_draft *d, froe_status status, froe_d
     if (d->lock >= 0 || d->old >= 0) { /* the draft, or what was there before */
         empty_folder(d->folder);
         rmdir(d->folder);
-    }
-    if (d->lock < 0) {
-        char *slash = strrchr(d->target, '/');
-        slash[slash == d->target] = '\0';
-        sync_folder(d->target);
     }
     if (d->lock >= 0) close(d->lock);
     if (d->old >= 0) close(d->old);

@@ -15,6 +15,18 @@ void shards_file_name(char *out, size_t size, const char *folder, uint32_t shard
     snprintf(out, size, "%s/shard-%04u.froe", folder, shard);
 }
 
+ssize_t shards_read_at(int file, void *to, size_t count, off_t place) {
+    size_t done = 0;
+    while (done < count) {
+        const ssize_t got = pread(file, (unsigned char *)to + done, count - done, place + (off_t)done);
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) return -1;
+        if (!got) break;
+        done += (size_t)got;
+    }
+    return (ssize_t)done;
+}
+
 froe_status shards_file_check(const char *path, uint64_t *bytes, uint64_t *check, froe_diagnostic *diag) {
     enum { HEADER = 64, CHECK_AT = 56 };
     unsigned char header[HEADER];
@@ -25,11 +37,7 @@ froe_status shards_file_check(const char *path, uint64_t *bytes, uint64_t *check
         if (file >= 0) close(file);
         return support_fail_file(diag, "read", path, error);
     }
-    ssize_t got = 0;
-    if (S_ISREG(info.st_mode)) {
-        do got = pread(file, header, sizeof header, 0);
-        while (got < 0 && errno == EINTR);
-    }
+    const ssize_t got = S_ISREG(info.st_mode) ? shards_read_at(file, header, sizeof header, 0) : 0;
     const int error = errno;
     close(file);
     if (!S_ISREG(info.st_mode)) return support_fail_irregular(diag, path, S_ISDIR(info.st_mode));

@@ -3,10 +3,13 @@
 #define FROE_SHARDS_SHARD_H
 #include "plan.h"
 #include "record.h"
+#include <sys/types.h>
 
 enum { SHARDS_NAME = 24 };
 /** The path of a shard's file; `size` is that of `out`: SHARDS_NAME more than the length of `folder` suffice. */
 void shards_file_name(char *out, size_t size, const char *folder, uint32_t shard);
+/** Reads from a place of a file until so many bytes are there, or the file ends; how many, -1 with errno on failure. */
+ssize_t shards_read_at(int file, void *to, size_t count, off_t place);
 /** Reads the checksum of the header of a tree file, and the size of the file. FROE_E_IO; FROE_E_FORMAT: it is too short
  * to have a header. */
 froe_status shards_file_check(const char *path, uint64_t *bytes, uint64_t *check, froe_diagnostic *diag);

@@ -113,13 +113,15 @@ int cli_output_fail(const cli_output *output, froe_status status, const froe_dia
     return cli_fail_status(CLI_WRITING, output->name, status, &told);
 }
 
-/* Whether the command wrote one file, which is what can be copied. */
-static bool is_one_file(const cli_output *out) {
+/* The command wrote one file, which is what can be copied. Returns an exit code. */
+static int check_one_file(const cli_output *out) {
     DIR *folder = opendir(out->folder);
     int files = 0;
-    for (struct dirent *entry; folder && (entry = readdir(folder));) files += entry->d_name[0] != '.';
-    if (folder) closedir(folder);
-    return files == 1;
+    if (!folder) return cli_fail_file(CLI_RESOURCES, out->folder, "read");
+    for (struct dirent *entry; (entry = readdir(folder));) files += entry->d_name[0] != '.';
+    closedir(folder);
+    if (files == 1) return 0;
+    return cli_fail(CLI_USE, out->name, "The format %s has several files, which need names.", out->format);
 }
 
 /* Returns an exit code. */
@@ -146,15 +148,17 @@ static void remove_folder(const cli_output *out) {
     DIR *folder = opendir(out->folder);
     for (struct dirent *entry; folder && (entry = readdir(folder));)
         if (entry->d_name[0] != '.') unlinkat(dirfd(folder), entry->d_name, 0);
-    if (folder) closedir(folder);
+    if (folder)
+        closedir(folder);
+    else
+        unlink(out->copy); /* mostly all that there is */
     rmdir(out->folder);
 }
 
 int cli_output_close(const cli_part *parts, void *args, int code) {
     cli_output *out;
     if (!option_of(parts, args, &out) || !out->name || !*out->folder) return code;
-    if (!code && !is_one_file(out))
-        code = cli_fail(CLI_USE, out->name, "The format %s has several files, which need names.", out->format);
+    if (!code) code = check_one_file(out);
     void (*before)(int) = signal(SIGPIPE, SIG_IGN); /* the folder is to be removed whatever happens */
     if (!code) code = copy_output(out);
     signal(SIGPIPE, before);

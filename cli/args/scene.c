@@ -5,6 +5,7 @@
 #include "exit.h"
 #include "library.h"
 #include "progress.h"
+#include "support/path.h"
 #include <froe/shards.h>
 #include <stdio.h>
 
@@ -63,43 +64,48 @@ static void warn(const cli_common *common, const char *name, const froe_read_rep
             r->unread_library);
 }
 
+/* By the core, where it reads the file, otherwise by GDAL or assimp. */
+static int read_spooled(const cli_spool *spool, const froe_read_options *options, froe_scene **scene,
+                        froe_read_report *report) {
+    cli_io io = {0};
+    froe_diagnostic diag;
+    froe_status status = froe_read_own(spool->path, options, scene, report, &diag);
+    const bool textured = !status && report->textures; /* images are read by GDAL */
+    const bool left = status == FROE_E_UNSUPPORTED || (status == FROE_E_IO && support_path_is_beyond(spool->path));
+    cli_progress_end(options->user);
+    const int missing = textured || left ? cli_open_io(&io) : 0;
+    if (missing && left && !froe_reads_own(spool->path)) return missing;
+    if (io.read) {
+        if (textured) froe_scene_free(*scene);
+        cli_crash_begin(spool);
+        status = io.read(spool->path, options, scene, report, &diag);
+        cli_crash_end();
+        cli_progress_end(options->user);
+    }
+    return status ? cli_fail_status(CLI_READING, spool->name, status, &diag) : 0;
+}
+
 int cli_read_scene(const cli_common *common, const cli_scene_args *args, froe_scene **scene, froe_read_report *report) {
     cli_spool spool;
-    cli_io io = {0};
     if (froe_is_shards(args->path))
         return cli_fail(CLI_USE, args->path,
                         "It is a folder of shards, which check, range, locate, ray, near and pairs take.");
     int code = cli_spool_open(args->path, args->format, &spool);
     if (code) return code;
-    const bool own = froe_reads_own(spool.path); /* without GDAL and assimp */
-    if (!own) code = cli_open_io(&io);
-    if (!code) {
-        cli_progress bar = cli_progress_begin(common, "reading");
-        froe_read_options options = froe_read_defaults();
-        options.name = spool.name;
-        options.layer = args->layer;
-        options.where = args->where;
-        if (args->faces >= 0) options.faces = (froe_faces)args->faces;
-        options.boxes = args->boxes;
-        options.wrap = args->wrap;
-        options.alloc = args->alloc;
-        options.progress = cli_progress_step;
-        options.user = &bar;
-        froe_diagnostic diag;
-        froe_status status = own ? froe_read_own(spool.path, &options, scene, report, &diag) : FROE_OK;
-        const bool textured = own && !status && report->textures; /* images are read by GDAL */
-        const bool refused = own && status == FROE_E_UNSUPPORTED; /* so is GeoJSON that is not plain */
-        if ((textured || refused) && !cli_open_io(&io) && textured) froe_scene_free(*scene);
-        if (io.read) {
-            cli_crash_begin(&spool);
-            status = io.read(spool.path, &options, scene, report, &diag);
-            cli_crash_end();
-        }
-        cli_progress_end(&bar);
-        if (status) code = cli_fail_status(CLI_READING, spool.name, status, &diag);
-        if (!status) warn(common, spool.name, report);
-        if (!status && !args->wrap) cli_warn_scene(common, spool.name, *scene);
-    }
+    cli_progress bar = cli_progress_begin(common, "reading");
+    froe_read_options options = froe_read_defaults();
+    options.name = spool.name;
+    options.layer = args->layer;
+    options.where = args->where;
+    if (args->faces >= 0) options.faces = (froe_faces)args->faces;
+    options.boxes = args->boxes;
+    options.wrap = args->wrap;
+    options.alloc = args->alloc;
+    options.progress = cli_progress_step;
+    options.user = &bar;
+    code = read_spooled(&spool, &options, scene, report);
+    if (!code) warn(common, spool.name, report);
+    if (!code && !args->wrap) cli_warn_scene(common, spool.name, *scene);
     cli_spool_free(&spool);
     return code;
 }

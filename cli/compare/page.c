@@ -146,7 +146,7 @@ static void put_promises(FILE *out, const json_t *rows) {
     fputs("</div>\n</details>\n", out);
 }
 
-static void put_scene(FILE *out, const json_t *scene) {
+static bool put_scene(FILE *out, const json_t *scene) {
     const json_t *rows = json_object_get(scene, "methods");
     const char *name = field_scene(scene);
     fputs("<section>\n", out);
@@ -157,18 +157,19 @@ static void put_scene(FILE *out, const json_t *scene) {
     fputs("<div class=\"card\"><h3>What the scene is like</h3>\n", out);
     html_pairs(out, json_object_get(scene, "measures"), measures);
     fputs("</div>\n</div>\n", out);
-    const bool drawn = figures_put(out, rows);
+    bool whole = figures_put(out, rows);
     fputs("<h3>The trees</h3>\n", out);
     put_table(out, rows, TABLE_TREE);
     fputs("<h3>What a query visits, and how long it takes</h3>\n", out);
     put_table(out, rows, TABLE_QUERY);
     put_cells(out, rows);
     put_promises(out, rows);
-    if (!drawn || !figures_put_loads(out, rows)) fputs("<p>There was no memory for figures.</p>\n", out);
+    whole = figures_put_loads(out, rows) && whole;
     fputs("</section>\n", out);
+    return whole;
 }
 
-void page_put(FILE *out, const void *user) {
+bool page_put(FILE *out, const void *user) {
     static const html_field sums[] = {{"scenes", "scenes compared"},
                                       {"best", "auto is the best"},
                                       {"within_10_percent", "auto is within 10 % of the best"},
@@ -179,11 +180,12 @@ void page_put(FILE *out, const void *user) {
     size_t i;
     const char *purpose;
     json_t *scene, *sum;
+    bool whole = true;
     html_begin(out, "froe compare", "compare.css");
     fputs("<header>\n<h1>Which method suits which scene?</h1>\n<p class=\"lead\">Every method that serves a scene "
           "builds a tree of it, and all trees are asked the same questions.</p>\n</header>\n<main>\n",
           out);
-    json_array_foreach(json_object_get(comparison, "scenes"), i, scene) put_scene(out, scene);
+    json_array_foreach(json_object_get(comparison, "scenes"), i, scene) whole = put_scene(out, scene) && whole;
     fputs("<section>\n<h2>How well auto chose</h2>\n<div class=\"grid\">\n", out);
     json_object_foreach(json_object_get(comparison, "auto"), purpose, sum) {
         fprintf(out, "<div class=\"card\"><h3><code>--for %s</code></h3>\n", purpose);
@@ -192,4 +194,5 @@ void page_put(FILE *out, const void *user) {
     }
     fputs("</div>\n</section>\n", out);
     html_end(out);
+    return whole;
 }

@@ -194,7 +194,7 @@ static void put_csv_row(FILE *out, const json_t *scene, const json_t *row, json_
     fputc('\n', out);
 }
 
-void table_put_csv(FILE *out, const void *user) {
+bool table_put_csv(FILE *out, const void *user) {
     const json_t *scenes = json_object_get((const json_t *)user, "scenes");
     size_t i, j;
     const char *name;
@@ -210,4 +210,5 @@ void table_put_csv(FILE *out, const void *user) {
     json_array_foreach((json_t *)scenes, i, scene) json_array_foreach(json_object_get(scene, "methods"), j, row)
         put_csv_row(out, scene, row, promises);
     json_decref(promises);
+    return true;
 }

@@ -26,5 +26,5 @@ json_t *table_value(const json_t *row, const table_column *column);
 /** For the terminal: of each scene what it is like, its trees, queries and promises, and how well auto chose. */
 json_t *table_report(const json_t *comparison);
 /** A cli_write_fn: every row in full as CSV; `user` is the comparison. */
-void table_put_csv(FILE *out, const void *user);
+bool table_put_csv(FILE *out, const void *user);
 #endif

@@ -115,7 +115,7 @@ static void put_scene(FILE *out, const demo_scene *scene, const demo_result *res
     fputs("</section>\n", out);
 }
 
-static void put_page(FILE *out, const void *given) {
+static bool put_page(FILE *out, const void *given) {
     const demo_result *results = given;
     html_begin(out, "froe: exact line drawings of models, and answers from maps and models", NULL);
     fputs("<header>\n<h1>Exact drawings of models, exact answers from maps</h1>\n<p class=\"lead\">froe turns 3D "
@@ -125,6 +125,7 @@ static void put_page(FILE *out, const void *given) {
     for (size_t i = 0; demo_scenes[i].title; i++) put_scene(out, &demo_scenes[i], &results[i]);
     html_copying(out);
     html_end(out);
+    return true;
 }
 
 int demo_write_page(const char *path, const demo_result *results) {

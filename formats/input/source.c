@@ -111,12 +111,6 @@ void formats_report_format(formats_sink *sink, const char *precision, const char
     snprintf(sink->report.precision, sizeof sink->report.precision, "%s", precision);
 }
 
-/* Is it a folder, or a name in the virtual file systems of GDAL? */
-static bool is_beyond(const char *path) {
-    struct stat about;
-    return !strncmp(path, "/vsi", 4) || (!stat(path, &about) && S_ISDIR(about.st_mode));
-}
-
 /* Fills the sink and takes the scene from it. Only maps have layers and attributes: a filter of another file is
  * refused, rather than ignored. */
 static froe_status fill_scene(const formats_readers *readers, const formats_source *source, formats_sink *sink,
@@ -176,7 +170,7 @@ froe_status formats_read(const formats_readers *readers, const char *path, const
     support_locale locale;
     if (!support_locale_enter(&locale)) return support_fail_memory(diag);
     formats_source source = {
-        .file = path, .path = sink.path, .options = o, .beyond = readers->beyond && is_beyond(path)};
+        .file = path, .path = sink.path, .options = o, .beyond = readers->beyond && support_path_is_beyond(path)};
     source.extension = support_path_extension(path);
     froe_status status = source.beyond ? FROE_OK : formats_source_open(path, o, &source, diag);
     if (!status) status = fill_scene(readers, &source, &sink, out);

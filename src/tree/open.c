@@ -55,7 +55,7 @@ static froe_status open_file(opening *o, int *fd) {
     froe_status status = FROE_OK;
     struct stat info;
     if (*fd < 0) return unreadable(o, errno);
-    if (fstat(*fd, &info)) /* one way: it is open */
+    if (fstat(*fd, &info))
         status = unreadable(o, errno);
     else if (!S_ISREG(info.st_mode))
         status = support_fail_irregular(o->diag, o->path, S_ISDIR(info.st_mode));
@@ -282,7 +282,7 @@ bool froe_is_tree(const char *path) {
     struct stat about;
     if (!path || stat(path, &about) || !S_ISREG(about.st_mode)) return false; /* opening a pipe would disturb it */
     const int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-    if (file < 0) return false; /* one way: tests may read every file */
+    if (file < 0) return false;
     const bool is = read(file, head, WORD) == WORD && !memcmp(head, FILE_MAGIC, WORD);
     close(file);
     return is;

@@ -1,6 +1,6 @@
 /* test_faults.c: every command that writes, while the system calls that write fail, or the program is interrupted or
- * killed: the old file is as it was or the new one whole, and a failure names the file and the reason. (The writer
- * itself meets more kinds of faults in files/writer.) */
+ * killed, or the power is lost: the old file is as it was or the new one whole, and a failure names the file and the
+ * reason. (The writer itself meets more kinds of faults in files/writer.) */
 #include "faults/faults.h"
 #include <dirent.h>
 #include <setjmp.h>
@@ -101,7 +101,7 @@ static void check(const writing *w, unsigned at, const char *call, fault_kind ki
     snprintf(what, sizeof what, "froe %.200s: fault %d at call %u, %.40s: exit code %d", w->arguments, kind, at, call,
              code);
     if (!as_before && !whole) fail_msg("%s: the file is neither the old one nor the new one", what);
-    if (kind == FAULT_KILL) {
+    if (kind == FAULT_KILL || kind >= FAULT_POWER) {
         if (code != -1 || left > 1) fail_msg("%s: %d temporary files", what, left);
     } else if (left)
         fail_msg("%s: a temporary file is left", what);
@@ -128,7 +128,8 @@ static unsigned read_calls(char names[MOST_CALLS][32]) {
 }
 
 static void try_faults(const writing *w) {
-    static const fault_kind kinds[] = {FAULT_EIO, FAULT_KILL, FAULT_INTERRUPT, FAULT_TERMINATE};
+    static const fault_kind kinds[] = {FAULT_EIO,       FAULT_KILL,  FAULT_INTERRUPT,
+                                       FAULT_TERMINATE, FAULT_POWER, FAULT_POWER_BACK};
     char names[MOST_CALLS][32];
     size_t size;
     begin(w);

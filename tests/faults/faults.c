@@ -1,5 +1,6 @@
 /* faults.c: __wrap_NAME() takes the place of NAME(), which it reaches as __real_NAME(). */
 #include "faults.h"
+#include "power.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -13,30 +14,53 @@
 #include <sys/types.h>
 #include <unistd.h>
 
-fault_plan faults = {.log = -1};
+fault_plan faults = {.log = -1}, fault_reads = {.log = -1};
 static uint64_t outputs, folders; /* descriptors below 64 that belong to an output */
+
+void fault_plan_read(fault_plan *plan, const char *variable) {
+    const char *text = getenv(variable);
+    int kind = 0;
+    if (text && sscanf(text, "%u %d", &plan->at, &kind) == 2) plan->kind = (fault_kind)kind;
+}
 
 static void read_environment(void) __attribute__((constructor));
 static void read_environment(void) {
-    const char *plan = getenv("FROE_FAULT"), *log = getenv("FROE_FAULT_LOG");
-    int kind = 0;
-    if (plan && sscanf(plan, "%u %d", &faults.at, &kind) == 2) faults.kind = (fault_kind)kind;
+    const char *log = getenv("FROE_FAULT_LOG");
+    fault_plan_read(&faults, "FROE_FAULT");
     if (log) faults.log = atoi(log);
 }
 
-/* Counts a call; true when it shall fail, with errno. */
-static bool fails(const char *name) {
-    unsigned number = ++faults.calls;
-    if (number <= sizeof faults.names / sizeof *faults.names) faults.names[number - 1] = name;
-    if (faults.log >= 0) dprintf(faults.log, "%s\n", name);
-    bool now = faults.at && (number == faults.at || (faults.kind == FAULT_FOREVER && number > faults.at));
+static bool is_power(const fault_plan *plan) {
+    return plan->kind == FAULT_POWER || plan->kind == FAULT_POWER_BACK;
+}
+
+static bool needs_room(const char *name) {
+    return !strcmp(name, "open") || !strcmp(name, "write") || !strcmp(name, "fsync");
+}
+
+bool fault_meets(fault_plan *plan, const char *name) {
+    unsigned number = ++plan->calls;
+    if (number <= sizeof plan->names / sizeof *plan->names) plan->names[number - 1] = name;
+    if (plan->log >= 0) dprintf(plan->log, "%s\n", name);
+    const bool lasts = plan->kind == FAULT_FOREVER || plan->kind == FAULT_FULL;
+    bool now = plan->at && (number == plan->at || (lasts && number > plan->at));
     if (!now) return false;
-    if (faults.kind == FAULT_KILL) raise(SIGKILL);
-    if (faults.kind == FAULT_INTERRUPT) raise(SIGINT);
-    if (faults.kind == FAULT_TERMINATE) raise(SIGTERM);
-    if (faults.kind == FAULT_SHORT || faults.kind >= FAULT_INTERRUPT) return false;
-    errno = faults.kind == FAULT_ENOSPC ? ENOSPC : faults.kind == FAULT_EINTR ? EINTR : EIO;
+    if (is_power(plan)) power_lose(plan->kind == FAULT_POWER_BACK);
+    if (plan->kind == FAULT_KILL || is_power(plan)) raise(SIGKILL);
+    if (plan->kind == FAULT_INTERRUPT) raise(SIGINT);
+    if (plan->kind == FAULT_TERMINATE) raise(SIGTERM);
+    if (plan->kind == FAULT_FULL) return errno = ENOSPC, needs_room(name);
+    if (plan->kind == FAULT_SHORT || plan->kind >= FAULT_INTERRUPT) return false;
+    errno = plan->kind == FAULT_ENOSPC ? ENOSPC : plan->kind == FAULT_EINTR ? EINTR : EIO;
     return true;
+}
+
+bool fault_reading_fails(const char *name) {
+    return fault_meets(&fault_reads, name) && fault_reads.kind != FAULT_EINTR;
+}
+
+static bool fails(const char *name) {
+    return fault_meets(&faults, name);
 }
 
 static uint64_t bit(int file) {
@@ -52,8 +76,10 @@ int __wrap_open(const char *path, int flags, ...) {
     va_end(args);
     bool folder = flags & O_DIRECTORY, output = flags & O_WRONLY;
     if ((folder || output) && fails(folder ? "open folder" : "open")) return -1;
+    if (!output && !folder && fault_reading_fails("open")) return -1;
     int file = __real_open(path, flags, mode);
     if (output) outputs |= bit(file);
+    if (output && file >= 0 && is_power(&faults)) power_wrote(file);
     if (folder) folders |= bit(file);
     return file;
 }
@@ -63,6 +89,7 @@ ssize_t __wrap_write(int file, const void *bytes, size_t count);
 ssize_t __wrap_write(int file, const void *bytes, size_t count) {
     if (!(outputs & bit(file))) return __real_write(file, bytes, count);
     if (fails("write")) return -1;
+    if (is_power(&faults)) power_wrote(file);
     bool cut = faults.kind == FAULT_SHORT && faults.calls == faults.at && count > 1;
     return __real_write(file, bytes, cut ? 1 : count);
 }
@@ -70,7 +97,10 @@ ssize_t __wrap_write(int file, const void *bytes, size_t count) {
 int __real_fsync(int file);
 int __wrap_fsync(int file);
 int __wrap_fsync(int file) {
-    return fails(folders & bit(file) ? "fsync folder" : "fsync") ? -1 : __real_fsync(file);
+    if (fails(folders & bit(file) ? "fsync folder" : "fsync")) return -1;
+    const int result = __real_fsync(file);
+    if (!result && is_power(&faults)) power_synced(file);
+    return result;
 }
 
 int __real_fchmod(int file, mode_t mode);
@@ -82,7 +112,11 @@ int __wrap_fchmod(int file, mode_t mode) {
 int __real_rename(const char *from, const char *to);
 int __wrap_rename(const char *from, const char *to);
 int __wrap_rename(const char *from, const char *to) {
-    return fails("rename") ? -1 : __real_rename(from, to);
+    if (fails("rename")) return -1;
+    if (is_power(&faults)) power_renames(to);
+    const int result = __real_rename(from, to);
+    if (!result && is_power(&faults)) power_renamed(from, to);
+    return result;
 }
 
 int __real_unlink(const char *path);

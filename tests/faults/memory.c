@@ -4,6 +4,7 @@
 #define _GNU_SOURCE 1 /* mmap() of memory alone */
 #include "faults.h"
 #include <errno.h>
+#include <fcntl.h>
 #include <jansson.h>
 #include <pthread.h>
 #include <signal.h>
@@ -14,6 +15,7 @@
 #include <string.h>
 #include <sys/mman.h>
 #include <sys/types.h>
+#include <unistd.h>
 
 typedef struct counted {
     unsigned at; /* the number of the call with a fault; 0: none */
@@ -26,7 +28,9 @@ static int log_to = -1;
 static atomic_int json_blocks; /* that were given and not taken back */
 
 static void tell(void) {
-    if (log_to >= 0) dprintf(log_to, "memory %u steps %u json %d\n", memory.calls, steps.calls, json_blocks);
+    if (log_to >= 0)
+        dprintf(log_to, "memory %u steps %u reads %u json %d\n", memory.calls, steps.calls, fault_reads.calls,
+                json_blocks);
 }
 
 /* Counts a call; true when it shall fail. */
@@ -71,10 +75,12 @@ char *__wrap_strndup(const char *text, size_t most) {
     return meets(&memory) ? NULL : __real_strndup(text, most);
 }
 
+int __wrap_open(const char *path, int flags, ...);
 FILE *__real_fopen(const char *path, const char *mode);
 FILE *__wrap_fopen(const char *path, const char *mode);
 FILE *__wrap_fopen(const char *path, const char *mode) {
-    return meets(&memory) ? NULL : __real_fopen(path, mode);
+    if (meets(&memory)) return NULL;
+    return *mode == 'r' ? fault_stream(__wrap_open(path, O_RDONLY | O_CLOEXEC)) : __real_fopen(path, mode);
 }
 
 FILE *__real_open_memstream(char **text, size_t *size);
@@ -92,7 +98,8 @@ ssize_t __wrap_getline(char **line, size_t *size, FILE *file) {
 void *__real_mmap(void *at, size_t size, int rights, int flags, int file, off_t offset);
 void *__wrap_mmap(void *at, size_t size, int rights, int flags, int file, off_t offset);
 void *__wrap_mmap(void *at, size_t size, int rights, int flags, int file, off_t offset) {
-    return meets(&memory) ? MAP_FAILED : __real_mmap(at, size, rights, flags, file, offset);
+    if (meets(&memory) || (file >= 0 && fault_reading_fails("mmap"))) return MAP_FAILED;
+    return __real_mmap(at, size, rights, flags, file, offset);
 }
 
 int __real_pthread_create(pthread_t *thread, const pthread_attr_t *attributes, void *(*run)(void *), void *user);
@@ -140,15 +147,18 @@ static void read_plan(const char *name, counted *c) {
 static void begin(void) {
     const char *log = getenv("FROE_FAULT_COUNTS");
     memory.calls = 0;
+    fault_reads.calls = 0;
+    fault_plan_read(&fault_reads, "FROE_FAULT_READS");
     read_plan("FROE_FAULT_MEMORY", &memory);
     read_plan("FROE_FAULT_STEPS", &steps);
     if (log) log_to = atoi(log);
+    stdin = fault_stream(STDIN_FILENO);
     __wrap_json_set_alloc_funcs(__wrap_malloc, free);
 }
 
 static void end(void) {
     tell();
-    memory.at = steps.at = faults.at = 0;
+    memory.at = steps.at = faults.at = fault_reads.at = 0;
     faults.log = -1;
 }
 

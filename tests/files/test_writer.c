@@ -177,8 +177,8 @@ static void each_system_call_may_fail(void **state) {
     clear();
 }
 
-static void a_killed_program_leaves_at_most_the_temporary_file(void **state) {
-    (void)state;
+/* The program ends at each call of each situation. */
+static void end_everywhere(fault_kind kind) {
     for (size_t i = 0; i < sizeof situations / sizeof *situations; i++) {
         const situation *s = situations + i;
         unsigned calls = calls_of(s);
@@ -186,19 +186,31 @@ static void a_killed_program_leaves_at_most_the_temporary_file(void **state) {
             set_up(s);
             pid_t child = fork();
             if (!child) {
-                faults.at = at, faults.kind = FAULT_KILL;
+                faults.at = at, faults.kind = kind;
                 write_content("out", NULL);
                 _exit(0);
             }
             int ended;
             assert_int_equal(waitpid(child, &ended, 0), child);
-            assert_true(WIFSIGNALED(ended));
+            assert_true(WIFSIGNALED(ended) && WTERMSIG(ended) == SIGKILL);
             char what[40];
-            snprintf(what, sizeof what, "killed at call %u", at);
+            snprintf(what, sizeof what, "kind %d at call %u", kind, at);
             check(s, look("out") == NEW, false, what);
         }
+        assert_int_equal(look("out"), NEW); /* the last call is behind all that matters */
     }
     clear();
+}
+
+static void a_killed_program_leaves_at_most_the_temporary_file(void **state) {
+    (void)state;
+    end_everywhere(FAULT_KILL);
+}
+
+static void so_does_a_loss_of_power(void **state) {
+    (void)state;
+    end_everywhere(FAULT_POWER);
+    end_everywhere(FAULT_POWER_BACK);
 }
 
 static void the_bytes_and_the_name_reach_the_disk_in_order(void **state) {
@@ -402,6 +414,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_system_call_may_fail),
         cmocka_unit_test(a_killed_program_leaves_at_most_the_temporary_file),
+        cmocka_unit_test(so_does_a_loss_of_power),
         cmocka_unit_test(the_bytes_and_the_name_reach_the_disk_in_order),
         cmocka_unit_test(a_name_that_is_taken_is_neither_followed_nor_lost),
         cmocka_unit_test(loops_folders_and_absent_places_are_refused),

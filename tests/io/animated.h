@@ -123,7 +123,23 @@ static inline void animated_put_track(animated_text *t, animated_file *f, const 
     t->sampled++;
 }
 
-static inline void animated_write(const animated_model *m, const char *path) {
+/** Where the bytes are: within the text, in a file beside it, or behind the text in a file of chunks. */
+typedef enum animated_container { ANIMATED_WITHIN, ANIMATED_BESIDE, ANIMATED_CHUNKS } animated_container;
+
+static inline void animated_put_word(FILE *out, size_t word) {
+    for (int k = 0; k < 4; k++) fputc((int)(word >> 8 * k & 255), out);
+}
+
+static inline void animated_put_chunk(FILE *out, const char *name, const void *bytes, size_t size) {
+    animated_put_word(out, (size + 3) / 4 * 4);
+    fwrite(name, 1, 4, out);
+    fwrite(bytes, 1, size, out);
+    for (; size % 4; size++) fputc(*name == 'J' ? ' ' : 0, out);
+}
+
+/** The file beside is `beside`, which the text calls `uri`. */
+static inline void animated_write_as(const animated_model *m, const char *path, animated_container container,
+                                     const char *beside, const char *uri) {
     static const unsigned short corners[] = {0, 1, 2};
     static animated_file f;
     static animated_text t;
@@ -136,17 +152,42 @@ static inline void animated_write(const animated_model *m, const char *path) {
         for (int k = 0; k < 3; k++)
             if (m->node[n].track[k].count) animated_put_track(&t, &f, m->node[n].track + k, n, k);
     }
-    FILE *out = fopen(path, "w");
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&text, &length);
     assert_non_null(out);
     fprintf(out,
             "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[%s]}],\"nodes\":[%s],\"meshes\":[{"
             "\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1}]}],\"animations\":[{\"name\":\"go\","
             "\"samplers\":[%s],\"channels\":[%s]}],\"accessors\":[%s],\"bufferViews\":[%s],\"buffers\":[{"
-            "\"byteLength\":%zu,\"uri\":\"data:application/octet-stream;base64,",
+            "\"byteLength\":%zu",
             t.roots, t.nodes, t.samplers, t.channels, f.accessors, f.views, f.used);
-    animated_base64(&f, out);
-    fputs("\"}]}\n", out);
+    if (container == ANIMATED_WITHIN) {
+        fputs(",\"uri\":\"data:application/octet-stream;base64,", out);
+        animated_base64(&f, out);
+        fputc('"', out);
+    }
+    if (container == ANIMATED_BESIDE) fprintf(out, ",\"uri\":\"%s\"", uri);
+    fputs("}]}\n", out);
     fclose(out);
+    if (container == ANIMATED_BESIDE) write_bytes(beside, f.bytes, f.used);
+    out = fopen(path, "wb");
+    assert_non_null(out);
+    if (container == ANIMATED_CHUNKS) {
+        fputs("glTF", out);
+        animated_put_word(out, 2);
+        animated_put_word(out, 12 + 16 + (length + 3) / 4 * 4 + (f.used + 3) / 4 * 4);
+        animated_put_chunk(out, "JSON", text, length);
+        animated_put_chunk(out, "BIN", f.bytes, f.used);
+    } else {
+        fwrite(text, 1, length, out);
+    }
+    fclose(out);
+    free(text);
+}
+
+static inline void animated_write(const animated_model *m, const char *path) {
+    animated_write_as(m, path, ANIMATED_WITHIN, NULL, NULL);
 }
 
 /* --------------------------------------------------------------------- the truth -- */

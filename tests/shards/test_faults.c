@@ -1,7 +1,10 @@
-/* test_faults.c: a folder is whole whatever happens while another takes its place: kill -9 at any call that changes
- * files, a full disk; and no change of its manifest goes unnoticed. */
+/* test_faults.c: a folder is whole whatever happens while another takes its place: kill -9 and a loss of power at any
+ * call that changes files, calls that fail, a full disk; and no change of its manifest goes unnoticed. */
+#include "faults/power.h"
 #include "shards/folder.h"
 #include "shards/folders.h"
+#include <dirent.h>
+#include <errno.h>
 #include <signal.h>
 #include <stdio.h>
 #include <sys/resource.h>
@@ -9,40 +12,74 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { OLD_OBJECTS = 400, NEW_OBJECTS = 3000, SHARDS = 5 };
+enum { OLD_OBJECTS = 400, NEW_OBJECTS = 3000, SOME_OBJECTS = 500, SHARDS = 5 };
 
-/* The linker leads the calls of cmake/FroeTests.cmake here: call number `killed_at`, from 1, is a kill -9 instead. */
-static unsigned calls, killed_at;
+/* The linker leads the calls of cmake/FroeTests.cmake here: at call number `ends_at`, from 1, the process is killed, loses
+ * its power, or the call fails. */
+typedef enum end_kind { KILLED, POWER, POWER_BACK, FAILED } end_kind;
+static unsigned calls, ends_at;
+static end_kind how_ends;
+static int failure;            /* errno of a call that fails */
+static const char *names[512]; /* of the calls of the last run */
 
-static void count_call(void) {
-    if (++calls == killed_at) raise(SIGKILL);
+/* Shall this call fail? */
+static bool meets_end(const char *name) {
+    if (++calls < 512) names[calls] = name;
+    if (calls != ends_at) return false;
+    errno = failure;
+    if (how_ends == FAILED) return true;
+    if (how_ends != KILLED) power_lose(how_ends == POWER_BACK);
+    raise(SIGKILL);
+    return true;
 }
 
-#define COUNTED(type, name, parameters, arguments)                                                                     \
+/* Is power.h told of this call, in a process that loses its power? */
+static bool is_told(void) {
+    return ends_at && (how_ends == POWER || how_ends == POWER_BACK);
+}
+
+/* `before` and `after` it power.h is told; `failed` is what it returns when it fails. */
+#define COUNTED(type, name, parameters, arguments, failed, before, after)                                              \
     type __real_##name parameters;                                                                                     \
     type __wrap_##name parameters;                                                                                     \
     type __wrap_##name parameters {                                                                                    \
-        count_call();                                                                                                  \
-        return __real_##name arguments;                                                                                \
+        if (meets_end(#name)) return failed;                                                                           \
+        if (is_told()) before;                                                                                         \
+        type result = __real_##name arguments;                                                                         \
+        if (is_told() && result != (failed)) after;                                                                    \
+        return result;                                                                                                 \
     }
 
-COUNTED(int, mkdir, (const char *path, mode_t mode), (path, mode))
-COUNTED(FILE *, fopen, (const char *path, const char *mode), (path, mode))
-COUNTED(int, fflush, (FILE * file), (file))
-COUNTED(ssize_t, write, (int file, const void *bytes, size_t count), (file, bytes, count))
-COUNTED(size_t, fwrite, (const void *bytes, size_t size, size_t count, FILE *file), (bytes, size, count, file))
-COUNTED(ssize_t, pwrite, (int file, const void *bytes, size_t count, off_t place), (file, bytes, count, place))
-COUNTED(int, fsync, (int file), (file))
-COUNTED(int, rename, (const char *from, const char *to), (from, to))
-COUNTED(int, renameat2, (int in, const char *from, int out, const char *to, unsigned how), (in, from, out, to, how))
-COUNTED(int, unlinkat, (int folder, const char *name, int how), (folder, name, how))
-COUNTED(int, rmdir, (const char *path), (path))
+#define NOTHING (void)0
+COUNTED(int, mkdir, (const char *path, mode_t mode), (path, mode), -1, NOTHING, NOTHING)
+COUNTED(FILE *, fopen, (const char *path, const char *mode), (path, mode), NULL, NOTHING,
+        *mode == 'w' ? power_wrote(fileno(result)) : NOTHING)
+COUNTED(int, fflush, (FILE * file), (file), EOF, NOTHING, NOTHING)
+COUNTED(ssize_t, write, (int file, const void *bytes, size_t count), (file, bytes, count), -1, power_wrote(file),
+        NOTHING)
+COUNTED(size_t, fwrite, (const void *bytes, size_t size, size_t count, FILE *file), (bytes, size, count, file), 0,
+        NOTHING, NOTHING)
+COUNTED(ssize_t, pwrite, (int file, const void *bytes, size_t count, off_t place), (file, bytes, count, place), -1,
+        NOTHING, NOTHING)
+COUNTED(ssize_t, pread, (int file, void *bytes, size_t count, off_t place), (file, bytes, count, place), -1, NOTHING,
+        NOTHING)
+COUNTED(int, fsync, (int file), (file), -1, NOTHING, power_synced(file))
+COUNTED(int, rename, (const char *from, const char *to), (from, to), -1, power_renames(to), power_renamed(from, to))
+COUNTED(int, renameat2, (int in, const char *from, int out, const char *to, unsigned how), (in, from, out, to, how), -1,
+        NOTHING, power_exchanged(from, to))
+COUNTED(int, unlinkat, (int folder, const char *name, int how), (folder, name, how), -1, NOTHING, NOTHING)
+COUNTED(int, rmdir, (const char *path), (path), -1, NOTHING, NOTHING)
+COUNTED(DIR *, opendir, (const char *path), (path), NULL, NOTHING, NOTHING)
+COUNTED(int, openat, (int folder, const char *name, int flags), (folder, name, flags), -1, NOTHING, NOTHING)
+COUNTED(int, mkstemp, (char *path), (path), -1, NOTHING, NOTHING)
+COUNTED(int, fstat, (int file, struct stat *about), (file, about), -1, NOTHING, NOTHING)
+COUNTED(int, fclose, (FILE * file), (file), EOF, NOTHING, NOTHING)
 
-static froe_status build(const char *path, size_t count) {
+static froe_status build(const char *path, size_t count, froe_diagnostic *why) {
     one_object *list = lattice_objects(2, FROE_SEGMENT, count, 50, count);
     froe_shards_options o = froe_shards_defaults();
     o.shards = SHARDS, o.threads = 1;
-    const froe_status status = build_folder(path, 2, list, count, &o, NULL, NULL);
+    const froe_status status = build_folder(path, 2, list, count, &o, NULL, why);
     free(list);
     return status;
 }
@@ -57,18 +94,18 @@ static uint64_t objects_of(const char *path) {
     return objects;
 }
 
-static void a_killed_program_leaves_the_old_folder_or_the_new_one(void **state) {
-    (void)state;
+/* The program ends at each call. */
+static void end_everywhere(end_kind kind) {
     int old = 0, new = 0, ended;
     for (unsigned at = 1;; at++) {
-        assert_int_equal(build("killed.froes", OLD_OBJECTS), FROE_OK); /* which tidies up */
+        assert_int_equal(build("killed.froes", OLD_OBJECTS, NULL), FROE_OK); /* which tidies up */
         assert_int_equal(access(".killed.froes.building", F_OK), -1);
         assert_int_equal(access(".killed.froes.building.old", F_OK), -1);
         const pid_t child = fork();
         assert_true(child >= 0);
         if (!child) {
-            calls = 0, killed_at = at;
-            _exit(build("killed.froes", NEW_OBJECTS) != FROE_OK);
+            calls = 0, ends_at = at, how_ends = kind;
+            _exit(build("killed.froes", NEW_OBJECTS, NULL) != FROE_OK);
         }
         assert_int_equal(waitpid(child, &ended, 0), child);
         const uint64_t objects = objects_of("killed.froes");
@@ -83,10 +120,58 @@ static void a_killed_program_leaves_the_old_folder_or_the_new_one(void **state) 
     if (!(old > 10 && new > 5)) fail_msg("%d left the old folder, %d the new one", old, new);
 }
 
+static void a_killed_program_leaves_the_old_folder_or_the_new_one(void **state) {
+    (void)state;
+    end_everywhere(KILLED);
+}
+
+static void so_does_a_loss_of_power(void **state) {
+    (void)state;
+    end_everywhere(POWER);
+    end_everywhere(POWER_BACK);
+}
+
+/* Is the failure of this call one that the program has an answer to? */
+static bool is_answered(const char *name, int error) {
+    if (error == ENOSYS) return !strcmp(name, "renameat2") || !strcmp(name, "fsync");
+    return error == EIO || !strcmp(name, "fsync") || !strcmp(name, "pwrite") || !strcmp(name, "pread");
+}
+
+/* A call that fails: the old folder, or the new one where the call does not matter. Without an exchange of names two
+ * renames do the same. */
+static void each_call_may_fail(void **state) {
+    (void)state;
+    static const int failures[] = {EIO, ENOSYS, EINTR};
+    int ended[2] = {0, 0};
+    froe_diagnostic why;
+    for (size_t i = 0; i < 3; i++) {
+        assert_int_equal(build("failed.froes", OLD_OBJECTS, NULL), FROE_OK); /* where there is none yet */
+        calls = 0;
+        assert_int_equal(build("failed.froes", OLD_OBJECTS, NULL), FROE_OK);
+        for (unsigned at = 1; at <= calls; at++) {
+            if (!is_answered(names[at], failures[i])) continue;
+            calls = 0, ends_at = at, how_ends = FAILED, failure = failures[i], why = (froe_diagnostic){0};
+            const froe_status status = build("failed.froes", SOME_OBJECTS, &why);
+            const char *last = names[at];
+            ends_at = 0;
+            const bool gone = access(".failed.froes.building", F_OK) && access(".failed.froes.building.old", F_OK);
+            const bool kept = !strcmp(last, "unlinkat") || !strcmp(last, "rmdir") || !strcmp(last, "opendir");
+            if (!gone && !kept) fail_msg("%s, call %u, fails: the draft is left", last, at);
+            if (status && status != FROE_E_IO) fail_msg("%s, call %u, fails: status %d", last, at, status);
+            if (status && !*why.message) fail_msg("%s, call %u, fails: no sentence", last, at);
+            assert_int_equal(objects_of("failed.froes"), status ? OLD_OBJECTS : SOME_OBJECTS);
+            ended[!status]++;
+            calls = 0;
+            assert_int_equal(build("failed.froes", OLD_OBJECTS, NULL), FROE_OK);
+        }
+    }
+    if (ended[0] < 30 || ended[1] < 10) fail_msg("%d failed, %d did not", ended[0], ended[1]);
+}
+
 static void a_full_disk_leaves_the_old_folder_and_nothing_beside_it(void **state) {
     (void)state;
     int failed = 0, made = 0;
-    assert_int_equal(build("full.froes", OLD_OBJECTS), FROE_OK);
+    assert_int_equal(build("full.froes", OLD_OBJECTS, NULL), FROE_OK);
     for (rlim_t most = 100; most < 1 << 21; most = most * 3 / 2) {
         const pid_t child = fork();
         int result;
@@ -94,7 +179,7 @@ static void a_full_disk_leaves_the_old_folder_and_nothing_beside_it(void **state
         if (!child) { /* files beyond the limit cannot be written, as on a full disk */
             signal(SIGXFSZ, SIG_IGN);
             setrlimit(RLIMIT_FSIZE, &(struct rlimit){most, most});
-            _exit((int)build("full.froes", NEW_OBJECTS));
+            _exit((int)build("full.froes", NEW_OBJECTS, NULL));
         }
         assert_int_equal(waitpid(child, &result, 0), child);
         assert_true(WIFEXITED(result));
@@ -104,7 +189,7 @@ static void a_full_disk_leaves_the_old_folder_and_nothing_beside_it(void **state
         assert_int_equal(access(".full.froes.building", F_OK), -1);
         failed += status != FROE_OK;
         made += status == FROE_OK;
-        if (!status) assert_int_equal(build("full.froes", OLD_OBJECTS), FROE_OK);
+        if (!status) assert_int_equal(build("full.froes", OLD_OBJECTS, NULL), FROE_OK);
     }
     assert_true(failed > 5 && made > 0);
 }
@@ -113,7 +198,7 @@ static void every_changed_byte_of_a_manifest_is_noticed(void **state) {
     (void)state;
     const froe_allocator alloc = support_allocator(NULL);
     size_t count = 0, read = 0;
-    assert_int_equal(build("changed.froes", OLD_OBJECTS), FROE_OK);
+    assert_int_equal(build("changed.froes", OLD_OBJECTS, NULL), FROE_OK);
     char *text = read_whole("changed.froes/froe.shards", &count);
     assert_non_null(text);
     for (size_t i = 0; i < count; i++)
@@ -149,7 +234,7 @@ static void every_changed_byte_of_a_manifest_is_noticed(void **state) {
 static froe_status check_with_empty(uint32_t shard, bool gone) {
     char path[64];
     froe_shards *shards;
-    assert_int_equal(build("forged.froes", OLD_OBJECTS), FROE_OK);
+    assert_int_equal(build("forged.froes", OLD_OBJECTS, NULL), FROE_OK);
     assert_int_equal(froe_shards_open("forged.froes", NULL, &shards, NULL), FROE_OK);
     shards->manifest.entries.data[shard] = (froe_shard_entry){0};
     assert_int_equal(
@@ -176,6 +261,8 @@ static void a_shard_that_the_manifest_calls_empty_is_found(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_killed_program_leaves_the_old_folder_or_the_new_one),
+        cmocka_unit_test(so_does_a_loss_of_power),
+        cmocka_unit_test(each_call_may_fail),
         cmocka_unit_test(a_full_disk_leaves_the_old_folder_and_nothing_beside_it),
         cmocka_unit_test(every_changed_byte_of_a_manifest_is_noticed),
         cmocka_unit_test(a_shard_that_the_manifest_calls_empty_is_found),

@@ -1,4 +1,4 @@
-/* test_memory.c: every question to a folder of shards while any allocation fails, with sizes that are checked where
+/* test_memory.c: every question to a folder of shards, and the building of one, while any allocation fails, with sizes that are checked where
  * blocks are given back. */
 #include "folders.h"
 #include "support/memory.h"
@@ -87,7 +87,98 @@ static void any_allocation_of_any_question_may_fail(void **state) {
     for (size_t i = 0; i < sizeof questions / sizeof *questions; i++) assert_true(test_memory_each(ask, &i) > 5);
 }
 
+/* A folder of whole objects of all kinds, or of a scene with groups, a system of coordinates and an axis that is up. */
+static froe_status build_scene(const froe_allocator *alloc, froe_shards_options *o) {
+    froe_scene *scene;
+    froe_shards_builder *builder;
+    froe_status status = froe_scene_new(2, NULL, &scene);
+    one_object *list = lattice_objects(2, FROE_KIND_COUNT, OBJECTS, 9, 6);
+    for (size_t i = 0; i < OBJECTS && !status; i++) {
+        size_t starts[2];
+        froe_objects batch = batch_of(list + i, starts);
+        const froe_group group = {.name = "a", .colour = (uint32_t)i};
+        if (i % 4) status = froe_scene_add_group(scene, &group, &batch.group);
+        if (!status) status = froe_scene_add(scene, &batch, NULL);
+    }
+    const froe_crs crs = {.kind = FROE_CRS_GEOGRAPHIC, .name = "WGS 84"};
+    if (!status) status = froe_scene_set_crs(scene, &crs);
+    assert_int_equal(status, FROE_OK);
+    o->alloc = alloc;
+    status = froe_shards_begin("built.froes", 2, o, &builder, NULL);
+    if (!status) {
+        status = froe_shards_add_scene(builder, scene, NULL);
+        if (status)
+            froe_shards_abandon(builder);
+        else
+            status = froe_shards_finish(builder, NULL, NULL);
+    }
+    free(list);
+    froe_scene_free(scene);
+    return status;
+}
+
+static froe_status build_any(void *user, const froe_allocator *alloc) {
+    froe_shards_options o = froe_shards_defaults();
+    froe_shards *s;
+    o.shards = 3, o.threads = 1, o.alloc = alloc;
+    if (*(int *)user) {
+        const froe_status status = build_scene(alloc, &o);
+        if (status) return status;
+    } else {
+        one_object *list = lattice_objects(2, FROE_KIND_COUNT, OBJECTS, 9, 6);
+        const froe_status status = build_folder("built.froes", 2, list, OBJECTS, &o, NULL, NULL);
+        free(list);
+        if (status) return status;
+    }
+    froe_status status = froe_shards_open("built.froes", alloc, &s, NULL);
+    if (status) return status;
+    status = froe_shards_check(s, NULL, NULL);
+    froe_shards_close(s);
+    return status;
+}
+
+static void any_allocation_of_any_build_may_fail(void **state) {
+    (void)state;
+    for (int i = 0; i < 2; i++) assert_true(test_memory_each(build_any, &i) > 50);
+}
+
+/* Buckets with blocks in their file. */
+static froe_status count_bytes(void *user, const void *records, size_t count) {
+    (void)records;
+    *(size_t *)user += count;
+    return FROE_OK;
+}
+
+static froe_status fill_bucket(void *user, const froe_allocator *alloc) {
+    enum { TIMES = 6000 };
+    froe_shard_buckets *b;
+    froe_shard_records one = {.alloc = *alloc};
+    one_object *list = lattice_objects(2, FROE_SEGMENT, 1, 9, 6);
+    size_t starts[2], taken = 0;
+    const froe_objects batch = batch_of(list, starts);
+    (void)user;
+    froe_status status = froe_shard_records_add(&one, 2, &batch, 0, NULL);
+    free(list);
+    if (!status) status = froe_shard_buckets_new(".", 2, alloc, &b, NULL);
+    const bool made = !status;
+    for (int i = 0; i < TIMES && !status; i++) status = froe_shard_buckets_add(b, 1, one.bytes, one.count, NULL);
+    if (!status) status = froe_shard_buckets_take(b, 1, count_bytes, &taken, NULL);
+    if (!status) assert_int_equal(taken, TIMES * one.count);
+    if (made) froe_shard_buckets_free(b);
+    froe_shard_records_free(&one);
+    return status;
+}
+
+static void any_allocation_of_buckets_may_fail(void **state) {
+    (void)state;
+    assert_true(test_memory_each(fill_bucket, NULL) > 5);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(any_allocation_of_any_question_may_fail)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(any_allocation_of_any_question_may_fail),
+        cmocka_unit_test(any_allocation_of_any_build_may_fail),
+        cmocka_unit_test(any_allocation_of_buckets_may_fail),
+    };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -26,7 +26,8 @@
 /** Begins every block of a tree of space. */
 typedef struct space_header {
     double lo[3];
-    double scale; /**< units per 1; 0: doubles cannot tell, and all numbers are 0 */
+    double scale; /**< units per 1; 0: there are no objects, or doubles cannot tell: then the tree has no wide
+                     nodes, which lead searches to blocks; all numbers are 0 */
     uint32_t count, triangles;
     uint16_t box[2][3];
     uint8_t unused[12];
