@@ -276,15 +276,17 @@ __attribute__((always_inline)) static inline void ask_table(const froe_tree *t, 
     if (!table) return;
     const double column = tree_table_place(table, 0, point[0]), row = tree_table_place(table, 1, point[1]);
     if (!(column >= 0 && column < table->cells[0] && row >= 0 && row < table->cells[1])) return;
-    const tree_entry *entry = table->entries + (size_t)column * table->cells[1] + (size_t)row;
     if (!named) {
-        __builtin_prefetch(entry);
-    } else if (entry->kind & TABLE_LEAF) {
-        const uint8_t *bytes = (const uint8_t *)packed_block_at(t, entry->at);
-        const uint32_t size = packed_size(entry->kind & ~TABLE_LEAF) * PACKED_BLOCK;
+        __builtin_prefetch(table->entries + (size_t)column * table->cells[1] + (size_t)row);
+        return;
+    }
+    const tree_entry entry = tree_table_at(table, (uint32_t)column, (uint32_t)row);
+    if (entry.kind & TABLE_LEAF) {
+        const uint8_t *bytes = (const uint8_t *)packed_block_at(t, entry.at);
+        const uint32_t size = packed_size(entry.kind & ~TABLE_LEAF) * PACKED_BLOCK;
         for (uint32_t at = 0; at < size; at += 64) __builtin_prefetch(bytes + at);
     } else {
-        __builtin_prefetch(t->nodes + entry->at);
+        __builtin_prefetch(t->nodes + entry.at);
     }
 }
 
