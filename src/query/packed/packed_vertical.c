@@ -135,8 +135,6 @@ static size_t launch_climbs(froe_query *q, const double *points, size_t count, s
         c->point = x;
         c->object = objects + next;
         c->nodes = 0;
-        if (next + TABLE_AHEAD < count) packed_ask_table(q->tree, x + 2 * TABLE_AHEAD, false);
-        if (next + NAMED_AHEAD < count) packed_ask_table(q->tree, x + 2 * NAMED_AHEAD, true);
         *flies = true;
         /* The first leaf of the ray: by the column of the table in whose core its point is, if any. */
         const double place = table ? tree_table_place(table, 0, x[0]) : -1;
@@ -168,6 +166,12 @@ static uint32_t climb_alone(froe_query *q, climb *c, int direction, bool waits) 
     return object;
 }
 
+/* What rays need that begin soon. */
+PACKED_ASK void ask_ahead(const froe_tree *t, const double *points, size_t count, size_t next) {
+    if (next + TABLE_AHEAD < count) packed_ask_table(t, points + 2 * (next + TABLE_AHEAD), false);
+    if (next + NAMED_AHEAD < count) packed_ask_table(t, points + 2 * (next + NAMED_AHEAD), true);
+}
+
 /* The next ray takes the place of one that is answered; where none is left, the last one does. */
 static void climb_together(froe_query *q, const double *points, size_t count, int direction, uint32_t *objects) {
     packed_work *work = q->packed;
@@ -175,6 +179,7 @@ static void climb_together(froe_query *q, const double *points, size_t count, in
     size_t next = 0, flying = 0;
     for (bool flies = true; flying < PACKED_FLIGHT && flies; flying += flies) {
         batch[flying].stack = work->climbs + flying * work->climb_size;
+        ask_ahead(q->tree, points, count, next);
         next = launch_climbs(q, points, count, next, direction, objects, batch + flying, &flies);
     }
     for (size_t i = 0; flying; i = i + 1 < flying ? i + 1 : 0) {
@@ -184,6 +189,7 @@ static void climb_together(froe_query *q, const double *points, size_t count, in
         if (object == FROE_NONE && go_on_climbing(q->tree, c, direction)) continue;
         *c->object = object;
         q->stats.nodes += c->nodes;
+        ask_ahead(q->tree, points, count, next);
         next = launch_climbs(q, points, count, next, direction, objects, c, &flies);
         if (flies) continue;
         *c = batch[--flying];
