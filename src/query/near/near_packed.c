@@ -179,7 +179,8 @@ static bool descend_to_nearest(froe_query *q, packed_far at, size_t k, const nea
         node = q->tree->nodes + node->child + upper;
     }
     const packed_header *block = packed_block(q->tree, node);
-    return block == searched->block || !node->u.list.count || scan_leaf(q, block, node->u.list.count, k);
+    const bool done = node == searched->node || block == searched->block;
+    return done || !node->u.list.count || scan_leaf(q, block, node->u.list.count, k);
 }
 
 static bool search_from(froe_query *q, packed_far root, size_t k, const near_start *searched) {
