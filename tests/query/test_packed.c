@@ -27,6 +27,7 @@ static const kind_of_scene kinds[] = {
     {"random, far away", 400, 0, 8, 0.2, 1, 0x1p40},
     {"random, so far away that cells are a few units in the last place", 400, 0, 8, 0.2, 0x1p-8, 0x1p40},
     {"random, tiny", 300, 0, 8, 0.2, 0x1p-800, 0},
+    {"leaves of more pieces than entries of the table count", 700, 0, 250, 0.1, 1, 0},
     {"one", 1, 0, 24, 0.2, 1, 0},
     {"none", 0, 0, 24, 0.2, 1, 0},
 };
@@ -513,6 +514,40 @@ static void a_block_is_not_taken_for_a_node_of_the_same_number(void **state) {
     assert_true(coincidences > 3);
 }
 
+/* The entry of a cell whose node is a leaf of so many pieces, with such a block. */
+static void check_entry(froe_tree *t, const table_cells *cells, uint32_t cell, uint32_t pieces, uint32_t block) {
+    tree_node *leaf = t->nodes + cells->nodes[cell], was = *leaf;
+    tree_table *table;
+    leaf->u.list.count = pieces, leaf->child = block;
+    assert_int_equal(tree_table_from(t, cells, &table), FROE_OK);
+    const tree_entry entry = tree_table_at(table, cell / table->cells[1], cell % table->cells[1]);
+    const bool fits = pieces < 1u << 7 && block < 1u << 24;
+    assert_int_equal(entry.kind, fits ? TABLE_LEAF | pieces : 0);
+    assert_int_equal(entry.at, fits ? block : cells->nodes[cell]);
+    tree_table_free(&t->alloc, table);
+    *leaf = was;
+}
+
+static void entries_name_leaves_whose_numbers_fit(void **state) {
+    froe_scene *scene = trees_scene(2, FROE_SEGMENT, 600, 0, 0.05, 1);
+    froe_tree *t = trees_build(scene, "index", 3);
+    table_cells cells;
+    uint32_t leaves = 0;
+    (void)state;
+    froe_scene_free(scene);
+    assert_int_equal(tree_table_cells(t, &cells), FROE_OK);
+    for (uint32_t i = 0; i < cells.count; i++) {
+        if (cells.nodes[i] & TABLE_RAGGED_CELL || !tree_is_leaf(t->nodes + cells.nodes[i])) continue;
+        check_entry(t, &cells, i, 127, (1u << 24) - 1);
+        check_entry(t, &cells, i, 128, 0);
+        check_entry(t, &cells, i, 0, 1u << 24);
+        leaves++;
+    }
+    assert_true(leaves > 10);
+    tree_table_cells_free(t, &cells);
+    froe_tree_free(t);
+}
+
 /* Wherever the scene lies and however small its cells are: searches believe units to within the error that a block
  * tells. */
 static void units_are_audited_exactly(void **state) {
@@ -548,6 +583,7 @@ int main(void) {
         cmocka_unit_test(batches_answer_as_single_questions_do),
         cmocka_unit_test(queries_survive_every_failing_allocation),
         cmocka_unit_test(a_block_is_not_taken_for_a_node_of_the_same_number),
+        cmocka_unit_test(entries_name_leaves_whose_numbers_fit),
         cmocka_unit_test(units_are_audited_exactly),
         cmocka_unit_test(verticals_are_answered_exactly),
         cmocka_unit_test(windows_are_answered_exactly),

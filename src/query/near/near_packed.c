@@ -25,7 +25,6 @@
  * Scaled squares are those of near_points.c, with its rules of rounding. */
 #include "query/context.h"
 #include "query/packed/packed.h"
-#include "tree/packed/table.h"
 #include <math.h>
 #include <string.h>
 
@@ -180,7 +179,8 @@ static bool descend_to_nearest(froe_query *q, packed_far at, size_t k, const nea
         node = q->tree->nodes + node->child + upper;
     }
     const packed_header *block = packed_block(q->tree, node);
-    return block == searched->block || !node->u.list.count || scan_leaf(q, block, node->u.list.count, k);
+    const bool done = node == searched->node || block == searched->block;
+    return done || !node->u.list.count || scan_leaf(q, block, node->u.list.count, k);
 }
 
 static bool search_from(froe_query *q, packed_far root, size_t k, const near_start *searched) {
@@ -215,6 +215,7 @@ static bool begin_in_table(froe_query *q, size_t k, near_start *searched, bool *
         searched->block = packed_block_at(q->tree, entry.at);
         if (count && !scan_leaf(q, searched->block, count, k)) return false;
     } else {
+        packed_ask_nodes(q->tree, entry.at);
         if (!search_from(q, (packed_far){.node = entry.at}, k, searched)) return false;
         searched->node = q->tree->nodes + entry.at;
     }
@@ -270,31 +271,13 @@ froe_status query_near_packed(froe_query *q, size_t k, double bound) {
 
 /* ------------------------------------------------------------------- flocks -- */
 
-/* Prefetches the entry of a point in the jump table, or what the entry names. */
-__attribute__((always_inline)) static inline void ask_table(const froe_tree *t, const double *point, bool named) {
-    const tree_table *table = t->packed.table;
-    if (!table) return;
-    const double column = tree_table_place(table, 0, point[0]), row = tree_table_place(table, 1, point[1]);
-    if (!(column >= 0 && column < table->cells[0] && row >= 0 && row < table->cells[1])) return;
-    const tree_entry *entry = table->entries + (size_t)column * table->cells[1] + (size_t)row;
-    if (!named) {
-        __builtin_prefetch(entry);
-    } else if (entry->kind & TABLE_LEAF) {
-        const uint8_t *bytes = (const uint8_t *)packed_block_at(t, entry->at);
-        const uint32_t size = packed_size(entry->kind & ~TABLE_LEAF) * PACKED_BLOCK;
-        for (uint32_t at = 0; at < size; at += 64) __builtin_prefetch(bytes + at);
-    } else {
-        __builtin_prefetch(t->nodes + entry->at);
-    }
-}
-
 froe_status query_near_flock(froe_query *q, const double *points, size_t count, size_t left, size_t k, double bound) {
     query_near *n = &q->near;
     size_t asked = 0;
     n->flock.count = 0;
     for (size_t i = 0; i < count; i++) {
-        if (i + 2 * QUERY_NEAR_FLOCK < left) ask_table(q->tree, points + 2 * (i + 2 * QUERY_NEAR_FLOCK), false);
-        if (i + QUERY_NEAR_FLOCK < left) ask_table(q->tree, points + 2 * (i + QUERY_NEAR_FLOCK), true);
+        if (i + 2 * QUERY_NEAR_FLOCK < left) packed_ask_table(q->tree, points + 2 * (i + 2 * QUERY_NEAR_FLOCK), false);
+        if (i + QUERY_NEAR_FLOCK < left) packed_ask_table(q->tree, points + 2 * (i + QUERY_NEAR_FLOCK), true);
         query_begin(q);
         memcpy(n->point, points + 2 * i, 2 * sizeof *points);
         if (!find_candidates(q, k, bound) ||

@@ -11,6 +11,7 @@
 #include "query/context.h"
 #include "query/packed/packed_kernel.h"
 #include "query/workers.h"
+#include "tree/packed/table.h"
 
 typedef struct packed_waiting {
     uint32_t node;
@@ -58,6 +59,36 @@ typedef struct packed_work {
     uint32_t flock_from; /**< windows of batches fly in flocks on trees of so many blocks */
     uint64_t decided;    /**< fragments that kernels left open, for tests and benches */
 } packed_work;
+
+/* gcc drops calls of functions that do nothing but prefetch, unless they are inlined. */
+#define PACKED_ASK __attribute__((always_inline)) static inline
+
+/** Prefetches the first lines of a small subtree: its nodes lie behind its first one, in depth-first order. */
+PACKED_ASK void packed_ask_nodes(const froe_tree *t, uint32_t node) {
+    const char *first = (const char *)(t->nodes + node);
+    for (int at = 0; at < 256; at += 64) __builtin_prefetch(first + at);
+}
+/** Prefetches the block of a leaf. */
+PACKED_ASK void packed_ask_block(const froe_tree *t, uint32_t block, uint32_t count) {
+    const uint8_t *bytes = t->packed.blocks + (size_t)block * PACKED_BLOCK;
+    for (uint32_t at = 0; at < 32 + 12 * count; at += 64) __builtin_prefetch(bytes + at);
+}
+/** Prefetches the entry of a point in the jump table, or what the entry names. */
+PACKED_ASK void packed_ask_table(const froe_tree *t, const double *point, bool named) {
+    const tree_table *table = t->packed.table;
+    if (!table) return;
+    const double column = tree_table_place(table, 0, point[0]), row = tree_table_place(table, 1, point[1]);
+    if (!(column >= 0 && column < table->cells[0] && row >= 0 && row < table->cells[1])) return;
+    if (!named) {
+        __builtin_prefetch(table->entries + (size_t)column * table->cells[1] + (size_t)row);
+        return;
+    }
+    const tree_entry entry = tree_table_at(table, (uint32_t)column, (uint32_t)row);
+    if (entry.kind & TABLE_LEAF)
+        packed_ask_block(t, entry.at, entry.kind & ~TABLE_LEAF);
+    else
+        packed_ask_nodes(t, entry.at);
+}
 
 /** For the context of a packed tree. FROE_E_MEMORY. O(height). */
 froe_status packed_work_new(const froe_tree *t, packed_work **out);

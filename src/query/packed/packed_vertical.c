@@ -10,7 +10,8 @@
  * one. */
 #include "query/packed/packed.h"
 #include "query/segment.h"
-#include "tree/packed/table.h"
+
+enum { TABLE_AHEAD = 16, NAMED_AHEAD = 8 }; /* points of a batch */
 
 /** A ray in progress. */
 typedef struct climb {
@@ -27,10 +28,9 @@ typedef struct climb {
 
 /* At a leaf: prefetches its block. */
 static void arrive_at_block(const froe_tree *t, climb *c, uint32_t block, uint32_t count) {
-    const uint8_t *bytes = t->packed.blocks + (size_t)block * PACKED_BLOCK;
     c->block = block;
     c->count = count;
-    for (uint32_t at = 0; at < 32 + 12 * count; at += 64) __builtin_prefetch(bytes + at);
+    packed_ask_block(t, block, count);
 }
 
 /* Goes down to the leaf where the ray begins or enters; what comes after it on its way waits. */
@@ -48,10 +48,12 @@ static void descend_from(const froe_tree *t, climb *c, int direction, uint32_t n
 /* Goes on at the leaf or node that an entry of the table names. */
 static void enter_column(const froe_tree *t, climb *c, int direction, tree_entry entry) {
     c->last = entry;
-    if (entry.kind & TABLE_LEAF)
+    if (entry.kind & TABLE_LEAF) {
         arrive_at_block(t, c, entry.at, entry.kind & ~TABLE_LEAF);
-    else
+    } else {
+        packed_ask_nodes(t, entry.at);
         descend_from(t, c, direction, entry.at);
+    }
 }
 
 static void begin_at_root(const froe_tree *t, climb *c, int direction) {
@@ -133,12 +135,6 @@ static size_t launch_climbs(froe_query *q, const double *points, size_t count, s
         c->point = x;
         c->object = objects + next;
         c->nodes = 0;
-        if (next + PACKED_FLIGHT < count && table) { /* prefetches the entry of a point that begins soon */
-            const double *ahead = x + 2 * PACKED_FLIGHT;
-            const double column = tree_table_place(table, 0, ahead[0]), row = tree_table_place(table, 1, ahead[1]);
-            if (column >= 0 && column < table->cells[0] && row >= 0 && row < table->cells[1])
-                __builtin_prefetch(table->entries + (size_t)column * table->cells[1] + (size_t)row);
-        }
         *flies = true;
         /* The first leaf of the ray: by the column of the table in whose core its point is, if any. */
         const double place = table ? tree_table_place(table, 0, x[0]) : -1;
@@ -170,6 +166,12 @@ static uint32_t climb_alone(froe_query *q, climb *c, int direction, bool waits) 
     return object;
 }
 
+/* What rays need that begin soon. */
+PACKED_ASK void ask_ahead(const froe_tree *t, const double *points, size_t count, size_t next) {
+    if (next + TABLE_AHEAD < count) packed_ask_table(t, points + 2 * (next + TABLE_AHEAD), false);
+    if (next + NAMED_AHEAD < count) packed_ask_table(t, points + 2 * (next + NAMED_AHEAD), true);
+}
+
 /* The next ray takes the place of one that is answered; where none is left, the last one does. */
 static void climb_together(froe_query *q, const double *points, size_t count, int direction, uint32_t *objects) {
     packed_work *work = q->packed;
@@ -177,6 +179,7 @@ static void climb_together(froe_query *q, const double *points, size_t count, in
     size_t next = 0, flying = 0;
     for (bool flies = true; flying < PACKED_FLIGHT && flies; flying += flies) {
         batch[flying].stack = work->climbs + flying * work->climb_size;
+        ask_ahead(q->tree, points, count, next);
         next = launch_climbs(q, points, count, next, direction, objects, batch + flying, &flies);
     }
     for (size_t i = 0; flying; i = i + 1 < flying ? i + 1 : 0) {
@@ -186,6 +189,7 @@ static void climb_together(froe_query *q, const double *points, size_t count, in
         if (object == FROE_NONE && go_on_climbing(q->tree, c, direction)) continue;
         *c->object = object;
         q->stats.nodes += c->nodes;
+        ask_ahead(q->tree, points, count, next);
         next = launch_climbs(q, points, count, next, direction, objects, c, &flies);
         if (flies) continue;
         *c = batch[--flying];

@@ -1,5 +1,6 @@
 /* space_window.c: windows on packed trees of space.
  *
+ * Nodes are visited level by level, so that each has been prefetched while the others of its level were looked at.
  * Leaves are gathered first and their blocks prefetched, then tested. What a kernel is sure of is reported, the rest is
  * decided exactly; an object that several leaves list is looked at once. */
 #include "query/packed/space.h"
@@ -32,12 +33,12 @@ froe_status space_range(froe_query *q, const double *lo, const double *hi, bool 
         window.from[k] = (lo[k] - wide->middle[k]) * wide->scale;
         window.to[k] = (hi[k] - wide->middle[k]) * wide->scale;
     }
-    /* Leaves whose boxes the window may meet: their blocks become `others`. */
+    /* Nodes whose boxes the window may meet become `objects`; the blocks of such leaves, `others`. */
     space_work *w = q->space;
     w->objects.count = w->others.count = 0;
     if (!array_push(&q->alloc, &w->objects, 0)) return FROE_E_MEMORY;
-    while (w->objects.count) {
-        const wide_node *n = wide->nodes + w->objects.data[--w->objects.count];
+    for (size_t at = 0; at < w->objects.count; at++) {
+        const wide_node *n = wide->nodes + w->objects.data[at];
         q->stats.nodes++;
         if (!array_reserve(&q->alloc, &w->objects, WIDE_CHILDREN) ||
             !array_reserve(&q->alloc, &w->others, WIDE_CHILDREN))

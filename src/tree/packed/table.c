@@ -138,14 +138,19 @@ void tree_table_cells_free(const froe_tree *t, table_cells *cells) {
 
 /* ------------------------------------------------------------------- whole -- */
 
-/* Leaves are opened up. False: a node does not exist. */
+static table_entry entry_of(const froe_tree *t, uint32_t node, bool ragged) {
+    const tree_node *n = t->nodes + node;
+    if (!tree_is_leaf(n)) return (uint32_t)ragged << TABLE_NODE_BITS | node;
+    const bool fits = n->u.list.count >> TABLE_PIECES_BITS == 0 && n->child >> TABLE_BLOCK_BITS == 0;
+    return fits ? TABLE_LEAF | n->u.list.count << TABLE_BLOCK_BITS | n->child : node;
+}
+
+/* False: a node does not exist. */
 static bool open_cells(const froe_tree *t, const table_cells *cells, tree_table *table) {
     for (size_t i = 0; i < cells->count; i++) {
         const uint32_t node = cells->nodes[i] & ~TABLE_RAGGED_CELL, ragged = cells->nodes[i] & TABLE_RAGGED_CELL;
         if (node >= t->node_count) return false;
-        const tree_node *n = t->nodes + node;
-        table->entries[i] = tree_is_leaf(n) ? (tree_entry){n->child, TABLE_LEAF | n->u.list.count}
-                                            : (tree_entry){node, ragged ? TABLE_RAGGED : 0};
+        table->entries[i] = entry_of(t, node, ragged);
     }
     return true;
 }
@@ -154,7 +159,7 @@ froe_status tree_table_from(const froe_tree *t, const table_cells *cells, tree_t
     const froe_allocator *alloc = &t->alloc;
     tree_table grid;
     *out = NULL;
-    if (!lay_grid(t, &grid)) return FROE_OK;
+    if (!lay_grid(t, &grid) || t->node_count >> TABLE_NODE_BITS) return FROE_OK;
     tree_table *table = support_calloc(alloc, 1, sizeof *table);
     if (!table) return FROE_E_MEMORY;
     *table = grid;
@@ -192,5 +197,5 @@ void tree_table_free(const froe_allocator *alloc, tree_table *table) {
 
 uint64_t tree_table_bytes(const froe_tree *t) {
     const table_cells shape = tree_table_shape(t);
-    return shape.count ? shape.count * sizeof(tree_entry) + shape.lines + sizeof(tree_table) : 0;
+    return shape.count ? shape.count * sizeof(table_entry) + shape.lines + sizeof(tree_table) : 0;
 }

@@ -22,7 +22,7 @@
 
 #define TABLE_MARGIN 0x1p-24
 
-/** The node of a cell. Leaves are opened up, which saves their readers a cache miss. */
+/** The node of a cell. Leaves are opened up, which saves their readers a cache miss, where their numbers fit. */
 typedef struct tree_entry {
     uint32_t at;   /**< the node; of a leaf: its block */
     uint32_t kind; /**< TABLE_LEAF + its pieces; TABLE_RAGGED: nodes of other cells may lie below this one; or 0 */
@@ -30,14 +30,22 @@ typedef struct tree_entry {
 #define TABLE_LEAF 0x80000000u
 #define TABLE_RAGGED 1u
 
+/** An entry as the table holds it. A table of half the size is in the caches more often.
+ *
+ *      31     30 .. 24   23 .. 0
+ *     | 1 | pieces   | block     |     a leaf of fewer than 2^7 pieces, with a block below 2^24
+ *     | 0 | ragged | node        |     30 bits */
+typedef uint32_t table_entry;
+enum { TABLE_PIECES_BITS = 7, TABLE_BLOCK_BITS = 24, TABLE_NODE_BITS = 30 };
+
 /** A cell of the table as files hold it: its node, and TABLE_RAGGED_CELL. */
 #define TABLE_RAGGED_CELL 0x80000000u
 
 struct tree_table {
     double lo[2], scale[2];
-    uint32_t cells[2];   /**< per axis, powers of 2 */
-    tree_entry *entries; /**< of cell (column, row): entries[column * cells[1] + row] */
-    uint8_t *crooked[2]; /**< line -> bool; line i begins cell i */
+    uint32_t cells[2];    /**< per axis, powers of 2 */
+    table_entry *entries; /**< of cell (column, row): entries[column * cells[1] + row] */
+    uint8_t *crooked[2];  /**< line -> bool; line i begins cell i */
 };
 
 /** How many cells and lines a tree has, none unless it is packed and its root box has a size that a grid can have; its
@@ -47,7 +55,8 @@ table_cells tree_table_shape(const froe_tree *t);
 froe_status tree_table_cells(const froe_tree *t, table_cells *out);
 void tree_table_cells_free(const froe_tree *t, table_cells *cells);
 
-/** *out NULL: there is none. From the nodes alone. FROE_E_MEMORY. O(nodes + cells). */
+/** *out NULL: there is none, or there are 2^TABLE_NODE_BITS nodes or more. From the nodes alone. FROE_E_MEMORY. O(nodes +
+ * cells). */
 froe_status tree_table_new(const froe_tree *t, tree_table **out);
 /** The same from cells of a file, of the shape that the tree has. FROE_E_FORMAT, without a sentence: a node does not
  * exist. O(cells). */
@@ -61,7 +70,9 @@ static inline double tree_table_place(const tree_table *table, int axis, double 
     return (x - table->lo[axis]) * table->scale[axis];
 }
 static inline tree_entry tree_table_at(const tree_table *table, uint32_t column, uint32_t row) {
-    return table->entries[(size_t)column * table->cells[1] + row];
+    const table_entry entry = table->entries[(size_t)column * table->cells[1] + row];
+    const uint32_t leaf = entry & TABLE_LEAF, bits = leaf ? TABLE_BLOCK_BITS : TABLE_NODE_BITS;
+    return (tree_entry){entry & ((1u << bits) - 1), leaf | (entry & ~TABLE_LEAF) >> bits};
 }
 /** Columns or rows from .. to (included) that [lo, hi] reaches, or comes within a margin of. */
 static inline void tree_table_span(const tree_table *table, int axis, double lo, double hi, uint32_t *from,
