@@ -47,8 +47,11 @@ froe_status film_instants_find(film_instants *x, const uint64_t *tags, size_t co
     memset(x->seen, 0, froe_motion_object_count(x->motion));
     for (size_t i = 0; i < count; i++) x->seen[tags[i]] = 1;
     x->list.count = 0;
-    const froe_status status = froe_motion_sights(x->motion, x->view.eye.at, x->view.eye.parallel, x->view.window,
-                                                  x->all ? NULL : x->seen, from, to, keep_sight, x, diag);
+    froe_sight_options o = froe_sight_defaults();
+    memcpy(o.at, x->view.eye.at, sizeof o.at);
+    o.parallel = x->view.eye.parallel, o.window = x->view.window;
+    o.seen = x->all ? NULL : x->seen, o.from = from, o.to = to;
+    const froe_status status = froe_motion_sights(x->motion, &o, keep_sight, x, diag);
     for (size_t i = 0; i < x->touches.count && !x->full; i++)
         if (x->touches.data[i].high >= from && x->touches.data[i].low <= to)
             x->full = !array_push(&x->alloc, &x->list, x->touches.data[i]);

@@ -117,11 +117,18 @@ static bool keep(void *user, double low, double high) {
     return true;
 }
 
+static froe_sight_options ask(froe_eye eye, const double *window, const uint8_t *seen, double from, double to) {
+    froe_sight_options o = froe_sight_defaults();
+    memcpy(o.at, eye.at, sizeof o.at);
+    o.parallel = eye.parallel, o.window = window, o.seen = seen, o.from = from, o.to = to;
+    return o;
+}
+
 static instants find(const froe_motion *motion, froe_eye eye, const uint8_t *seen, double from, double to) {
     instants out = {.count = 0};
     froe_diagnostic diag;
-    if (froe_motion_sights(motion, eye.at, eye.parallel, page, seen, from, to, keep, &out, &diag))
-        fail_msg("%s", diag.message);
+    const froe_sight_options o = ask(eye, page, seen, from, to);
+    if (froe_motion_sights(motion, &o, keep, &out, &diag)) fail_msg("%s", diag.message);
     return out;
 }
 
@@ -284,7 +291,8 @@ static froe_status find_once(void *user, const froe_allocator *alloc) {
     froe_moving m = froe_moving_defaults();
     m.vertex_count = 3, m.count = 1, m.starts = starts, m.times = times, m.coords = at;
     if (!status) status = froe_motion_add(motion, &m, NULL);
-    if (!status) status = froe_motion_sights(motion, eye.at, false, page, NULL, 0, 1, stop, &count, NULL);
+    const froe_sight_options o = ask(eye, page, NULL, 0, 1);
+    if (!status) status = froe_motion_sights(motion, &o, stop, &count, NULL);
     froe_motion_free(motion);
     return status;
 }
@@ -298,18 +306,21 @@ static void what_cannot_be_followed_is_refused(void **state) {
     (void)state;
     froe_motion *plane = NULL, *boxes = NULL, *bent = make_motion(1, true);
     froe_diagnostic diag;
-    const double eye[3] = {0, -30, 0};
+    const froe_eye point = {.at = {0, -30, 0}}, parallel = {.at = {0, -30, 0}, .parallel = true};
+    const froe_sight_options far = ask(parallel, NULL, NULL, 0, 0), near = ask(point, NULL, NULL, 0, 1),
+                             late = ask(parallel, NULL, NULL, 0, 2), o = ask(parallel, NULL, NULL, 0, 1);
     int count = 0;
     assert_int_equal(froe_generate_motion("moving", 3, 1, NULL, &plane, NULL), FROE_OK);
     assert_int_equal(froe_generate_motion("moving-boxes", 2, 1, NULL, &boxes, NULL), FROE_OK);
-    assert_int_equal(froe_motion_sights(plane, eye, true, NULL, NULL, 0, 0, stop, &count, &diag), FROE_E_UNSUPPORTED);
-    assert_int_equal(froe_motion_sights(boxes, eye, true, NULL, NULL, 0, 0, stop, &count, &diag), FROE_E_UNSUPPORTED);
+    assert_int_equal(froe_motion_sights(plane, &far, stop, &count, &diag), FROE_E_UNSUPPORTED);
+    assert_int_equal(froe_motion_sights(boxes, &far, stop, &count, &diag), FROE_E_UNSUPPORTED);
     assert_string_equal(diag.message, "object 0: It is of a body, which may turn.");
-    assert_int_equal(froe_motion_sights(bent, eye, false, NULL, NULL, 0, 1, stop, &count, &diag), FROE_E_UNSUPPORTED);
-    assert_int_equal(froe_motion_sights(bent, eye, true, NULL, NULL, 0, 2, stop, &count, &diag), FROE_E_ARG);
-    assert_int_equal(froe_motion_sights(bent, eye, true, NULL, NULL, 0, 1, NULL, &count, &diag), FROE_E_ARG);
-    assert_int_equal(count, 0);
-    assert_int_equal(froe_motion_sights(bent, eye, true, NULL, NULL, 0, 1, stop, &count, &diag), FROE_OK);
+    assert_int_equal(froe_motion_sights(bent, &near, stop, &count, &diag), FROE_OK);
+    assert_int_equal(froe_motion_sights(bent, &late, stop, &count, &diag), FROE_E_OPTIONS);
+    assert_int_equal(froe_motion_sights(bent, &o, NULL, &count, &diag), FROE_E_ARG);
+    assert_int_equal(count, 3);
+    count = 0;
+    assert_int_equal(froe_motion_sights(bent, &o, stop, &count, &diag), FROE_OK);
     assert_int_equal(count, 3);
     froe_motion_free(plane), froe_motion_free(boxes), froe_motion_free(bent);
 }

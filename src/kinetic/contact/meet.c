@@ -30,7 +30,7 @@ static size_t widest(const froe_motion *m) {
 }
 
 froe_status meet_worker_new(const froe_motion *m, meet_worker *out) {
-    enum { NUMBERS = 500, MORE_NUMBERS = 8000, CHAINS = 4, MORE_CHAINS = 3 };
+    enum { NUMBERS = 500, MORE_NUMBERS = 8000, CHAINS = 4, MORE_CHAINS = 3, DEGREE = 8 };
     /* In space: what one step of a chain needs, and twice as much again: 15 chains of degree 8, or 81 of degree 6, keep
      * less. */
     const size_t limbs = widest(m), numbers = is_turnless(m) ? NUMBERS : MORE_NUMBERS;
@@ -38,7 +38,7 @@ froe_status meet_worker_new(const froe_motion *m, meet_worker *out) {
     *out = (meet_worker){.room = support_calloc(&m->alloc, 1, sizeof *out->room)};
     if (!out->room) return FROE_E_MEMORY;
     return num_arena_reserve(&m->alloc, &out->arena,
-                             numbers * limbs + chains * num_poly_arena(limbs, NUM_FRACTION_LIMBS));
+                             numbers * limbs + chains * num_poly_arena(DEGREE, limbs, NUM_FRACTION_LIMBS));
 }
 
 void meet_worker_free(const froe_motion *m, meet_worker *worker) {
