@@ -8,6 +8,7 @@
 #define GAZE gaze_ball
 #define PLACE align_ball_place
 #define LINE align_ball_line
+#define PAIR align_ball_pair
 #define CURVE motion_ball_curve
 #define FORMULA(f) f##_ball
 #define FROM(x) num_ball_from(x)
@@ -24,6 +25,7 @@
 #define GAZE gaze_exact
 #define PLACE align_exact_place
 #define LINE align_exact_line
+#define PAIR align_exact_pair
 #define CURVE motion_dyadic_curve
 #define FORMULA(f) f##_dyadic
 #define FROM(x) num_dyadic_from(arena, x)
@@ -91,6 +93,10 @@ void align_line(const align_room *room, align_edge *edge) {
         carried_line_ball(NULL, room, &room->near, edge->end, &edge->near);
     else
         line_of_ball(NULL, &room->near, &edge->end[0]->near, &edge->end[1]->near, &edge->near);
+}
+
+void align_two(const align_room *room, align_pair *pair) {
+    pair_of_ball(NULL, &room->near, &pair->edge[0]->near, &pair->edge[1]->near, &pair->near);
 }
 
 static void exact_line(align_room *room, const align_edge *edge, align_exact_line *out) {
@@ -250,16 +256,16 @@ bool align_pass(align_room *room, const align_point *point, const align_edge *ed
     return find_roots(room, &f, (align_case){point, &edge}, out, found);
 }
 
-bool align_meet(align_room *room, const align_edge *const edge[3], meet_time *out, int *found) {
-    const align_ball_line *const near_line[3] = {&edge[0]->near, &edge[1]->near, &edge[2]->near};
-    const align_exact_line *const line[3] = {room->lines, room->lines + 1, room->lines + 2};
+bool align_meet(align_room *room, const align_pair *pair, const align_edge *third, meet_time *out, int *found) {
+    const align_edge *const edge[3] = {pair->edge[0], pair->edge[1], third};
     num_ball_poly near;
     num_poly f;
     *found = 0;
-    meet_ball(NULL, &room->near, near_line, &near);
+    meet_ball(NULL, &pair->near, &third->near, &near);
     if (surely_none(&near)) return true;
     begin_exact(room);
     for (int i = 0; i < 3; i++) exact_line(room, edge[i], room->lines + i);
-    meet_dyadic(&room->arena, &room->exactly, line, &f);
+    pair_of_dyadic(&room->arena, &room->exactly, room->lines, room->lines + 1, &room->pair);
+    meet_dyadic(&room->arena, &room->pair, room->lines + 2, &f);
     return find_roots(room, &f, (align_case){NULL, edge}, out, found);
 }

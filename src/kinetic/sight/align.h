@@ -52,6 +52,20 @@ typedef struct align_edge {
     align_ball_line near;
 } align_edge;
 
+/** Two edges that cross before the eye: a third with the plane N . x = K passes their crossing where
+ * N . at + K spread = 0. */
+typedef struct align_ball_pair {
+    num_ball_poly at[3], spread;
+} align_ball_pair;
+typedef struct align_exact_pair {
+    num_poly at[3], spread;
+} align_exact_pair;
+
+typedef struct align_pair {
+    const align_edge *edge[2];
+    align_ball_pair near;
+} align_pair;
+
 /** What one search needs; large. */
 typedef struct align_room {
     const froe_motion *motion;
@@ -60,6 +74,7 @@ typedef struct align_room {
     gaze_exact exactly;
     align_exact_place places[2];
     align_exact_line lines[3];
+    align_exact_pair pair;
     double from, to;
     num_arena arena;
     num_isolation roots;
@@ -73,14 +88,15 @@ void align_end(align_room *room);
 
 /** Goes on to another time, within which no plan changes its piece. */
 void align_go(align_room *room, double from, double to);
-/** Where a point is with error bounds; an edge, whose ends are known. */
+/** Where a point is with error bounds; an edge, whose ends are known; two edges, none of which is carried. */
 void align_place(const align_room *room, align_point *point);
 void align_line(const align_room *room, align_edge *edge);
+void align_two(const align_room *room, align_pair *pair);
 /** The ray from a point to the eye, as what carries the eye has it: that of the page; degree 4 at most. */
 void align_ray(const align_room *room, const align_point *point, num_ball_poly ray[3]);
 
-/** When a point passes an edge, or three edges one point, the last of which may be carried with the eye: the instants,
+/** When a point passes an edge, or a third edge, which may be carried with the eye, the crossing of two: the instants,
  * ascending, at most NUM_DEGREE + 1. False: two are too close to be told apart. */
 bool align_pass(align_room *room, const align_point *point, const align_edge *edge, meet_time *out, int *found);
-bool align_meet(align_room *room, const align_edge *const edge[3], meet_time *out, int *found);
+bool align_meet(align_room *room, const align_pair *pair, const align_edge *third, meet_time *out, int *found);
 #endif

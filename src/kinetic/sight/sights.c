@@ -185,7 +185,8 @@ static bool list_edges(sight_search *s) {
 /* --------------------------------------------------------------------- looking -- */
 
 static align_edge edge_of(const sight_search *s, const sight_edge *e) {
-    align_edge out = {.end = {&s->points[e->v[0]].at, &s->points[e->v[1]].at}};
+    align_edge out;
+    for (int i = 0; i < 2; i++) out.end[i] = &s->points[e->v[i]].at;
     align_line(&s->room, &out);
     return out;
 }
@@ -212,30 +213,43 @@ static bool share_end(const sight_edge *a, const sight_edge *b) {
     return a->v[0] == b->v[0] || a->v[0] == b->v[1] || a->v[1] == b->v[0] || a->v[1] == b->v[1];
 }
 
-/* When three edges pass through one point; that of the window comes last. */
-static bool meet_edges(sight_search *s, const sight_edge *const e[3], const align_edge *const line[3]) {
+static void pair_of(const sight_search *s, const align_edge *a, const align_edge *b, align_pair *out) {
+    out->edge[0] = a, out->edge[1] = b;
+    align_two(&s->room, out);
+}
+
+/* When an edge passes the crossing of two. That of the window comes last. */
+static bool meet_edges(sight_search *s, const sight_edge *const e[3], const align_pair *pair, const align_edge *third) {
     meet_time found[NUM_DEGREE + 1];
     int count;
-    const int last = e[0]->window ? 0 : e[1]->window ? 1 : 2;
-    const align_edge *const order[3] = {line[(last + 1) % 3], line[(last + 2) % 3], line[last]};
+    bool well = true;
     if (e[0]->window + e[1]->window + e[2]->window > 1) return true; /* they have corners in common, or are apart */
-    const bool well = align_meet(&s->room, order, found, &count);
+    if (e[0]->window || e[1]->window) {
+        align_pair others;
+        pair_of(s, pair->edge[e[0]->window], third, &others);
+        well = align_meet(&s->room, &others, pair->edge[e[1]->window], found, &count);
+    } else {
+        well = align_meet(&s->room, pair, third, found, &count);
+    }
     return keep_found(s, well, found, count);
 }
 
 /* All edges that pass the crossing of two. Where three of them are seen, one order of the three is enough. */
-static bool pass_crossing(sight_search *s, const size_t at[2], const align_edge *const line[2]) {
-    const sight_edge *edges = s->edges.data, *a = edges + at[0], *b = edges + at[1];
+static bool pass_crossing(sight_search *s, size_t i, const align_edge *line, size_t j) {
+    const sight_edge *edges = s->edges.data, *a = edges + i, *b = edges + j;
+    align_edge second;
+    align_pair pair;
+    bool known = false;
     sight_box both;
     for (int k = 0; k < 2; k++)
         both.lo[k] = fmax(a->box.lo[k], b->box.lo[k]), both.hi[k] = fmin(a->box.hi[k], b->box.hi[k]);
     for (size_t n = 0; n < s->edges.count && edges[n].box.lo[0] <= both.hi[0]; n++) {
         const sight_edge *c = edges + n;
-        if ((c->seen && n <= at[1]) || n == at[0] || n == at[1] || !(a->moves || b->moves || c->moves)) continue;
+        if ((c->seen && n <= j) || n == i || n == j || !(a->moves || b->moves || c->moves)) continue;
         if (!boxes_meet(&both, &c->box) || share_end(a, c) || share_end(b, c)) continue;
+        if (!known) second = edge_of(s, b), pair_of(s, line, &second, &pair), known = true;
         const align_edge third = edge_of(s, c);
-        if (!meet_edges(s, (const sight_edge *const[]){a, b, c}, (const align_edge *const[]){line[0], line[1], &third}))
-            return false;
+        if (!meet_edges(s, (const sight_edge *const[]){a, b, c}, &pair, &third)) return false;
     }
     return true;
 }
@@ -252,9 +266,8 @@ static froe_status look_between(sight_search *s, double from, double to) {
         for (size_t j = i + 1; e->seen && well && j < s->edges.count; j++) {
             const sight_edge *other = s->edges.data + j;
             if (other->box.lo[0] > e->box.hi[0]) break;
-            if (!other->seen || share_end(e, other) || !boxes_meet(&e->box, &other->box)) continue;
-            const align_edge second = edge_of(s, other);
-            well = pass_crossing(s, (const size_t[]){i, j}, (const align_edge *const[]){&line, &second});
+            if (other->seen && !share_end(e, other) && boxes_meet(&e->box, &other->box))
+                well = pass_crossing(s, i, &line, j);
         }
     }
     return s->status;
