@@ -11,16 +11,18 @@ static double chance(void) {
     return (double)(dice >> 11) * 0x1p-53;
 }
 
-/* Triangles that fly straight, or (bent) along parabolas, each between planes of its own across y, so that none
+enum { REST, STRAIGHT, BENT };
+
+/* Triangles at rest, that fly straight, or (bent) along parabolas, each between planes of its own across y, so that none
  * touches another. Large ones are before small ones. */
-static froe_motion *make_motion(uint64_t seed, bool bent) {
+static froe_motion *make_motion_of(uint64_t seed, int kind) {
     froe_motion *motion = NULL;
     froe_motion_options w = froe_motion_defaults();
     dice = seed * 7919 + 5;
     w.dim = 3, w.begin = 0, w.end = 1;
     assert_int_equal(froe_motion_new(&w, NULL, &motion, NULL), FROE_OK);
     for (int i = 0; i < FACES; i++) {
-        const size_t starts[] = {0, 2, 4, 6};
+        const size_t twice[] = {0, 2, 4, 6}, once[] = {0, 1, 2, 3};
         const double times[] = {0, 1, 0, 1, 0, 1};
         double at[18], controls[18];
         const double size = i < LARGE ? 4 : 0.6;
@@ -37,11 +39,15 @@ static froe_motion *make_motion(uint64_t seed, bool bent) {
         char name[16];
         snprintf(name, sizeof name, "t%d", i);
         assert_int_equal(froe_motion_add_group(motion, &(froe_group){.name = name}, &m.group), FROE_OK);
-        m.vertex_count = 3, m.count = 1, m.starts = starts, m.times = times, m.coords = at;
-        m.controls = bent ? controls : NULL;
+        m.vertex_count = 3, m.count = 1, m.starts = kind == REST ? once : twice, m.times = times, m.coords = at;
+        m.controls = kind == BENT ? controls : NULL;
         assert_int_equal(froe_motion_add(motion, &m, NULL), FROE_OK);
     }
     return motion;
+}
+
+static froe_motion *make_motion(uint64_t seed, bool bent) {
+    return make_motion_of(seed, bent ? BENT : STRAIGHT);
 }
 
 /* The same with triangles that are bodies, and turn about y while they fly. */
@@ -155,6 +161,101 @@ static void faces_in_sight_change_at_instants_alone(void **state) {
     }
     print_message("  %u changes, %u times after which nothing happens\n", changes, gaps);
     assert_true(changes > 40 && gaps > 200);
+}
+
+/* ---------------------------------------------------------------- eyes that move -- */
+
+/* How an eye and the corners of the page move: as vertices of a motion of their own, of which the body is no part. */
+typedef struct flight {
+    double times[3], at[9], controls[9], turns[12];
+    double eye[3], window[12];
+    froe_body body;
+    froe_motion *rig; /* the vertices: the eye, or the centre and the end of the direction towards it; the window */
+    bool parallel;
+} flight;
+
+/* Flies straight, along parabolas (bent), and turns about a line that is nearly upright. */
+static void make_flight(uint64_t seed, bool parallel, bool flies, bool bent, bool turns, flight *f) {
+    const size_t starts[] = {0, 1, 2, 3, 4, 5, 6};
+    const double zeros[6] = {0}, middle[3] = {0, 3, 0};
+    double at[18] = {0};
+    const double reach = parallel ? 3 : 16;
+    const uint32_t bodies[6] = {0};
+    froe_motion_options w = froe_motion_defaults();
+    froe_moving m = froe_moving_defaults();
+    dice = seed * 104729 + 3;
+    *f = (flight){.times = {0, 0.375, 1}, .parallel = parallel, .body = froe_body_defaults()};
+    for (int k = 0; k < 9; k++) {
+        f->at[k] = middle[k % 3] + (flies && k > 2 && !(parallel && k % 3 == 1) ? reach * (chance() - 0.5) : 0);
+        f->controls[k] = bent ? middle[k % 3] + reach * (chance() - 0.5) : NAN;
+    }
+    for (int i = 0; i < 3; i++) {
+        const double half = turns ? 0.3 * i + 0.2 * chance() - 0.35 : 0, slant = 0.1 * half,
+                     length = sqrt(1 + half * half + slant * slant);
+        f->turns[4 * i] = slant / length, f->turns[4 * i + 2] = half / length, f->turns[4 * i + 3] = 1 / length;
+    }
+    f->body.count = 3, f->body.times = f->times, f->body.coords = f->at, f->body.controls = f->controls,
+    f->body.turns = f->turns;
+    const froe_eye eye = make_eye(parallel);
+    for (int k = 0; k < 3; k++) f->eye[k] = eye.at[k] - (parallel ? 0 : middle[k]);
+    for (int k = 0; k < 12; k++) f->window[k] = parallel && k % 3 == 1 ? 0 : page[k] - middle[k % 3];
+    memcpy(at, f->eye, sizeof f->eye);
+    memcpy(at + 6, f->window, sizeof f->window);
+    w.dim = 3, w.begin = 0, w.end = 1;
+    assert_int_equal(froe_motion_new(&w, NULL, &f->rig, NULL), FROE_OK);
+    assert_int_equal(froe_motion_add_body(f->rig, &f->body, NULL, NULL), FROE_OK);
+    m.vertex_count = 6, m.starts = starts, m.times = zeros, m.coords = at, m.bodies = bodies;
+    assert_int_equal(froe_motion_add(f->rig, &m, NULL), FROE_OK);
+}
+
+static unsigned look_from(const froe_motion *motion, const flight *f, double time) {
+    froe_eye eye = {.parallel = f->parallel};
+    double window[12], centre[3];
+    assert_true(froe_motion_position(f->rig, 0, time, eye.at) && froe_motion_position(f->rig, 1, time, centre));
+    for (uint32_t k = 0; k < 4; k++) assert_true(froe_motion_position(f->rig, 2 + k, time, window + 3 * k));
+    for (int k = 0; k < 3 && f->parallel; k++) eye.at[k] -= centre[k];
+    return look_at(motion, eye, window, time);
+}
+
+/* What rests or flies, seen by an eye that rests, flies, or turns. */
+static void eyes_that_move_see_changes_at_instants_alone(void **state) {
+    (void)state;
+    const struct {
+        int faces;
+        bool parallel, flies, bent, turns;
+    } cases[] = {{REST, false, true, false, false},   {REST, false, true, true, false},  {REST, false, false, false, true},
+                 {REST, false, true, false, true},    {REST, true, false, false, true},  {REST, true, true, true, true},
+                 {STRAIGHT, false, true, false, false}, {STRAIGHT, false, false, false, true},
+                 {STRAIGHT, true, true, true, true},  {BENT, false, false, false, false}, {BENT, true, true, false, true}};
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        unsigned changes = 0, gaps = 0;
+        for (unsigned seed = 0; seed < 4; seed++) {
+            flight f;
+            make_flight(seed, cases[c].parallel, cases[c].flies, cases[c].bent, cases[c].turns, &f);
+            froe_motion *motion = make_motion_of(seed, cases[c].faces);
+            instants x = {.count = 0};
+            froe_sight_options o = froe_sight_defaults();
+            froe_diagnostic diag;
+            memcpy(o.at, f.eye, sizeof o.at);
+            o.parallel = f.parallel, o.window = f.window, o.body = &f.body;
+            if (froe_motion_sights(motion, &o, keep, &x, &diag)) fail_msg("case %zu: %s", c, diag.message);
+            size_t k = 0;
+            unsigned last = 0;
+            for (int i = 1; i < TIMES; i++) {
+                const double time = (i + 0.001) / TIMES;
+                const size_t before = k;
+                while (k < x.count && x.low[k] <= time) k++;
+                const unsigned now = look_from(motion, &f, time);
+                if (i > 1 && k == before && now != last)
+                    fail_msg("case %zu, seed %u: other faces at %.17g", c, seed, time);
+                changes += i > 1 && now != last, gaps += k == before;
+                last = now;
+            }
+            froe_motion_free(motion), froe_motion_free(f.rig);
+        }
+        print_message("  case %zu: %u changes, %u times after which nothing happens\n", c, changes, gaps);
+        assert_true(changes > 5 && gaps > 100);
+    }
 }
 
 /* Just before an instant and just after it: of those at which other faces come into sight, each is told, too, where
@@ -327,6 +428,7 @@ static void what_cannot_be_followed_is_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(eyes_that_move_see_changes_at_instants_alone),
         cmocka_unit_test(exact_films_show_what_is_in_sight_at_any_time),
         cmocka_unit_test(exact_films_show_bodies_that_turn_within_the_deviation),
         cmocka_unit_test(faces_in_sight_change_at_instants_alone),
