@@ -261,6 +261,12 @@ FROE_API froe_status froe_read_motion(const char *path, const froe_motion_read_o
 FROE_API froe_status froe_read_poses(const char *path, const froe_scene *model, const froe_motion_read_options *options,
                                      froe_motion **out, froe_motion_report *report, froe_diagnostic *diag);
 
+/** A model that rests, as a motion whose window is from `begin` to `end`: its polygons as triangles, a fan for each, in
+ * their order, with vertices, groups and names of the model. The model may be freed afterwards. FROE_E_UNSUPPORTED: an
+ * object is no polygon in space. FROE_E_INPUT: the window is none. FROE_E_MEMORY, FROE_E_LIMIT. O(corners). */
+FROE_API froe_status froe_motion_at_rest(const froe_scene *model, double begin, double end, const froe_allocator *alloc,
+                                         froe_motion **out, froe_diagnostic *diag);
+
 /** What moves, as it is at an instant: segments in the plane, triangles in space, where they are to within a few units
  * in the last place (froe_motion_position()). Objects that begin then are there, and those that end are not, unless the
  * window ends. Tags are the objects of the motion, groups its own. FROE_E_ARG: the time is outside of the window.

@@ -77,7 +77,7 @@ static void half_angle(size_t i, size_t count, double out[2]) {
 
 froe_status froe_camera_turns(const froe_camera *camera, size_t count, double *turns, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    double axis[3], half[2];
+    double axis[3] = {0}, half[2];
     if (!camera || !count || !turns)
         return support_fail(diag, FROE_E_ARG, "An argument of froe_camera_turns is NULL or 0.");
     const froe_status status = find_axis(camera, axis, diag);
@@ -94,7 +94,7 @@ froe_status froe_camera_turn(const froe_camera *camera, const froe_scene *scene,
     BASE_FLOATS_OWN;
     if (!camera || !scene || !cameras || !count)
         return support_fail(diag, FROE_E_ARG, "An argument of froe_camera_turn is NULL or 0.");
-    double middle[3] = {0, 0, 0}, axis[3], half[2], way[3], distance = 0, scale = INFINITY;
+    double middle[3] = {0, 0, 0}, axis[3] = {0}, half[2], way[3], distance = 0, scale = INFINITY;
     const froe_status aimed = find_axis(camera, axis, diag);
     if (aimed) return aimed;
     for (int k = 0; k < 3; k++) {
