@@ -216,8 +216,9 @@ static double soon_after(const film_work *w, film_instant at, double next) {
     return later < next ? later : at.high;
 }
 
-/* The picture just after an instant, before anything else happens. *same: its faces are those of the last picture, whose
- * list of instants goes on to hold; otherwise there is a list of those that follow while the new ones are in sight. */
+/* The picture just after an instant, before anything else happens. *same: its faces are those of the last picture,
+ * whose list of instants goes on to hold; otherwise a list is made of those that follow while the new ones are in
+ * sight. */
 static froe_status look_after(film_work *w, film_instant at, double next, double time, film_picture *out, bool *same) {
     double now = soon_after(w, at, next);
     film_instant after;

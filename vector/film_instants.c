@@ -10,7 +10,7 @@ static int compare_film_instants(const void *a, const void *b) {
     return (p->high > q->high) - (p->high < q->high);
 }
 
-static bool rests(const froe_motion *motion, uint32_t object) {
+static bool stands_still(const froe_motion *motion, uint32_t object) {
     const froe_moving_object o = froe_motion_object(motion, object);
     bool all = true;
     for (int k = 0; k < 3 && all; k++)
@@ -22,7 +22,7 @@ static bool rests(const froe_motion *motion, uint32_t object) {
 static bool keep_touch(void *user, const froe_contact *c) {
     film_instants *x = user;
     const uint32_t pair[2] = {c->a, c->b};
-    if (rests(x->motion, c->a) && rests(x->motion, c->b)) {
+    if (stands_still(x->motion, c->a) && stands_still(x->motion, c->b)) {
         x->full = !array_append(&x->alloc, &x->pairs, pair, 2);
         return !x->full;
     }

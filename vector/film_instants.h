@@ -15,8 +15,8 @@ typedef struct film_instant {
 typedef struct film_instants {
     const froe_motion *motion;
     froe_allocator alloc;
-    froe_projection view;   /**< when the film begins */
-    const film_turn *turn;  /**< NULL: the eye rests */
+    froe_projection view;        /**< when the film begins */
+    const film_turn *turn;       /**< NULL: the eye rests */
     bool all;                    /**< what is drawn does not tell of all that is seen */
     uint8_t *seen;               /**< per object */
     ARRAY(film_instant) touches; /**< at which triangles begin or cease to touch */
@@ -25,8 +25,8 @@ typedef struct film_instants {
     bool full;
 } film_instants;
 
-/** Finds when triangles touch. `scene` is any of the motion. `turn` is set afterwards. FROE_E_UNSUPPORTED and others of froe_motion_sights(),
- * froe_motion_contacts(), froe_camera_place(). */
+/** Finds when triangles touch. `scene` is any of the motion. `turn` is set afterwards. FROE_E_UNSUPPORTED and others of
+ * froe_motion_sights(), froe_motion_contacts(), froe_camera_place(). */
 froe_status film_instants_begin(film_instants *x, const froe_motion *motion, const froe_camera *camera,
                                 const froe_scene *scene, const froe_render_options *options, froe_diagnostic *diag);
 void film_instants_end(film_instants *x);

@@ -206,6 +206,9 @@ static int render(const render_args *args, const froe_tree *tree, froe_render_op
     froe_diagnostic diag;
     froe_render_report report;
     char path[4096];
+    if (args->animate && !args->turntable)
+        return cli_fail(CLI_USE, NULL,
+                        "--animate: It needs --turntable, or of a moving model --frames or --animation.");
     if (args->turntable && (args->eye.count || args->target.count))
         return cli_fail(CLI_USE, NULL,
                         "--turntable: It goes around the middle of the scene, and excludes --eye and --target.");

@@ -11,8 +11,10 @@
 #include <string.h>
 
 bool cli_is_moving(const render_args *args) {
-    return args->frames || (args->animate && !args->turntable) || !isnan(args->at) || !isnan(args->moving.from) || !isnan(args->moving.to) ||
-           !isnan(args->moving.deviation) || args->moving.animation || args->moving.poses ||
+    const bool stream = !strcmp(args->tree.scene.path, "-") && !args->tree.scene.format; /* of a known kind: MF-JSON */
+    return args->frames || (!args->turntable && (args->exact || (args->animate && stream))) || !isnan(args->at) ||
+           !isnan(args->moving.from) || !isnan(args->moving.to) || !isnan(args->moving.deviation) ||
+           args->moving.animation || args->moving.poses ||
            !strcmp(support_path_extension(args->tree.scene.path).text, "mfjson") ||
            (args->tree.scene.format && !strcmp(args->tree.scene.format, "mfjson"));
 }

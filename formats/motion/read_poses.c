@@ -190,11 +190,12 @@ static froe_status stays_in_plane(const pose_reading *r, uint32_t group) {
         for (int k = TIME; k < COLUMNS; k++) {
             const double *at = pose_of(r, i)->at, expected = k == PLACE + 2 ? before[k] : 0;
             if (!is_read(r, k) && at[k] != expected)
-                return support_fail(r->diag, FROE_E_INPUT,
-                                    "%s: part '%.60s': At the time %.17g its %s is %.17g and not %.17g, and the model is "
-                                    "in the plane.",
-                                    support_short(r->path), froe_scene_group(r->model, group).name, at[TIME],
-                                    column_names[k], at[k], expected);
+                return support_fail(
+                    r->diag, FROE_E_INPUT,
+                    "%s: part '%.60s': At the time %.17g its %s is %.17g and not %.17g, and the model is "
+                    "in the plane.",
+                    support_short(r->path), froe_scene_group(r->model, group).name, at[TIME], column_names[k], at[k],
+                    expected);
         }
     return FROE_OK;
 }

@@ -56,8 +56,9 @@ froe_status froe_motion_at_rest(const froe_scene *model, double begin, double en
     SUPPORT_FLOATS_OWN;
     if (!model || !out) return support_fail_null(diag, __func__);
     if (froe_scene_dim(model) != 3)
-        return support_fail(diag, FROE_E_UNSUPPORTED, "The model is in %d dimensions, and only polygons in space can be "
-                                                      "a motion at rest.",
+        return support_fail(diag, FROE_E_UNSUPPORTED,
+                            "The model is in %d dimensions, and only polygons in space can be "
+                            "a motion at rest.",
                             froe_scene_dim(model));
     const froe_status checked = froe_scene_check(model, diag);
     if (checked) return checked;

@@ -202,9 +202,9 @@ typedef struct froe_film_report {
  * or cease to touch, and shows it from then on if other faces are in sight. So it misses nothing, however short, but
  * what is shorter than the doubles tell apart, and what happens along the lines of triangles that pass through one
  * another while one of them moves. If the eye goes around, it does so along rational arcs (froe_body): it is where
- * froe_camera_turn() has it at each frame, and never more than 0.0002 degrees off. It needs many pictures: where n edges
- * are in sight, up to n^2 an interval between frames. FROE_E_OPTIONS: the eye would go around its own line of view.
- * FROE_E_UNSUPPORTED: as froe_motion_sights(); froe_motion_without_bodies() replaces bodies.
+ * froe_camera_turn() has it at each frame, and never more than 0.0002 degrees off. It needs many pictures: where n
+ * edges are in sight, up to n^2 an interval between frames. FROE_E_OPTIONS: the eye would go around its own line of
+ * view. FROE_E_UNSUPPORTED: as froe_motion_sights(); froe_motion_without_bodies() replaces bodies.
  *
  * The camera holds all that is ever there, as long as it is there; it is as given if it does not fit. Paths are as with
  * FROE_IDS_OBJECT. `path` ends in .svg. FROE_E_OPTIONS: layers, interleaved lines, fills that are painted twice; see

@@ -11,10 +11,10 @@ static double chance(void) {
     return (double)(dice >> 11) * 0x1p-53;
 }
 
-enum { REST, STRAIGHT, BENT };
+enum { REST, STRAIGHT, BENT, TETRAHEDRA, TANGLE };
 
-/* Triangles at rest, that fly straight, or (bent) along parabolas, each between planes of its own across y, so that none
- * touches another. Large ones are before small ones. */
+/* Triangles at rest, that fly straight, or (bent) along parabolas, each between planes of its own across y, so that
+ * none touches another. Large ones are before small ones. */
 static froe_motion *make_motion_of(uint64_t seed, int kind) {
     froe_motion *motion = NULL;
     froe_motion_options w = froe_motion_defaults();
@@ -217,28 +217,81 @@ static unsigned look_from(const froe_motion *motion, const flight *f, double tim
     return look_at(motion, eye, window, time);
 }
 
+/* Triangles at rest, many of which pass through one another. */
+static froe_motion *make_tangle(uint64_t seed, int faces) {
+    const size_t starts[] = {0, 1, 2, 3};
+    const double zeros[3] = {0};
+    froe_motion *motion = NULL;
+    froe_motion_options w = froe_motion_defaults();
+    dice = seed * 7919 + 5;
+    w.dim = 3, w.begin = 0, w.end = 1;
+    assert_int_equal(froe_motion_new(&w, NULL, &motion, NULL), FROE_OK);
+    for (int i = 0; i < faces; i++) {
+        double at[9], centre[3];
+        froe_moving m = froe_moving_defaults();
+        char name[16];
+        for (int k = 0; k < 3; k++) centre[k] = chance() - 0.5;
+        for (int k = 0; k < 9; k++) at[k] = centre[k % 3] + 3 * chance() - 1.5;
+        snprintf(name, sizeof name, "t%d", i);
+        assert_int_equal(froe_motion_add_group(motion, &(froe_group){.name = name}, &m.group), FROE_OK);
+        m.vertex_count = 3, m.count = 1, m.starts = starts, m.times = zeros, m.coords = at;
+        assert_int_equal(froe_motion_add(motion, &m, NULL), FROE_OK);
+    }
+    return motion;
+}
+
+/* Tetrahedra at rest, each between planes of its own across y: 4 triangles each. */
+static froe_motion *make_tetrahedra(uint64_t seed, int count) {
+    static const uint32_t faces[] = {0, 1, 2, 0, 3, 1, 1, 3, 2, 2, 3, 0};
+    const size_t starts[] = {0, 1, 2, 3, 4};
+    const double zeros[4] = {0};
+    froe_motion *motion = NULL;
+    froe_motion_options w = froe_motion_defaults();
+    dice = seed * 7919 + 5;
+    w.dim = 3, w.begin = 0, w.end = 1;
+    assert_int_equal(froe_motion_new(&w, NULL, &motion, NULL), FROE_OK);
+    for (int i = 0; i < count; i++) {
+        double at[12], centre[2];
+        froe_moving m = froe_moving_defaults();
+        for (int k = 0; k < 2; k++) centre[k] = 1.6 * chance() - 0.8;
+        for (int k = 0; k < 12; k++) at[k] = k % 3 == 1 ? i + 0.9 * chance() : centre[k % 3 / 2] + chance() - 0.5;
+        m.vertex_count = 4, m.count = 4, m.starts = starts, m.times = zeros, m.coords = at, m.vertices = faces;
+        assert_int_equal(froe_motion_add(motion, &m, NULL), FROE_OK);
+    }
+    return motion;
+}
+
+static void find_from(const froe_motion *motion, const flight *f, const uint32_t *pairs, size_t count, instants *x) {
+    froe_sight_options o = froe_sight_defaults();
+    froe_diagnostic diag;
+    memcpy(o.at, f->eye, sizeof o.at);
+    o.parallel = f->parallel, o.window = f->window, o.body = &f->body, o.pairs = pairs, o.pair_count = count;
+    x->count = 0;
+    if (froe_motion_sights(motion, &o, keep, x, &diag)) fail_msg("%s", diag.message);
+}
+
 /* What rests or flies, seen by an eye that rests, flies, or turns. */
 static void eyes_that_move_see_changes_at_instants_alone(void **state) {
     (void)state;
     const struct {
         int faces;
         bool parallel, flies, bent, turns;
-    } cases[] = {{REST, false, true, false, false},   {REST, false, true, true, false},  {REST, false, false, false, true},
-                 {REST, false, true, false, true},    {REST, true, false, false, true},  {REST, true, true, true, true},
+    } cases[] = {{REST, false, true, false, false},     {REST, false, true, true, false},
+                 {REST, false, false, false, true},     {REST, false, true, false, true},
+                 {REST, true, false, false, true},      {REST, true, true, true, true},
                  {STRAIGHT, false, true, false, false}, {STRAIGHT, false, false, false, true},
-                 {STRAIGHT, true, true, true, true},  {BENT, false, false, false, false}, {BENT, true, true, false, true}};
+                 {STRAIGHT, true, true, true, true},    {BENT, false, false, false, false},
+                 {BENT, true, true, false, true},       {TETRAHEDRA, false, false, false, true},
+                 {TETRAHEDRA, true, false, false, true}};
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         unsigned changes = 0, gaps = 0;
         for (unsigned seed = 0; seed < 4; seed++) {
             flight f;
             make_flight(seed, cases[c].parallel, cases[c].flies, cases[c].bent, cases[c].turns, &f);
-            froe_motion *motion = make_motion_of(seed, cases[c].faces);
-            instants x = {.count = 0};
-            froe_sight_options o = froe_sight_defaults();
-            froe_diagnostic diag;
-            memcpy(o.at, f.eye, sizeof o.at);
-            o.parallel = f.parallel, o.window = f.window, o.body = &f.body;
-            if (froe_motion_sights(motion, &o, keep, &x, &diag)) fail_msg("case %zu: %s", c, diag.message);
+            froe_motion *motion =
+                cases[c].faces == TETRAHEDRA ? make_tetrahedra(seed, 6) : make_motion_of(seed, cases[c].faces);
+            static instants x;
+            find_from(motion, &f, NULL, 0, &x);
             size_t k = 0;
             unsigned last = 0;
             for (int i = 1; i < TIMES; i++) {
@@ -256,6 +309,43 @@ static void eyes_that_move_see_changes_at_instants_alone(void **state) {
         print_message("  case %zu: %u changes, %u times after which nothing happens\n", c, changes, gaps);
         assert_true(changes > 5 && gaps > 100);
     }
+}
+
+/* How often other faces are in sight near the end of a gap between two instants than near its beginning. */
+static unsigned changes_in_gaps(const froe_motion *motion, const flight *f, const instants *x, unsigned *gaps) {
+    unsigned changes = 0;
+    for (size_t i = 0; i + 1 < x->count; i++) {
+        const double low = x->high[i], high = x->low[i + 1];
+        if (high - low < 1e-6) continue;
+        changes += look_from(motion, f, low + 0.02 * (high - low)) != look_from(motion, f, high - 0.02 * (high - low));
+        ++*gaps;
+    }
+    return changes;
+}
+
+/* Triangles at rest that pass through one another: the lines in which they do are edges, too. */
+static void crossings_at_rest_are_edges(void **state) {
+    (void)state;
+    enum { CROSSING = 9 };
+    static instants x;
+    uint32_t pairs[CROSSING * (CROSSING - 1)];
+    size_t count = 0;
+    unsigned gaps = 0, ignored = 0;
+    for (uint32_t i = 0; i < CROSSING; i++)
+        for (uint32_t j = 0; j < i; j++, count++) pairs[2 * count] = j, pairs[2 * count + 1] = i;
+    for (unsigned seed = 0; seed < 6; seed++) {
+        flight f;
+        make_flight(seed, seed % 2, false, false, true, &f);
+        froe_motion *motion = make_tangle(seed, CROSSING);
+        find_from(motion, &f, pairs, count, &x);
+        const unsigned wrong = changes_in_gaps(motion, &f, &x, &gaps);
+        if (wrong) fail_msg("seed %u: %u changes between two instants", seed, wrong);
+        find_from(motion, &f, NULL, 0, &x);
+        ignored += changes_in_gaps(motion, &f, &x, &gaps);
+        froe_motion_free(motion), froe_motion_free(f.rig);
+    }
+    print_message("  %u gaps; without the lines of crossing %u changes in them\n", gaps, ignored);
+    assert_true(gaps > 200 && ignored > 0);
 }
 
 /* Just before an instant and just after it: of those at which other faces come into sight, each is told, too, where
@@ -381,29 +471,6 @@ static void make_round(const froe_motion *motion, const froe_camera *camera, fli
     assert_int_equal(froe_motion_add(f->rig, &m, NULL), FROE_OK);
 }
 
-/* Triangles at rest, many of which pass through one another. */
-static froe_motion *make_tangle(uint64_t seed) {
-    const size_t starts[] = {0, 1, 2, 3};
-    const double zeros[3] = {0};
-    froe_motion *motion = NULL;
-    froe_motion_options w = froe_motion_defaults();
-    dice = seed * 7919 + 5;
-    w.dim = 3, w.begin = 0, w.end = 1;
-    assert_int_equal(froe_motion_new(&w, NULL, &motion, NULL), FROE_OK);
-    for (int i = 0; i < FACES; i++) {
-        double at[9], centre[3];
-        froe_moving m = froe_moving_defaults();
-        char name[16];
-        for (int k = 0; k < 3; k++) centre[k] = chance() - 0.5;
-        for (int k = 0; k < 9; k++) at[k] = centre[k % 3] + 3 * chance() - 1.5;
-        snprintf(name, sizeof name, "t%d", i);
-        assert_int_equal(froe_motion_add_group(motion, &(froe_group){.name = name}, &m.group), FROE_OK);
-        m.vertex_count = 3, m.count = 1, m.starts = starts, m.times = zeros, m.coords = at;
-        assert_int_equal(froe_motion_add(motion, &m, NULL), FROE_OK);
-    }
-    return motion;
-}
-
 /* At how many of some times a film shows other objects than are in sight. */
 static unsigned count_wrong_around(const froe_motion *motion, const froe_render_options *o, bool exact, int shares) {
     froe_film_options film = froe_film_defaults();
@@ -429,7 +496,7 @@ static void exact_films_go_around(void **state) {
     (void)state;
     unsigned halving = 0, wrong = 0;
     for (unsigned seed = 0; seed < 6; seed++) {
-        froe_motion *motion = seed > 3 ? make_tangle(seed) : make_motion_of(seed, seed > 1 ? STRAIGHT : REST);
+        froe_motion *motion = seed > 3 ? make_tangle(seed, FACES) : make_motion_of(seed, seed > 1 ? STRAIGHT : REST);
         froe_render_options o = froe_render_defaults();
         o.camera.parallel = seed % 2, o.camera.width = o.camera.height = 600, o.decimals = 4;
         wrong += count_wrong_around(motion, &o, true, 200);
@@ -521,8 +588,9 @@ static void what_cannot_be_followed_is_refused(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(exact_films_go_around),
+        cmocka_unit_test(crossings_at_rest_are_edges),
         cmocka_unit_test(eyes_that_move_see_changes_at_instants_alone),
+        cmocka_unit_test(exact_films_go_around),
         cmocka_unit_test(exact_films_show_what_is_in_sight_at_any_time),
         cmocka_unit_test(exact_films_show_bodies_that_turn_within_the_deviation),
         cmocka_unit_test(faces_in_sight_change_at_instants_alone),

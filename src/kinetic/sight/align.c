@@ -40,7 +40,7 @@
 /* ---------------------------------------------------------------------- room -- */
 
 /* Widens the range of bits from *unit up to *top so that it holds numbers. */
-static void widen(const double *x, size_t count, int *unit, int *top) {
+static void widen_bits(const double *x, size_t count, int *unit, int *top) {
     for (size_t i = 0; i < count; i++) {
         int e;
         if (x[i] == 0) continue;
@@ -59,9 +59,9 @@ froe_status align_begin(align_room *room, const froe_motion *motion, const doubl
     const double ends[2] = {motion->begin, motion->end};
     int top = motion->top, unit = motion->unit, time_top = motion->time_top, time_unit = motion->time_unit;
     room->motion = motion;
-    widen(room->gaze.at, 3, &unit, &top);
-    widen(rest, count, &unit, &top);
-    widen(ends, 2, &time_unit, &time_top);
+    widen_bits(room->gaze.at, 3, &unit, &top);
+    widen_bits(rest, count, &unit, &top);
+    widen_bits(ends, 2, &time_unit, &time_top);
     if (rig) {
         top = rig->top > top ? rig->top : top, unit = rig->unit < unit ? rig->unit : unit;
         time_top = rig->time_top > time_top ? rig->time_top : time_top;
@@ -85,7 +85,7 @@ void align_go(align_room *room, double from, double to) {
 }
 
 void align_place(const align_room *room, align_point *point) {
-    place_of_ball(NULL, room, &room->near, point, &point->near);
+    seen_place_ball(NULL, room, &room->near, point, &point->near);
 }
 
 void align_line(const align_room *room, align_edge *edge) {
@@ -104,14 +104,14 @@ static void exact_line(align_room *room, const align_edge *edge, align_exact_lin
         carried_line_dyadic(&room->arena, room, &room->exactly, edge->end, out);
         return;
     }
-    for (int i = 0; i < 2; i++) place_of_dyadic(&room->arena, room, &room->exactly, edge->end[i], room->places + i);
+    for (int i = 0; i < 2; i++) seen_place_dyadic(&room->arena, room, &room->exactly, edge->end[i], room->places + i);
     line_of_dyadic(&room->arena, &room->exactly, room->places, room->places + 1, out);
 }
 
 /* ------------------------------------------------------------------------ rays -- */
 
-/* |q|^2 a W - R^-1 X  or, parallel, (Y_i a_k - Y_k a_i, Y_j a_k - Y_k a_j, |q|^2 a_k W) with Y = R^-1 X, a_k the largest
- * of a. An eye without a body is the centre itself, or sees in the direction a. */
+/* |q|^2 a W - R^-1 X  or, parallel, (Y_i a_k - Y_k a_i, Y_j a_k - Y_k a_j, |q|^2 a_k W) with Y = R^-1 X, a_k the
+ * largest of a. An eye without a body is the centre itself, or sees in the direction a. */
 void align_ray(const align_room *room, const align_point *point, num_ball_poly ray[3]) {
     const gaze *g = &room->gaze;
     num_ball_poly back[3][3], turned[3], scale, a[3];
@@ -180,8 +180,8 @@ static int sign_of_dot(const num_ball a[3], const num_ball b[3]) {
     return num_ball_sign(sum);
 }
 
-/* For which of +x (bit 0) and -x (bit 1) may it be a sum of positive multiples of the rays a and b? x is in their plane,
- * whose normal is n. */
+/* For which of +x (bit 0) and -x (bit 1) may it be a sum of positive multiples of the rays a and b? x is in their
+ * plane, whose normal is n. */
 static unsigned between(const num_ball x[3], const num_ball a[3], const num_ball b[3], const num_ball n[3]) {
     num_ball first[3], last[3];
     cross_at(x, b, first);
@@ -247,12 +247,12 @@ bool align_pass(align_room *room, const align_point *point, const align_edge *ed
     num_ball_poly near;
     num_poly f;
     *found = 0;
-    pass_ball(NULL, &point->near, &edge->near, &near);
+    pass_plane_ball(NULL, &point->near, &edge->near, &near);
     if (surely_none(&near)) return true;
     begin_exact(room);
     exact_line(room, edge, room->lines);
-    place_of_dyadic(&room->arena, room, &room->exactly, point, room->places);
-    pass_dyadic(&room->arena, room->places, room->lines, &f);
+    seen_place_dyadic(&room->arena, room, &room->exactly, point, room->places);
+    pass_plane_dyadic(&room->arena, room->places, room->lines, &f);
     return find_roots(room, &f, (align_case){point, &edge}, out, found);
 }
 

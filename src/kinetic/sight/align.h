@@ -2,14 +2,14 @@
  * pass through one point.
  *
  *          a                    with the eye at E/w (w = 0: it is parallel, and E the direction towards it), a point at
- *        --+----- edge          X/W, and the line of an edge  D = X_b W_a - X_a W_b,  M = X_a x X_b  (Pluecker), the eye
- *          |                    and the edge are in the plane  N . x = K,  N = w M + D x E,  K = M . E:
+ *        --+----- edge          X/W, and the line of an edge  D = X_b W_a - X_a W_b,  M = X_a x X_b  (Pluecker), eye
+ *          |                    and edge are in the plane  N . x = K,  N = w M + D x E,  K = M . E:
  *
  *        \ | / three edges      N . X - K W = 0
  *         \|/                   w (M x M') . N'' + N'' . (M x (D' x E) - M' x (D x E)) + K'' [D, D', E] = 0
  *
  * All is taken from the centre of what carries the eye (gaze.h). The first is linear in the eye, and the second the
- * quadric of all lines that meet the three (Pottmann and Wallner, "Computational Line Geometry", 2001, 3.2): the
+ * quadric of all lines that meet the three (Pottmann and Wallner, "Computational Line Geometry", 2001): the
  * determinant of the three N is w times that. For the window's edges, of which at most one takes part, and which are
  * carried with the eye, N and K are divided by |q|^2. Degrees in time, where x is that of corners, or of the eye's
  * flight if that is greater, and t that of its turn (0, 2):
@@ -40,10 +40,10 @@ typedef struct align_exact_line {
 
 /** A vertex of the motion, a point at rest, where triangles at rest cross, or a place in what carries the eye. */
 typedef struct align_point {
-    motion_piece piece;       /**< of a vertex */
-    const double *rest;       /**< NULL: it is none at rest, and none that is carried */
+    motion_piece piece;        /**< of a vertex */
+    const double *rest;        /**< NULL: it is none at rest, and none that is carried */
     const crossing_end *cross; /**< NULL: it is no such point */
-    bool carried;             /**< `rest` is that place */
+    bool carried;              /**< `rest` is that place */
     align_ball_place near;
 } align_point;
 

@@ -22,7 +22,7 @@ size_t crossing_arena(int unit, int top) {
     return NUMBERS * (((size_t)FACTORS * (size_t)(top > unit ? top - unit : 1) + SPARE_BITS) / 64 + 3);
 }
 
-static int side_of(num_arena *arena, const double *const face[3], const double *p) {
+static int side_of_face(num_arena *arena, const double *const face[3], const double *p) {
     const size_t mark = arena->top;
     const int sign = volume_dyadic(arena, face, p).sign;
     arena->top = mark;
@@ -34,7 +34,7 @@ static bool passes(num_arena *arena, const crossing_end *c) {
     bool left = false, right = false;
     for (int i = 0; i < 3; i++) {
         const double *const wall[3] = {c->edge[0], c->edge[1], c->face[i]};
-        const int sign = side_of(arena, wall, c->face[(i + 1) % 3]);
+        const int sign = side_of_face(arena, wall, c->face[(i + 1) % 3]);
         left = left || sign > 0, right = right || sign < 0;
     }
     return !(left && right);
@@ -43,7 +43,7 @@ static bool passes(num_arena *arena, const crossing_end *c) {
 /* Adds where edges of a pass b. */
 static int add_ends(num_arena *arena, const double *const a[3], const double *const b[3], crossing_end *out) {
     int side[3], count = 0;
-    for (int i = 0; i < 3; i++) side[i] = side_of(arena, b, a[i]);
+    for (int i = 0; i < 3; i++) side[i] = side_of_face(arena, b, a[i]);
     for (int i = 0; i < 3; i++) {
         const int j = (i + 1) % 3;
         if (side[i] * side[j] > 0 || side[i] == side[j]) continue;
@@ -55,7 +55,7 @@ static int add_ends(num_arena *arena, const double *const a[3], const double *co
 }
 
 /* The sign of q - p along an axis. */
-static int compare_ends(num_arena *arena, const crossing_end *p, const crossing_end *q, int axis) {
+static int compare_crossings(num_arena *arena, const crossing_end *p, const crossing_end *q, int axis) {
     const size_t mark = arena->top;
     motion_dyadic_curve at[2];
     cross_at_dyadic(arena, p, &at[0]);
@@ -75,8 +75,8 @@ bool crossing_find(num_arena *arena, const double *const a[3], const double *con
     for (int axis = 0; axis < 3; axis++) { /* all are in one line, which some axis is not upright to */
         int low = 0, high = 0;
         for (int i = 1; i < count; i++) {
-            if (compare_ends(arena, ends + i, ends + low, axis) > 0) low = i;
-            if (compare_ends(arena, ends + high, ends + i, axis) > 0) high = i;
+            if (compare_crossings(arena, ends + i, ends + low, axis) > 0) low = i;
+            if (compare_crossings(arena, ends + high, ends + i, axis) > 0) high = i;
         }
         if (low == high) continue;
         out[0] = ends[low], out[1] = ends[high];

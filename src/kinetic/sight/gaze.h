@@ -16,8 +16,8 @@ typedef struct gaze {
     froe_motion *rig; /**< of that body alone, with one vertex; NULL: the eye rests */
 } gaze;
 
-/** Takes over where an eye is, and how it moves within the window of a motion. FROE_E_OPTIONS: the direction is 0, or no
- * number. FROE_E_INPUT: the plan does not cover the window. Others as froe_motion_add_body(). */
+/** Takes over where an eye is, and how it moves within the window of a motion. FROE_E_OPTIONS: the direction is 0, or
+ * no number. FROE_E_INPUT: the plan does not cover the window. Others as froe_motion_add_body(). */
 froe_status gaze_begin(gaze *g, const froe_motion *m, const froe_sight_options *o, froe_diagnostic *diag);
 void gaze_end(gaze *g);
 

@@ -131,10 +131,9 @@ static bool add_edge(sight_search *s, uint32_t a, uint32_t b, bool seen) {
         p->there = true;
         p->seen = p->seen || seen;
     }
-    return array_push(&s->m->alloc, &s->edges,
-                      (sight_edge){.v = {a < b ? a : b, a < b ? b : a},
-                                   .seen = seen,
-                                   .window = a >= s->own && a < s->own + CORNERS});
+    return array_push(
+        &s->m->alloc, &s->edges,
+        (sight_edge){.v = {a < b ? a : b, a < b ? b : a}, .seen = seen, .window = a >= s->own && a < s->own + CORNERS});
 }
 
 /* Those of triangles that live, of the window, and where triangles cross. */
@@ -321,7 +320,7 @@ static void tell(sight_search *s, froe_sight_fn *fn, void *user) {
 
 /* ------------------------------------------------------------------- crossings -- */
 
-static bool rests(const froe_motion *m, uint32_t object) {
+static bool is_at_rest(const froe_motion *m, uint32_t object) {
     bool all = object < m->objects.count;
     for (int k = 0; k < 3 && all; k++) {
         const motion_plan *plan = m->plans.data + m->objects.data[object].vertices[k];
@@ -330,16 +329,15 @@ static bool rests(const froe_motion *m, uint32_t object) {
     return all;
 }
 
-static void corners_of(const froe_motion *m, uint32_t object, const double *out[3]) {
-    for (int k = 0; k < 3; k++)
-        out[k] = m->knots.data[m->plans.data[m->objects.data[object].vertices[k]].first].at;
+static void resting_corners(const froe_motion *m, uint32_t object, const double *out[3]) {
+    for (int k = 0; k < 3; k++) out[k] = m->knots.data[m->plans.data[m->objects.data[object].vertices[k]].first].at;
 }
 
 static froe_status find_crossings(sight_search *s, froe_diagnostic *diag) {
     const froe_motion *m = s->m;
     num_arena arena = {0};
     for (size_t i = 0; i < 2 * s->o->pair_count; i++)
-        if (!rests(m, s->o->pairs[i]))
+        if (!is_at_rest(m, s->o->pairs[i]))
             return support_fail(diag, FROE_E_INPUT, "option 'pairs': Number %zu is no object that is at rest.", i);
     s->crosses = support_calloc(&m->alloc, 2 * s->o->pair_count + 1, sizeof *s->crosses);
     if (!s->crosses) return support_fail_memory(diag);
@@ -347,7 +345,7 @@ static froe_status find_crossings(sight_search *s, froe_diagnostic *diag) {
     if (num_arena_reserve(&m->alloc, &arena, crossing_arena(m->unit, m->top))) return support_fail_memory(diag);
     for (size_t i = 0; i < s->o->pair_count; i++) {
         const double *a[3], *b[3];
-        corners_of(m, s->o->pairs[2 * i], a), corners_of(m, s->o->pairs[2 * i + 1], b);
+        resting_corners(m, s->o->pairs[2 * i], a), resting_corners(m, s->o->pairs[2 * i + 1], b);
         if (!crossing_find(&arena, a, b, s->crosses + 2 * i)) s->crosses[2 * i] = (crossing_end){{NULL}, {NULL}};
     }
     num_arena_free(&m->alloc, &arena);
@@ -441,7 +439,8 @@ void froe_sight_defaults_into(froe_sight_options *out, size_t size) {
 froe_status froe_motion_sights(const froe_motion *motion, const froe_sight_options *options, froe_sight_fn *fn,
                                void *user, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!motion || !options || !fn || (options->pair_count && !options->pairs)) return support_fail_null(diag, __func__);
+    if (!motion || !options || !fn || (options->pair_count && !options->pairs))
+        return support_fail_null(diag, __func__);
     if (options->size != sizeof *options) return support_fail_defaults(diag, "froe_sight_defaults");
     const double from = isnan(options->from) ? motion->begin : options->from,
                  to = isnan(options->to) ? motion->end : options->to;
