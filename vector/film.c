@@ -30,6 +30,9 @@ typedef struct film_work {
     ARRAY(film_picture) waiting; /* to be shown, the next one last */
     ARRAY(double) times;         /* that are shown whatever they show */
     film_instants instants;      /* exact films only */
+    film_turn turn;              /* of these, where the eye goes around */
+    bool still;                  /* only the eye moves */
+    froe_tree *tree;             /* then, of all pictures; NULL: none was needed yet */
     film_picture last;           /* what is shown */
     double passed, soon;         /* exact films: the last frame; so long after an instant its picture is taken */
     bool any;                    /* it is one */
@@ -113,15 +116,20 @@ static bool note_seen(const vector_render *r, film_picture *p, const froe_alloca
     return room;
 }
 
+static froe_camera camera_at(const film_work *w, double time) {
+    if (w->film.turn && w->film.exact) return film_turn_at(&w->turn, time);
+    const double share = (time - w->begin) / (w->end - w->begin);
+    const size_t camera = (size_t)(share * (double)w->camera_count);
+    return w->cameras[camera < w->camera_count ? camera : w->camera_count - 1];
+}
+
 static froe_status draw_tree(film_work *w, const froe_tree *tree, film_picture *p) {
     path_keeper keeper = {.work = w, .picture = p};
     vector_output output = {.fn = keep_bytes, .user = &keeper};
     vector_render r = {.tree = tree, .scene = froe_tree_scene(tree), .options = &w->options};
-    const double share = (p->time - w->begin) / (w->end - w->begin);
-    const size_t camera = (size_t)(share * (double)w->camera_count);
+    const froe_camera camera = camera_at(w, p->time);
     r.grid = vector_grid(&w->options, FROE_RENDER_SVG);
-    froe_status status =
-        vector_prepare(&r, w->cameras + (camera < w->camera_count ? camera : w->camera_count - 1), w->diag);
+    froe_status status = vector_prepare(&r, &camera, w->diag);
     if (!status && !note_seen(&r, p, &w->alloc)) status = no_room(w);
     if (!status) vector_svg_each(&r, &output, keep_path, &keeper);
     if (!status && (keeper.full || output.status)) status = no_room(w);
@@ -129,19 +137,27 @@ static froe_status draw_tree(film_work *w, const froe_tree *tree, film_picture *
     return status;
 }
 
-/* The picture of an instant. What fails leaves nothing behind. */
-static froe_status draw_instant(film_work *w, double time, bool exact, film_picture *out) {
+/* The tree of an instant, or of all; NULL: nothing is there. */
+static froe_status grow_tree(film_work *w, double time, froe_tree **tree) {
     froe_scene *scene = NULL;
-    froe_tree *tree = NULL;
-    *out = (film_picture){.time = time, .exact = exact};
     froe_build_options o = froe_build_defaults();
     o.purpose = "draw", o.threads = 1;
+    *tree = w->tree;
+    if (*tree) return FROE_OK;
     froe_status status = froe_motion_scene(w->motion, time, &w->alloc, &scene, w->diag);
-    if (!status && froe_scene_object_count(scene)) {
-        status = froe_build(scene, &o, &tree, w->diag);
-        if (!status) status = draw_tree(w, tree, out);
-    }
-    froe_tree_free(tree), froe_scene_free(scene);
+    if (!status && froe_scene_object_count(scene)) status = froe_build(scene, &o, tree, w->diag);
+    froe_scene_free(scene);
+    if (w->still) w->tree = *tree;
+    return status;
+}
+
+/* The picture of an instant. What fails leaves nothing behind. */
+static froe_status draw_instant(film_work *w, double time, bool exact, film_picture *out) {
+    froe_tree *tree = NULL;
+    *out = (film_picture){.time = time, .exact = exact};
+    froe_status status = grow_tree(w, time, &tree);
+    if (!status && tree) status = draw_tree(w, tree, out);
+    if (!w->still) froe_tree_free(tree);
     if (status) free_picture(out, &w->alloc);
     w->report.pictures++;
     return status;
@@ -200,15 +216,17 @@ static double soon_after(const film_work *w, film_instant at, double next) {
     return later < next ? later : at.high;
 }
 
-/* The picture just after an instant, before anything else happens, and the instants that follow while its faces are in
- * sight; or, where these are those of the last picture, those that follow then. *same: they are. */
+/* The picture just after an instant, before anything else happens. *same: its faces are those of the last picture,
+ * whose list of instants goes on to hold; otherwise a list is made of those that follow while the new ones are in
+ * sight. */
 static froe_status look_after(film_work *w, film_instant at, double next, double time, film_picture *out, bool *same) {
     double now = soon_after(w, at, next);
     film_instant after;
-    for (;;) {
+    for (bool renewed = false;; renewed = true) {
         froe_status status = draw_instant(w, now, true, out);
         if (status) return status;
         *same = same_seen(&w->last, out);
+        if (*same && !renewed) return FROE_OK;
         const film_picture *seen = *same ? &w->last : out;
         status = film_instants_find(&w->instants, seen->seen.data, seen->seen.count, at.high, time, w->diag);
         if (status) return free_picture(out, &w->alloc), status;
@@ -277,18 +295,38 @@ static froe_status begin_exactly(film_work *w) {
     froe_status status = vector_film_corners(w->motion, &scene, w->diag);
     if (!status) status = film_instants_begin(&w->instants, w->motion, w->cameras, scene, &w->options, w->diag);
     froe_scene_free(scene);
-    return status;
+    if (status || !w->film.turn) return status;
+    w->instants.turn = &w->turn;
+    return film_turn_begin(&w->turn, w->cameras, &w->instants.view, w->camera_count, w->begin, w->end, &w->alloc,
+                           w->diag);
+}
+
+/* Is all there all the time, where it is? */
+static bool is_still(const film_work *w) {
+    bool still = true;
+    for (uint32_t v = 0; v < froe_motion_vertex_count(w->motion) && still; v++) {
+        const uint32_t body = froe_motion_vertex_body(w->motion, v);
+        still = body == FROE_NONE ? froe_motion_knot_count(w->motion, v) == 1
+                                  : froe_motion_body_knot_count(w->motion, body) == 1;
+    }
+    for (uint32_t i = 0; i < froe_motion_object_count(w->motion) && still; i++) {
+        const froe_moving_object o = froe_motion_object(w->motion, i);
+        still = o.birth == w->begin && o.death == w->end;
+    }
+    return still;
 }
 
 static froe_status make_film(film_work *w) {
     const double least = (w->end - w->begin) / w->film.frames / (double)(1u << w->film.halvings);
-    const size_t count = w->film.turn ? (size_t)w->film.frames << w->film.halvings : 1;
+    const size_t count = !w->film.turn   ? 1
+                         : w->film.exact ? film_turn_places(w->film.frames)
+                                         : (size_t)w->film.frames << w->film.halvings;
     froe_status status = list_times(w);
     if (status) return status;
     w->cameras = support_calloc(&w->alloc, count, sizeof *w->cameras);
     if (!w->cameras) return no_room(w);
     w->camera_count = count, w->report.late = w->film.exact ? 0 : least;
-    w->soon = least / 1024;
+    w->soon = least / 1024, w->still = is_still(w);
     status = froe_film_cameras(w->motion, &w->options.camera, w->film.turn, count, w->cameras, w->diag);
     if (!status && w->film.exact) status = begin_exactly(w);
     for (size_t i = 0; i < w->times.count && !status; i++)
@@ -310,8 +348,6 @@ static froe_status check_film(film_work *w, const froe_film_options *film) {
     if (!(film->seconds > 0 && film->seconds <= 1e6))
         return support_fail(w->diag, FROE_E_OPTIONS, "option 'seconds': '%g' is not a number above 0 and up to 1e6.",
                             film->seconds);
-    if (film->exact && film->turn)
-        return support_fail(w->diag, FROE_E_OPTIONS, "An exact film has an eye that stands still.");
     if (w->options.layers || w->options.interleaved || w->options.seams == FROE_SEAMS_TWICE)
         return support_fail(w->diag, FROE_E_OPTIONS,
                             "A film has no layers, no interleaved lines and no fills that are painted twice.");
@@ -328,6 +364,8 @@ static void free_film(film_work *w) {
     array_free(&w->alloc, &w->waiting), array_free(&w->alloc, &w->times);
     vector_film_free(&w->list, &w->alloc);
     film_instants_end(&w->instants);
+    film_turn_end(&w->turn);
+    froe_tree_free(w->tree);
     if (w->cameras) support_free(&w->alloc, w->cameras, w->camera_count * sizeof *w->cameras);
 }
 

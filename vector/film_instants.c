@@ -10,8 +10,22 @@ static int compare_film_instants(const void *a, const void *b) {
     return (p->high > q->high) - (p->high < q->high);
 }
 
+static bool stands_still(const froe_motion *motion, uint32_t object) {
+    const froe_moving_object o = froe_motion_object(motion, object);
+    bool all = true;
+    for (int k = 0; k < 3 && all; k++)
+        all = froe_motion_knot_count(motion, o.vertices[k]) == 1 &&
+              froe_motion_vertex_body(motion, o.vertices[k]) == FROE_NONE;
+    return all;
+}
+
 static bool keep_touch(void *user, const froe_contact *c) {
     film_instants *x = user;
+    const uint32_t pair[2] = {c->a, c->b};
+    if (stands_still(x->motion, c->a) && stands_still(x->motion, c->b)) {
+        x->full = !array_append(&x->alloc, &x->pairs, pair, 2);
+        return !x->full;
+    }
     x->full = !array_push(&x->alloc, &x->touches, ((film_instant){c->begin[0], c->begin[1]})) ||
               !array_push(&x->alloc, &x->touches, ((film_instant){c->end[0], c->end[1]}));
     return !x->full;
@@ -38,7 +52,7 @@ froe_status film_instants_begin(film_instants *x, const froe_motion *motion, con
 
 void film_instants_end(film_instants *x) {
     if (!x->motion) return;
-    array_free(&x->alloc, &x->touches), array_free(&x->alloc, &x->list);
+    array_free(&x->alloc, &x->touches), array_free(&x->alloc, &x->pairs), array_free(&x->alloc, &x->list);
     support_free(&x->alloc, x->seen, froe_motion_object_count(x->motion));
 }
 
@@ -47,8 +61,13 @@ froe_status film_instants_find(film_instants *x, const uint64_t *tags, size_t co
     memset(x->seen, 0, froe_motion_object_count(x->motion));
     for (size_t i = 0; i < count; i++) x->seen[tags[i]] = 1;
     x->list.count = 0;
-    const froe_status status = froe_motion_sights(x->motion, x->view.eye.at, x->view.eye.parallel, x->view.window,
-                                                  x->all ? NULL : x->seen, from, to, keep_sight, x, diag);
+    froe_sight_options o = froe_sight_defaults();
+    memcpy(o.at, x->turn ? x->turn->at : x->view.eye.at, sizeof o.at);
+    o.parallel = x->view.eye.parallel, o.window = x->turn ? x->turn->window : x->view.window;
+    o.body = x->turn ? &x->turn->body : NULL;
+    o.pairs = x->pairs.data, o.pair_count = x->pairs.count / 2;
+    o.seen = x->all ? NULL : x->seen, o.from = from, o.to = to;
+    const froe_status status = froe_motion_sights(x->motion, &o, keep_sight, x, diag);
     for (size_t i = 0; i < x->touches.count && !x->full; i++)
         if (x->touches.data[i].high >= from && x->touches.data[i].low <= to)
             x->full = !array_push(&x->alloc, &x->list, x->touches.data[i]);

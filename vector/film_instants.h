@@ -4,6 +4,7 @@
  *             instant   two of them                   between two of them tells all */
 #ifndef FROE_VECTOR_FILM_INSTANTS_H
 #define FROE_VECTOR_FILM_INSTANTS_H
+#include "film_turn.h"
 #include "support/array.h"
 #include <froe/render.h>
 
@@ -14,16 +15,18 @@ typedef struct film_instant {
 typedef struct film_instants {
     const froe_motion *motion;
     froe_allocator alloc;
-    froe_projection view;
+    froe_projection view;        /**< when the film begins */
+    const film_turn *turn;       /**< NULL: the eye rests */
     bool all;                    /**< what is drawn does not tell of all that is seen */
     uint8_t *seen;               /**< per object */
     ARRAY(film_instant) touches; /**< at which triangles begin or cease to touch */
+    ARRAY(uint32_t) pairs;       /**< of triangles at rest that touch all the time */
     ARRAY(film_instant) list;    /**< what was found last, ascending */
     bool full;
 } film_instants;
 
-/** Finds when triangles touch. `scene` is any of the motion. FROE_E_UNSUPPORTED and others of froe_motion_sights(),
- * froe_motion_contacts(), froe_camera_place(). */
+/** Finds when triangles touch. `scene` is any of the motion. `turn` is set afterwards. FROE_E_UNSUPPORTED and others of
+ * froe_motion_sights(), froe_motion_contacts(), froe_camera_place(). */
 froe_status film_instants_begin(film_instants *x, const froe_motion *motion, const froe_camera *camera,
                                 const froe_scene *scene, const froe_render_options *options, froe_diagnostic *diag);
 void film_instants_end(film_instants *x);

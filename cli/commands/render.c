@@ -74,9 +74,8 @@ static const cli_option motion[] = {
      .help = "N pictures of a moving model, as those of a turntable; with --animate one SVG that plays (default 200)",
      .min = 1, .max = 100000},
     {"exact", 0, CLI_FLAG, offsetof(render_args, exact),
-     .help =
-         "with --animate: miss no face that comes into sight, however short; slow. What turns needs --parallel, and is "
-         "followed within --deviation"},
+     .help = "with --animate: miss no face that comes into sight, however short; slow. What turns is followed within "
+             "--deviation, and with --turntable it needs --parallel"},
     {0},
 };
 
@@ -284,10 +283,14 @@ static int run_render(const void *given) {
         froe_tree_free(tree);
         return code;
     }
-    render_prepared prepared;
-    code = render_prepare(args, scene, &prepared);
-    if (!code) code = render(args, tree, &prepared.options);
-    render_release(&prepared);
+    if (args->exact) {
+        code = cli_render_around(args, scene);
+    } else {
+        render_prepared prepared;
+        code = render_prepare(args, scene, &prepared);
+        if (!code) code = render(args, tree, &prepared.options);
+        render_release(&prepared);
+    }
     froe_tree_free(tree);
     return code;
 }

@@ -171,7 +171,10 @@ static int run_simulate(const void *given) {
     froe_diagnostic diag;
     code = cli_read_moving(&args->common, &args->moving, &s.motion, &s.read);
     if (code) return code;
-    code = find_contacts(&s);
+    code = cli_check_follow(&args->follow, args->moving.path, s.motion);
+    if (!code) code = find_contacts(&s);
+    if (!code) code = animate(&s, args->animate); /* before tables: a picture may be refused, and a table cannot be */
+    if (!code) code = animate(&s, args->player);
     if (!code && args->contacts) {
         const froe_status status = froe_write_contacts(s.motion, s.contacts, s.count, args->contacts, &diag);
         if (status)
@@ -179,8 +182,6 @@ static int run_simulate(const void *given) {
         else
             s.written.names[s.written.count++] = args->contacts;
     }
-    if (!code) code = animate(&s, args->animate);
-    if (!code) code = animate(&s, args->player);
     cli_follow follow = args->follow;
     follow.deviation = args->moving.deviation, follow.up = s.read.up;
     if (!code) code = cli_follow_motion(&args->common, &follow, args->moving.path, s.motion, &s.events, &s.written);

@@ -11,8 +11,10 @@
 #include <string.h>
 
 bool cli_is_moving(const render_args *args) {
-    return args->frames || args->exact || !isnan(args->at) || !isnan(args->moving.from) || !isnan(args->moving.to) ||
-           !isnan(args->moving.deviation) || args->moving.animation || args->moving.poses ||
+    const bool stream = !strcmp(args->tree.scene.path, "-") && !args->tree.scene.format; /* of a known kind: MF-JSON */
+    return args->frames || (!args->turntable && (args->exact || (args->animate && stream))) || !isnan(args->at) ||
+           !isnan(args->moving.from) || !isnan(args->moving.to) || !isnan(args->moving.deviation) ||
+           args->moving.animation || args->moving.poses ||
            !strcmp(support_path_extension(args->tree.scene.path).text, "mfjson") ||
            (args->tree.scene.format && !strcmp(args->tree.scene.format, "mfjson"));
 }
@@ -90,9 +92,7 @@ static int check_film(const render_args *args) {
                         "--method, --save-tree, --section: A moving model has a tree of its own at each instant.");
     if (!isnan(args->at) && (many || args->animate))
         return cli_fail(CLI_USE, NULL, "--at: It is one picture, and excludes --frames, --turntable and --animate.");
-    if (args->exact && (!args->animate || args->turntable))
-        return cli_fail(CLI_USE, NULL,
-                        "--exact: It is for --animate from an eye that stands still, without --turntable.");
+    if (args->exact && !args->animate) return cli_fail(CLI_USE, NULL, "--exact: It is for --animate.");
     if (isnan(args->at) && !args->animate && !many)
         return cli_fail(CLI_USE, args->tree.scene.path, "A moving model needs --at, --frames or --animate.");
     if (args->frames && args->turntable && args->frames != args->turntable)
@@ -102,20 +102,24 @@ static int check_film(const render_args *args) {
     return 0;
 }
 
-/* Exact films follow corners, along parabolas only for parallel eyes, and along cubics not at all. */
+/* Exact films follow corners: by a parallel eye all, and from a point what flies straight, or along parabolas if the eye
+ * stands still. */
 static int prepare_exactly(film_run *r) {
     const char *path = r->args->tree.scene.path;
     const int code = cli_replace_bodies(path, r->motion, r->args->moving.deviation, &r->replaced, &r->reached);
     const froe_motion *motion = r->replaced ? r->replaced : r->motion;
+    const bool parallel = r->options->camera.parallel, turns = r->args->turntable;
     for (uint32_t v = 0; v < froe_motion_vertex_count(motion) && !code; v++)
         for (size_t i = 0; i < froe_motion_knot_count(motion, v); i++) {
             const froe_moving_knot knot = froe_motion_knot(motion, v, i);
-            if (!isnan(knot.second[0]))
-                return cli_fail(CLI_USE, path, "--exact: What flies along cubics is not followed exactly.");
-            if (!isnan(knot.control[0]) && !r->options->camera.parallel)
+            if (!isnan(knot.second[0]) && (turns || !parallel))
                 return cli_fail(CLI_USE, path,
-                                "--exact: What turns, or flies along parabolas, is followed for parallel eyes alone. "
-                                "Add --parallel.");
+                                "--exact: What flies along cubics is followed in parallel alone, by an eye that rests. "
+                                "Add --parallel, without --turntable.");
+            if (!isnan(knot.control[0]) && turns && !parallel)
+                return cli_fail(CLI_USE, path,
+                                "--exact: From an eye that goes around, what turns, or flies along parabolas, is "
+                                "followed in parallel alone. Add --parallel.");
         }
     return code;
 }
@@ -149,29 +153,45 @@ static int draw(film_run *r) {
     return cli_report(&args->common, NULL, report_film(r));
 }
 
-int cli_render_moving(const render_args *args) {
-    film_run r = {.args = args};
+/* What was read, from its groups to the picture; frees the motion. */
+static int render_motion(film_run *r) {
+    const render_args *args = r->args;
+    const char *path = args->tree.scene.path;
     froe_diagnostic diag;
     froe_scene *scene = NULL;
     render_prepared prepared = {.values = NULL};
+    int code = 0;
+    const froe_motion_options window = froe_motion_window(r->motion);
+    if (window.dim != 3)
+        code = cli_fail(CLI_USE, path, "A motion in the plane has no hidden surfaces. froe simulate shows it.");
+    if (!code && !(isnan(args->at) || (args->at >= window.begin && args->at <= window.end)))
+        code = cli_fail(CLI_USE, NULL, "--at: '%g' is not from %g to %g.", args->at, window.begin, window.end);
+    const froe_status status = code ? FROE_OK : froe_motion_scene(r->motion, window.begin, NULL, &scene, &diag);
+    if (status) code = cli_fail_status(CLI_WORKING, path, status, &diag);
+    if (!code && froe_scene_set_up(scene, r->read.up)) code = cli_fail_memory();
+    if (!code) code = render_prepare(args, scene, &prepared);
+    r->options = &prepared.options;
+    if (!code) code = draw(r);
+    render_release(&prepared);
+    froe_scene_free(scene);
+    froe_motion_free(r->replaced), froe_motion_free(r->motion);
+    return code;
+}
+
+int cli_render_moving(const render_args *args) {
+    film_run r = {.args = args};
     cli_moving_args moving = args->moving;
     moving.path = args->tree.scene.path, moving.format = args->tree.scene.format;
     int code = check_film(args);
     if (!code) code = cli_read_moving(&args->common, &moving, &r.motion, &r.read);
+    return code ? code : render_motion(&r);
+}
+
+int cli_render_around(const render_args *args, const froe_scene *scene) {
+    film_run r = {.args = args, .read.up = froe_scene_up(scene)};
+    froe_diagnostic diag;
+    const int code = check_film(args);
     if (code) return code;
-    const froe_motion_options window = froe_motion_window(r.motion);
-    if (window.dim != 3)
-        code = cli_fail(CLI_USE, moving.path, "A motion in the plane has no hidden surfaces. froe simulate shows it.");
-    if (!code && !(isnan(args->at) || (args->at >= window.begin && args->at <= window.end)))
-        code = cli_fail(CLI_USE, NULL, "--at: '%g' is not from %g to %g.", args->at, window.begin, window.end);
-    const froe_status status = code ? FROE_OK : froe_motion_scene(r.motion, window.begin, NULL, &scene, &diag);
-    if (status) code = cli_fail_status(CLI_WORKING, moving.path, status, &diag);
-    if (!code && froe_scene_set_up(scene, r.read.up)) code = cli_fail_memory();
-    if (!code) code = render_prepare(args, scene, &prepared);
-    r.options = &prepared.options;
-    if (!code) code = draw(&r);
-    render_release(&prepared);
-    froe_scene_free(scene);
-    froe_motion_free(r.replaced), froe_motion_free(r.motion);
-    return code;
+    const froe_status status = froe_motion_at_rest(scene, 0, 1, NULL, &r.motion, &diag);
+    return status ? cli_fail_status(CLI_WORKING, args->tree.scene.path, status, &diag) : render_motion(&r);
 }

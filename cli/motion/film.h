@@ -7,4 +7,6 @@
 bool cli_is_moving(const render_args *args);
 /** Draws it: at an instant, frame by frame, or as one SVG that plays. Returns an exit code. */
 int cli_render_moving(const render_args *args);
+/** The film of a model at rest around which the eye goes, exactly. Returns an exit code. */
+int cli_render_around(const render_args *args, const froe_scene *scene);
 #endif

@@ -101,6 +101,18 @@ static int follow(walk *w, const cli_common *common, froe_motion *motion, json_t
     return code;
 }
 
+int cli_check_follow(const cli_follow *asked, const char *file, const froe_motion *motion) {
+    const bool space = froe_motion_window(motion).dim == 3;
+    if (asked->places && space)
+        return cli_fail(CLI_USE, NULL, "--places: Exact places are told of motions in the plane, and '%s' is in space.",
+                        file);
+    if (asked->augmented && space)
+        return cli_fail(CLI_USE, NULL, "--augmented: It is about segments in the plane, and '%s' is in space.", file);
+    if (asked->ghosts && !space)
+        return cli_fail(CLI_USE, NULL, "--ghosts: It is about triangles in space, and '%s' is in the plane.", file);
+    return 0;
+}
+
 int cli_follow_motion(const cli_common *common, const cli_follow *asked, const char *file, froe_motion *motion,
                       json_t **report, cli_written *written) {
     froe_diagnostic diag;
@@ -109,9 +121,6 @@ int cli_follow_motion(const cli_common *common, const cli_follow *asked, const c
     *report = json_null();
     w.may_ghost = space && !asked->ghosts;
     if (!asked->events && !asked->tree.name) return 0;
-    if (asked->places && space)
-        return cli_fail(CLI_USE, NULL, "--places: Exact places are told of motions in the plane, and '%s' is in space.",
-                        file);
     froe_status status = asked->events ? froe_event_writer_new(asked->events, NULL, &w.writer, &diag) : FROE_OK;
     if (status) return cli_fail_status(CLI_WRITING, asked->events, status, &diag);
     *report = json_object();

@@ -23,6 +23,8 @@ typedef struct cli_follow {
     double deviation; /**< of what replaces bodies, as a share of the size of what moves; NaN: the usual one */
 } cli_follow;
 
+/** Is what is asked for possible for a motion? Returns 0, or an exit code after saying why. */
+int cli_check_follow(const cli_follow *asked, const char *file, const froe_motion *motion);
 /** Goes through the window of a motion from a file, if anything is asked for; events are written as they happen.
  * *report: what there was, or null. Returns an exit code, after saying why. What is written is added to `written`. */
 int cli_follow_motion(const cli_common *common, const cli_follow *asked, const char *file, froe_motion *motion,

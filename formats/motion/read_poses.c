@@ -77,7 +77,7 @@ static int dim_of(const pose_reading *r) {
     return froe_scene_dim(r->model);
 }
 
-/* In the plane there is no z, and nothing turns about x or y. */
+/* In the plane there is no z, and nothing turns about x or y; see stays_in_plane(). */
 static bool is_read(const pose_reading *r, int column) {
     return dim_of(r) == 3 || (column != PLACE + 2 && column != TURN && column != TURN + 1);
 }
@@ -93,7 +93,7 @@ static froe_status read_pose_header(pose_reading *r, char **at, char separator) 
                                 SUPPORT_CSV_COLUMNS);
         r->column[r->columns] = COLUMNS;
         for (int k = 0; k < COLUMNS; k++)
-            if (strcmp(field.text, column_names[k]) == 0 && !(found >> k & 1) && is_read(r, k)) {
+            if (strcmp(field.text, column_names[k]) == 0 && !(found >> k & 1)) {
                 r->column[r->columns] = k;
                 found |= 1 << k;
             }
@@ -183,9 +183,28 @@ static const pose *pose_of(const pose_reading *r, size_t i) {
     return r->poses.data + r->order.data[i];
 }
 
+/* Has a part of the plane one height all the time, and does it turn about no other line than an upright one? */
+static froe_status stays_in_plane(const pose_reading *r, uint32_t group) {
+    const double *before = pose_of(r, r->starts.data[group])->at;
+    for (size_t i = r->starts.data[group]; i < r->starts.data[group + 1]; i++)
+        for (int k = TIME; k < COLUMNS; k++) {
+            const double *at = pose_of(r, i)->at, expected = k == PLACE + 2 ? before[k] : 0;
+            if (!is_read(r, k) && at[k] != expected)
+                return support_fail(
+                    r->diag, FROE_E_INPUT,
+                    "%s: part '%.60s': At the time %.17g its %s is %.17g and not %.17g, and the model is "
+                    "in the plane.",
+                    support_short(r->path), froe_scene_group(r->model, group).name, at[TIME], column_names[k], at[k],
+                    expected);
+        }
+    return FROE_OK;
+}
+
 static froe_status add_posed_part(pose_reading *r, uint32_t group) {
     const size_t first = r->starts.data[group], count = r->starts.data[group + 1] - first;
     froe_diagnostic why;
+    const froe_status flat = stays_in_plane(r, group);
+    if (flat) return flat;
     froe_body body = froe_body_defaults();
     const size_t dim = (size_t)dim_of(r), each = dim == 2 ? 2 : 4;
     r->numbers.count = 0;

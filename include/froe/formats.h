@@ -251,15 +251,22 @@ FROE_API froe_status froe_read_motion(const char *path, const froe_motion_read_o
  * in any order, perhaps with other columns, and perhaps without the four of the turn. A row is where the part of that
  * name (a group of the model; of several of one name, one) is at an instant: its polygons, as triangles, are turned
  * about the origin of the model by the quaternion, and then moved by x, y, z. Rows of one part are in order of time;
- * between two of them it moves as a body does (froe_body). In the plane, z, qx and qy are not read: the parts are the
- * segments of the groups, which share vertices. A part lives from its first instant to its last; a part of one row, or
- * of none, stands still and always lives. Groups of the motion are those of the model. The model may be freed
- * afterwards. FROE_E_INPUT: no such part, no finite number, times that do not increase, a quaternion whose length is
- * not 1, a window in which no part moves although some do; the message names line or part. FROE_E_FORMAT: a column is
- * missing. FROE_E_UNSUPPORTED: the model is not of polygons in space, or of segments in the plane. FROE_E_IO,
- * FROE_E_MEMORY, FROE_E_OPTIONS, FROE_E_LIMIT. options, report and diag may be NULL. */
+ * between two of them it moves as a body does (froe_body). In the plane z, if it is there, stays the same for a part,
+ * and qx and qy are 0: the parts are the segments of the groups, which share vertices. A part lives from its first
+ * instant to its last; a part of one row, or of none, stands still and always lives. Groups of the motion are those of
+ * the model. The model may be freed afterwards. FROE_E_INPUT: no such part, no finite number, times that do not
+ * increase, a quaternion whose length is not 1, a part that leaves the plane, a window in which no part moves although
+ * some do; the message names line or part. FROE_E_FORMAT: a column is missing. FROE_E_UNSUPPORTED: the model is not of
+ * polygons in space, or of segments in the plane. FROE_E_IO, FROE_E_MEMORY, FROE_E_OPTIONS, FROE_E_LIMIT. options,
+ * report and diag may be NULL. */
 FROE_API froe_status froe_read_poses(const char *path, const froe_scene *model, const froe_motion_read_options *options,
                                      froe_motion **out, froe_motion_report *report, froe_diagnostic *diag);
+
+/** A model that rests, as a motion whose window is from `begin` to `end`: its polygons as triangles, a fan for each, in
+ * their order, with vertices, groups and names of the model. The model may be freed afterwards. FROE_E_UNSUPPORTED: an
+ * object is no polygon in space. FROE_E_INPUT: the window is none. FROE_E_MEMORY, FROE_E_LIMIT. O(corners). */
+FROE_API froe_status froe_motion_at_rest(const froe_scene *model, double begin, double end, const froe_allocator *alloc,
+                                         froe_motion **out, froe_diagnostic *diag);
 
 /** What moves, as it is at an instant: segments in the plane, triangles in space, where they are to within a few units
  * in the last place (froe_motion_position()). Objects that begin then are there, and those that end are not, unless the

@@ -230,18 +230,36 @@ FROE_API froe_status froe_motion_contacts(const froe_motion *motion, const froe_
  * stops. */
 typedef bool froe_sight_fn(void *user, double low, double high);
 
-/** The instants from `from` to `to` at which what an eye sees of triangles may change, ascending: a corner passes an
- * edge, or three edges pass through one point, as the eye sees them. Each is a root of an exact polynomial of degree 8
- * at most. `eye` is a point, or, if `parallel`, the direction towards the eye, not 0; `window` four points, the corners
- * of the page in order, or NULL. Of the objects marked in `seen` (NULL: of all) something is seen: as long as these are
- * what is seen, no change is missed where no triangles touch; froe_motion_contacts() tells when they do. There may be
- * instants at which nothing changes. Those closer than neighbouring doubles are one. FROE_E_ARG: `from` and `to` are
- * not in order and within the window of the motion, or something is NULL. FROE_E_UNSUPPORTED: the motion is of the
- * plane, an object is of a body, or flies along a parabola and the eye is not parallel. FROE_E_LIMIT: two things
- * happen within 2^-2047 of the time between two knots. FROE_E_MEMORY. O(edges corners + candidates). */
-FROE_API froe_status froe_motion_sights(const froe_motion *motion, const double eye[3], bool parallel,
-                                        const double *window, const uint8_t *seen, double from, double to,
-                                        froe_sight_fn *fn, void *user, froe_diagnostic *diag);
+typedef struct froe_sight_options {
+    size_t size;           /**< set by froe_sight_defaults() */
+    double at[3];          /**< the eye, or, if it is parallel, the direction towards it, not 0. No default */
+    bool parallel;         /**< default false: it is a point */
+    const double *window;  /**< four points, the corners of the page in order; NULL (default): there is no page */
+    const froe_body *body; /**< the eye and the window move as this body has it, whose plan covers the window of the
+                                 motion: `at` and `window` are places in the body, or `at` a direction in it. NULL
+                                 (default): both rest */
+    double from, to;       /**< the time asked for; NaN (default): as the motion's window */
+    const uint8_t *seen;   /**< per object: something of it is seen when that time begins; NULL (default): of all */
+    const uint32_t *pairs; /**< pairs of objects at rest, pair_count: where they pass through one another there are
+                                 edges, too; NULL (default): none */
+    size_t pair_count;
+} froe_sight_options;
+FROE_DEFAULTS(froe_sight_options, froe_sight_defaults);
+
+/** The instants at which what an eye sees of triangles may change, ascending: a corner passes an edge, among them that
+ * of its own triangle, which then turns its other side to the eye; or three edges pass through one point, as the eye
+ * sees them. Each is a root of an exact polynomial of degree 12 at most. As long as what is seen is what `seen` says,
+ * no change is missed where no triangles touch, and of triangles that touch none if they are at rest and among `pairs`;
+ * froe_motion_contacts() tells when they do. There may be instants at which nothing changes. Those closer than
+ * neighbouring doubles are one. From a point, corners and the eye may fly straight, and the eye may turn; a parallel
+ * eye may turn, and corners may fly along parabolas, too. FROE_E_OPTIONS: not from _defaults(), times that are not in
+ * order or not within the window of the motion, an eye that is nowhere. FROE_E_ARG: something is NULL. FROE_E_INPUT: a
+ * pair is none at rest; the eye's plan does not cover the window; otherwise as froe_motion_add_body().
+ * FROE_E_UNSUPPORTED: the motion is of the plane, an object is of a body, or an object or the eye flies along a
+ * parabola and the eye is not parallel. FROE_E_LIMIT: two things happen within 2^-2047 of the time between two knots.
+ * FROE_E_MEMORY. O(edges corners + candidates). */
+FROE_API froe_status froe_motion_sights(const froe_motion *motion, const froe_sight_options *options, froe_sight_fn *fn,
+                                        void *user, froe_diagnostic *diag);
 
 /* --------------------------------------------------------------- partition -- */
 

@@ -173,7 +173,7 @@ typedef struct froe_film_options {
     double seconds;    /**< that a round takes; default 8 */
     uint32_t halvings; /**< 0 .. 20: where one frame shows other faces than the one before, the time between the two is
                             halved so often; default 4 */
-    bool turn;         /**< the eye goes around once, as froe_camera_turn() has it */
+    bool turn;         /**< the eye goes around once, as froe_camera_turn() has it; see froe_film() */
     bool exact;        /**< the instants at which faces come into sight or vanish are roots of polynomials, and none is
                             missed while no triangles touch; see froe_film(). default false */
 } froe_film_options;
@@ -201,8 +201,10 @@ typedef struct froe_film_report {
  * An exact film has a picture after each of the instants of froe_motion_sights() and of those at which triangles begin
  * or cease to touch, and shows it from then on if other faces are in sight. So it misses nothing, however short, but
  * what is shorter than the doubles tell apart, and what happens along the lines of triangles that pass through one
- * another. It needs many pictures: where n edges are in sight, up to n^2 an interval between frames. FROE_E_OPTIONS:
- * the eye turns. FROE_E_UNSUPPORTED: as froe_motion_sights(); froe_motion_without_bodies() replaces bodies.
+ * another while one of them moves. If the eye goes around, it does so along rational arcs (froe_body): it is where
+ * froe_camera_turn() has it at each frame, and never more than 0.0002 degrees off. It needs many pictures: where n
+ * edges are in sight, up to n^2 an interval between frames. FROE_E_OPTIONS: the eye would go around its own line of
+ * view. FROE_E_UNSUPPORTED: as froe_motion_sights(); froe_motion_without_bodies() replaces bodies.
  *
  * The camera holds all that is ever there, as long as it is there; it is as given if it does not fit. Paths are as with
  * FROE_IDS_OBJECT. `path` ends in .svg. FROE_E_OPTIONS: layers, interleaved lines, fills that are painted twice; see

@@ -281,6 +281,10 @@ FROE_API froe_status froe_camera_place(const froe_camera *camera, const froe_sce
  * page. Failures as froe_camera_place(). */
 FROE_API froe_status froe_camera_turn(const froe_camera *camera, const froe_scene *scene, size_t count,
                                       froe_camera *cameras, froe_diagnostic *diag);
+/** The same as a rigid body turns (froe_body.turns): for i from 0 to `count` the quaternion at turns[4 i ..], by which
+ * the i-th camera is turned; the last one, a whole turn later, is the first, negated. FROE_E_ARG: `up` is 0 or no
+ * number. */
+FROE_API froe_status froe_camera_turns(const froe_camera *camera, size_t count, double *turns, froe_diagnostic *diag);
 /** Where a point is on the page; false, nothing written, when it is not before the eye. */
 FROE_API bool froe_project(const froe_projection *view, const double *point, double page[2]);
 

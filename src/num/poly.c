@@ -151,30 +151,31 @@ num_poly num_poly_without(num_arena *arena, const num_poly *f, num_dyadic x) {
     return g;
 }
 
-/* A coefficient of a chain is a determinant of up to 9 rows of coefficients of f and 10 of coefficients of f', or of the
- * remainder of f' g by f, which have 12 times the limbs of f: 129 times in all. Before it is divided, a pseudo-remainder
- * has three times as many. 96 such numbers are more than one step needs; the chain itself has 66 of a third. */
-size_t num_poly_arena(size_t limbs, size_t argument) {
-    enum { GROWTH = 3 * 129, NUMBERS = 96 };
-    return (size_t)NUMBERS * ((limbs + 2) * GROWTH + NUM_DEGREE * (argument + 2));
+/* A coefficient of a chain of degree n is a determinant of up to n - 1 rows of coefficients of f and n of coefficients
+ * of f', or of the remainder of f' g by f, which have n + 2 times the limbs of f. Before it is divided, a
+ * pseudo-remainder has three times as many. 6 n + 16 such numbers are more than one step needs; the chain itself has
+ * (n + 1) (n + 2) / 2 of a third. */
+size_t num_poly_arena(int degree, size_t limbs, size_t argument) {
+    const size_t n = (size_t)degree, growth = 3 * (n - 1 + n * (n + 2));
+    return (6 * n + 16) * ((limbs + 2) * growth + n * (argument + 2));
 }
 
-/* Binomial coefficients. */
-typedef double row[NUM_DEGREE + 1];
-static const row choose[NUM_DEGREE + 1] = {{1},
-                                           {1, 1},
-                                           {1, 2, 1},
-                                           {1, 3, 3, 1},
-                                           {1, 4, 6, 4, 1},
-                                           {1, 5, 10, 10, 5, 1},
-                                           {1, 6, 15, 20, 15, 6, 1},
-                                           {1, 7, 21, 35, 35, 21, 7, 1},
-                                           {1, 8, 28, 56, 70, 56, 28, 8, 1},
-                                           {1, 9, 36, 84, 126, 126, 84, 36, 9, 1},
-                                           {1, 10, 45, 120, 210, 252, 210, 120, 45, 10, 1}};
-
-/* Coefficient j of Bernstein, times C(n, j): the sum of c[i] C(n - i, j - i). */
-static num_ball bernstein(const num_ball_poly *f, int j) {
+/* The sum of c[i] C(n - i, j - i). */
+num_ball num_ball_poly_bernstein(const num_ball_poly *f, int j) {
+    static const double choose[NUM_DEGREE + 1][NUM_DEGREE + 1] = {
+        {1},
+        {1, 1},
+        {1, 2, 1},
+        {1, 3, 3, 1},
+        {1, 4, 6, 4, 1},
+        {1, 5, 10, 10, 5, 1},
+        {1, 6, 15, 20, 15, 6, 1},
+        {1, 7, 21, 35, 35, 21, 7, 1},
+        {1, 8, 28, 56, 70, 56, 28, 8, 1},
+        {1, 9, 36, 84, 126, 126, 84, 36, 9, 1},
+        {1, 10, 45, 120, 210, 252, 210, 120, 45, 10, 1},
+        {1, 11, 55, 165, 330, 462, 462, 330, 165, 55, 11, 1},
+        {1, 12, 66, 220, 495, 792, 924, 792, 495, 220, 66, 12, 1}};
     num_ball sum = f->c[j];
     for (int i = 0; i < j; i++)
         sum = num_ball_add(sum, num_ball_mul(num_ball_from(choose[f->degree - i][j - i]), f->c[i]));
@@ -184,7 +185,7 @@ static num_ball bernstein(const num_ball_poly *f, int j) {
 int num_ball_poly_sign_throughout(const num_ball_poly *f) {
     const int sign = f->degree < 0 ? 0 : num_ball_sign(f->c[0]);
     for (int j = 1; j <= f->degree && sign != NUM_UNSURE; j++)
-        if (num_ball_sign(bernstein(f, j)) != sign) return NUM_UNSURE;
+        if (num_ball_sign(num_ball_poly_bernstein(f, j)) != sign) return NUM_UNSURE;
     return sign ? sign : NUM_UNSURE;
 }
 
@@ -199,7 +200,7 @@ num_ball_poly num_ball_poly_half(const num_ball_poly *f, bool upper) {
 int num_ball_poly_changes(const num_ball_poly *f, int sign[NUM_DEGREE + 1]) {
     int changes = 0, last = 0;
     for (int j = 0; j <= f->degree; j++) {
-        sign[j] = num_ball_sign(bernstein(f, j));
+        sign[j] = num_ball_sign(num_ball_poly_bernstein(f, j));
         if (sign[j] == NUM_UNSURE) changes = NUM_DEGREE + 1;
         if (changes <= NUM_DEGREE) changes += sign[j] * last < 0;
         if (sign[j]) last = sign[j];

@@ -13,7 +13,7 @@
 #include "num/dyadic.h"
 
 enum {
-    NUM_DEGREE = 10, /* of polynomials that callers give */
+    NUM_DEGREE = 12, /* of polynomials that callers give */
     NUM_COEFFICIENTS = 2 * NUM_DEGREE
 };
 
@@ -38,6 +38,8 @@ int num_poly_sign(num_arena *arena, const num_poly *f, num_dyadic x); /**< of f(
 /** f divided by X - x as often as x is a root. */
 num_poly num_poly_without(num_arena *arena, const num_poly *f, num_dyadic x);
 
+/** Coefficient j of Bernstein of f, of degree n as f, times n over j: f is within their hull all over 0 .. 1. */
+num_ball num_ball_poly_bernstein(const num_ball_poly *f, int j);
 /** The sign of f all over 0 .. 1, if the coefficients of Bernstein have one and the same, else NUM_UNSURE. A zero is
  * never sure. */
 int num_ball_poly_sign_throughout(const num_ball_poly *f);
@@ -56,7 +58,7 @@ typedef struct num_chain {
 num_chain num_chain_of(num_arena *arena, const num_poly *f, const num_poly *g);
 int num_chain_variations(num_arena *arena, const num_chain *chain, num_dyadic x); /**< the arena stays */
 
-/** Limbs that suffice for all that is done with polynomials whose coefficients have up to `limbs` limbs, at arguments
- * of up to `argument` limbs. */
-size_t num_poly_arena(size_t limbs, size_t argument);
+/** Limbs that suffice for all that is done with polynomials of that degree whose coefficients have up to `limbs` limbs,
+ * at arguments of up to `argument` limbs. */
+size_t num_poly_arena(int degree, size_t limbs, size_t argument);
 #endif

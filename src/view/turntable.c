@@ -61,26 +61,52 @@ static froe_status fit(const froe_camera *c, const froe_scene *scene, const doub
     return FROE_OK;
 }
 
+/* The axis of a turntable, of length 1. */
+static froe_status find_axis(const froe_camera *camera, double axis[3], froe_diagnostic *diag) {
+    const double up = length_of(camera->up);
+    if (!(up > 0) || !isfinite(up)) return support_fail(diag, FROE_E_ARG, "A turntable needs an axis, and up is none.");
+    for (int k = 0; k < 3; k++) axis[k] = camera->up[k] / up;
+    return FROE_OK;
+}
+
+/* Cosine and sine of half of the i-th angle, i < count. */
+static void half_angle(size_t i, size_t count, double out[2]) {
+    const double t = view_tan(90.0 * (double)i / (double)count);
+    out[0] = (1 - t * t) / (1 + t * t), out[1] = 2 * t / (1 + t * t);
+}
+
+froe_status froe_camera_turns(const froe_camera *camera, size_t count, double *turns, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
+    double axis[3] = {0}, half[2];
+    if (!camera || !count || !turns)
+        return support_fail(diag, FROE_E_ARG, "An argument of froe_camera_turns is NULL or 0.");
+    const froe_status status = find_axis(camera, axis, diag);
+    for (size_t i = 0; i <= count && !status; i++) {
+        half_angle(i < count ? i : 0, count, half);
+        for (size_t k = 0; k < 3; k++) turns[4 * i + k] = axis[k] * half[1];
+        turns[4 * i + 3] = i < count ? half[0] : -half[0];
+    }
+    return status;
+}
+
 froe_status froe_camera_turn(const froe_camera *camera, const froe_scene *scene, size_t count, froe_camera *cameras,
                              froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!camera || !scene || !cameras || !count)
         return support_fail(diag, FROE_E_ARG, "An argument of froe_camera_turn is NULL or 0.");
-    double middle[3] = {0, 0, 0}, axis[3], way[3], distance = 0, scale = INFINITY;
-    const double up = length_of(camera->up);
-    if (!(up > 0) || !isfinite(up)) return support_fail(diag, FROE_E_ARG, "A turntable needs an axis, and up is none.");
+    double middle[3] = {0, 0, 0}, axis[3] = {0}, half[2], way[3], distance = 0, scale = INFINITY;
+    const froe_status aimed = find_axis(camera, axis, diag);
+    if (aimed) return aimed;
     for (int k = 0; k < 3; k++) {
         if (scene->object_count) middle[k] = 0.5 * scene->lo[k] + 0.5 * scene->hi[k];
-        axis[k] = camera->up[k] / up;
         way[k] = camera->eye[k] - camera->target[k];
     }
     lengthen(scene, way);
     for (size_t i = 0; i < count; i++) {
-        const double t = view_tan(90.0 * (double)i / (double)count), half_c = (1 - t * t) / (1 + t * t),
-                     half_s = 2 * t / (1 + t * t);
+        half_angle(i, count, half);
         cameras[i] = *camera;
         cameras[i].fit = true;
-        turn_about(axis, half_c * half_c - half_s * half_s, 2 * half_c * half_s, way, cameras[i].eye);
+        turn_about(axis, half[0] * half[0] - half[1] * half[1], 2 * half[0] * half[1], way, cameras[i].eye);
         for (int k = 0; k < 3; k++) cameras[i].target[k] = middle[k], cameras[i].eye[k] += middle[k];
         const froe_status status = fit(&cameras[i], scene, middle, &distance, &scale, diag);
         if (status) return status;

@@ -98,6 +98,15 @@ static void parts_of_a_plan_turn_by_their_rows(void **state) {
     assert_true(froe_motion_position(m, froe_motion_object(m, 0).vertices[1], 2, at) && at[1] == 5);
     froe_motion_free(m);
     m = NULL;
+    froe_diagnostic why;
+    put("body,time,x,y,qz,qw,z\ndoor,0,0,0,0,1,7\ndoor,2,0,0,0,1,8\n");
+    assert_int_equal(froe_read_poses("poses.csv", plan, NULL, &m, NULL, &why), FROE_E_INPUT);
+    assert_string_equal(why.message, "poses.csv: part 'door': At the time 2 its z is 8 and not 7, and the model is in "
+                                     "the plane.");
+    put("body,time,x,y,qx,qz,qw\ndoor,0,0,0,0,0,1\ndoor,2,0,0,1,0,0\n");
+    assert_int_equal(froe_read_poses("poses.csv", plan, NULL, &m, NULL, &why), FROE_E_INPUT);
+    assert_string_equal(why.message, "poses.csv: part 'door': At the time 2 its qx is 1 and not 0, and the model is in "
+                                     "the plane.");
     froe_diagnostic diag;
     put("body,time,x,y,qz\ndoor,0,0,0,0\n");
     assert_int_equal(froe_read_poses("poses.csv", plan, NULL, &m, NULL, &diag), FROE_E_FORMAT);

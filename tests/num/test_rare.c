@@ -15,7 +15,7 @@ static num_arena arena;
 static int begin(void **state) {
     (void)state;
     const froe_allocator alloc = support_allocator(NULL);
-    return num_arena_new(&alloc, &arena) || num_arena_reserve(&alloc, &arena, num_poly_arena(8, 8));
+    return num_arena_new(&alloc, &arena) || num_arena_reserve(&alloc, &arena, num_poly_arena(8, 8, 8));
 }
 
 static int end(void **state) {

@@ -79,16 +79,17 @@ static void exact_films(floats_run *r, void *user) {
     const double times[] = {0, 0, 0, 0, 1, 0, 1, 0, 1};
     const double at[] = {-1,   0, -1,   1, 0,   -1.1, 0,    0, 1.3, /* at rest */
                          -2.1, 1, -0.2, 2, 1.1, 0.3,  -2.3, 1, 0.4, 1.9, 1, 0.2, -1.7, 1.2, 0.1, 2.2, 1.3, 0.7};
-    const double eye[3] = {0.3, -7.1, 0.2};
+    froe_sight_options sight = froe_sight_defaults();
     froe_motion *motion;
     (void)user;
     w.dim = 3, w.begin = 0, w.end = 1;
     m.vertex_count = 6, m.count = 2, m.starts = starts, m.times = times, m.coords = at;
     o.alloc = &memory, o.progress = floats_progress, o.user = r;
     film.frames = 3, film.exact = true;
+    sight.at[0] = 0.3, sight.at[1] = -7.1, sight.at[2] = 0.2;
     MUST(r, froe_motion_new(&w, &memory, &motion, NULL));
     MUST(r, froe_motion_add(motion, &m, NULL));
-    MUST(r, froe_motion_sights(motion, eye, false, NULL, NULL, 0, 1, note_sight, r, NULL));
+    MUST(r, froe_motion_sights(motion, &sight, note_sight, r, NULL));
     MUST(r, froe_film(motion, "exact.svg", &o, &film, NULL, NULL));
     floats_note_file(r, "exact.svg");
     froe_motion_free(motion);

@@ -11,16 +11,18 @@ static double chance(void) {
     return (double)(dice >> 11) * 0x1p-53;
 }
 
-/* Triangles that fly straight, or (bent) along parabolas, each between planes of its own across y, so that none
- * touches another. Large ones are before small ones. */
-static froe_motion *make_motion(uint64_t seed, bool bent) {
+enum { REST, STRAIGHT, BENT, TETRAHEDRA, TANGLE };
+
+/* Triangles at rest, that fly straight, or (bent) along parabolas, each between planes of its own across y, so that
+ * none touches another. Large ones are before small ones. */
+static froe_motion *make_motion_of(uint64_t seed, int kind) {
     froe_motion *motion = NULL;
     froe_motion_options w = froe_motion_defaults();
     dice = seed * 7919 + 5;
     w.dim = 3, w.begin = 0, w.end = 1;
     assert_int_equal(froe_motion_new(&w, NULL, &motion, NULL), FROE_OK);
     for (int i = 0; i < FACES; i++) {
-        const size_t starts[] = {0, 2, 4, 6};
+        const size_t twice[] = {0, 2, 4, 6}, once[] = {0, 1, 2, 3};
         const double times[] = {0, 1, 0, 1, 0, 1};
         double at[18], controls[18];
         const double size = i < LARGE ? 4 : 0.6;
@@ -37,11 +39,15 @@ static froe_motion *make_motion(uint64_t seed, bool bent) {
         char name[16];
         snprintf(name, sizeof name, "t%d", i);
         assert_int_equal(froe_motion_add_group(motion, &(froe_group){.name = name}, &m.group), FROE_OK);
-        m.vertex_count = 3, m.count = 1, m.starts = starts, m.times = times, m.coords = at;
-        m.controls = bent ? controls : NULL;
+        m.vertex_count = 3, m.count = 1, m.starts = kind == REST ? once : twice, m.times = times, m.coords = at;
+        m.controls = kind == BENT ? controls : NULL;
         assert_int_equal(froe_motion_add(motion, &m, NULL), FROE_OK);
     }
     return motion;
+}
+
+static froe_motion *make_motion(uint64_t seed, bool bent) {
+    return make_motion_of(seed, bent ? BENT : STRAIGHT);
 }
 
 /* The same with triangles that are bodies, and turn about y while they fly. */
@@ -117,11 +123,18 @@ static bool keep(void *user, double low, double high) {
     return true;
 }
 
+static froe_sight_options ask(froe_eye eye, const double *window, const uint8_t *seen, double from, double to) {
+    froe_sight_options o = froe_sight_defaults();
+    memcpy(o.at, eye.at, sizeof o.at);
+    o.parallel = eye.parallel, o.window = window, o.seen = seen, o.from = from, o.to = to;
+    return o;
+}
+
 static instants find(const froe_motion *motion, froe_eye eye, const uint8_t *seen, double from, double to) {
     instants out = {.count = 0};
     froe_diagnostic diag;
-    if (froe_motion_sights(motion, eye.at, eye.parallel, page, seen, from, to, keep, &out, &diag))
-        fail_msg("%s", diag.message);
+    const froe_sight_options o = ask(eye, page, seen, from, to);
+    if (froe_motion_sights(motion, &o, keep, &out, &diag)) fail_msg("%s", diag.message);
     return out;
 }
 
@@ -148,6 +161,191 @@ static void faces_in_sight_change_at_instants_alone(void **state) {
     }
     print_message("  %u changes, %u times after which nothing happens\n", changes, gaps);
     assert_true(changes > 40 && gaps > 200);
+}
+
+/* ---------------------------------------------------------------- eyes that move -- */
+
+/* How an eye and the corners of the page move: as vertices of a motion of their own, of which the body is no part. */
+typedef struct flight {
+    double times[3], at[9], controls[9], turns[12];
+    double eye[3], window[12];
+    froe_body body;
+    froe_motion *rig; /* the vertices: the eye, or the centre and the end of the direction towards it; the window */
+    bool parallel;
+} flight;
+
+/* Flies straight, along parabolas (bent), and turns about a line that is nearly upright. */
+static void make_flight(uint64_t seed, bool parallel, bool flies, bool bent, bool turns, flight *f) {
+    const size_t starts[] = {0, 1, 2, 3, 4, 5, 6};
+    const double zeros[6] = {0}, middle[3] = {0, 3, 0};
+    double at[18] = {0};
+    const double reach = parallel ? 3 : 16;
+    const uint32_t bodies[6] = {0};
+    froe_motion_options w = froe_motion_defaults();
+    froe_moving m = froe_moving_defaults();
+    dice = seed * 104729 + 3;
+    *f = (flight){.times = {0, 0.375, 1}, .parallel = parallel, .body = froe_body_defaults()};
+    for (int k = 0; k < 9; k++) {
+        f->at[k] = middle[k % 3] + (flies && k > 2 && !(parallel && k % 3 == 1) ? reach * (chance() - 0.5) : 0);
+        f->controls[k] = bent ? middle[k % 3] + reach * (chance() - 0.5) : NAN;
+    }
+    for (int i = 0; i < 3; i++) {
+        const double half = turns ? 0.3 * i + 0.2 * chance() - 0.35 : 0, slant = 0.1 * half,
+                     length = sqrt(1 + half * half + slant * slant);
+        f->turns[4 * i] = slant / length, f->turns[4 * i + 2] = half / length, f->turns[4 * i + 3] = 1 / length;
+    }
+    f->body.count = 3, f->body.times = f->times, f->body.coords = f->at, f->body.controls = f->controls,
+    f->body.turns = f->turns;
+    const froe_eye eye = make_eye(parallel);
+    for (int k = 0; k < 3; k++) f->eye[k] = eye.at[k] - (parallel ? 0 : middle[k]);
+    for (int k = 0; k < 12; k++) f->window[k] = parallel && k % 3 == 1 ? 0 : page[k] - middle[k % 3];
+    memcpy(at, f->eye, sizeof f->eye);
+    memcpy(at + 6, f->window, sizeof f->window);
+    w.dim = 3, w.begin = 0, w.end = 1;
+    assert_int_equal(froe_motion_new(&w, NULL, &f->rig, NULL), FROE_OK);
+    assert_int_equal(froe_motion_add_body(f->rig, &f->body, NULL, NULL), FROE_OK);
+    m.vertex_count = 6, m.starts = starts, m.times = zeros, m.coords = at, m.bodies = bodies;
+    assert_int_equal(froe_motion_add(f->rig, &m, NULL), FROE_OK);
+}
+
+static unsigned look_from(const froe_motion *motion, const flight *f, double time) {
+    froe_eye eye = {.parallel = f->parallel};
+    double window[12], centre[3];
+    assert_true(froe_motion_position(f->rig, 0, time, eye.at) && froe_motion_position(f->rig, 1, time, centre));
+    for (uint32_t k = 0; k < 4; k++) assert_true(froe_motion_position(f->rig, 2 + k, time, window + 3 * k));
+    for (int k = 0; k < 3 && f->parallel; k++) eye.at[k] -= centre[k];
+    return look_at(motion, eye, window, time);
+}
+
+/* Triangles at rest, many of which pass through one another. */
+static froe_motion *make_tangle(uint64_t seed, int faces) {
+    const size_t starts[] = {0, 1, 2, 3};
+    const double zeros[3] = {0};
+    froe_motion *motion = NULL;
+    froe_motion_options w = froe_motion_defaults();
+    dice = seed * 7919 + 5;
+    w.dim = 3, w.begin = 0, w.end = 1;
+    assert_int_equal(froe_motion_new(&w, NULL, &motion, NULL), FROE_OK);
+    for (int i = 0; i < faces; i++) {
+        double at[9], centre[3];
+        froe_moving m = froe_moving_defaults();
+        char name[16];
+        for (int k = 0; k < 3; k++) centre[k] = chance() - 0.5;
+        for (int k = 0; k < 9; k++) at[k] = centre[k % 3] + 3 * chance() - 1.5;
+        snprintf(name, sizeof name, "t%d", i);
+        assert_int_equal(froe_motion_add_group(motion, &(froe_group){.name = name}, &m.group), FROE_OK);
+        m.vertex_count = 3, m.count = 1, m.starts = starts, m.times = zeros, m.coords = at;
+        assert_int_equal(froe_motion_add(motion, &m, NULL), FROE_OK);
+    }
+    return motion;
+}
+
+/* Tetrahedra at rest, each between planes of its own across y: 4 triangles each. */
+static froe_motion *make_tetrahedra(uint64_t seed, int count) {
+    static const uint32_t faces[] = {0, 1, 2, 0, 3, 1, 1, 3, 2, 2, 3, 0};
+    const size_t starts[] = {0, 1, 2, 3, 4};
+    const double zeros[4] = {0};
+    froe_motion *motion = NULL;
+    froe_motion_options w = froe_motion_defaults();
+    dice = seed * 7919 + 5;
+    w.dim = 3, w.begin = 0, w.end = 1;
+    assert_int_equal(froe_motion_new(&w, NULL, &motion, NULL), FROE_OK);
+    for (int i = 0; i < count; i++) {
+        double at[12], centre[2];
+        froe_moving m = froe_moving_defaults();
+        for (int k = 0; k < 2; k++) centre[k] = 1.6 * chance() - 0.8;
+        for (int k = 0; k < 12; k++) at[k] = k % 3 == 1 ? i + 0.9 * chance() : centre[k % 3 / 2] + chance() - 0.5;
+        m.vertex_count = 4, m.count = 4, m.starts = starts, m.times = zeros, m.coords = at, m.vertices = faces;
+        assert_int_equal(froe_motion_add(motion, &m, NULL), FROE_OK);
+    }
+    return motion;
+}
+
+static void find_from(const froe_motion *motion, const flight *f, const uint32_t *pairs, size_t count, instants *x) {
+    froe_sight_options o = froe_sight_defaults();
+    froe_diagnostic diag;
+    memcpy(o.at, f->eye, sizeof o.at);
+    o.parallel = f->parallel, o.window = f->window, o.body = &f->body, o.pairs = pairs, o.pair_count = count;
+    x->count = 0;
+    if (froe_motion_sights(motion, &o, keep, x, &diag)) fail_msg("%s", diag.message);
+}
+
+/* What rests or flies, seen by an eye that rests, flies, or turns. */
+static void eyes_that_move_see_changes_at_instants_alone(void **state) {
+    (void)state;
+    const struct {
+        int faces;
+        bool parallel, flies, bent, turns;
+    } cases[] = {{REST, false, true, false, false},     {REST, false, true, true, false},
+                 {REST, false, false, false, true},     {REST, false, true, false, true},
+                 {REST, true, false, false, true},      {REST, true, true, true, true},
+                 {STRAIGHT, false, true, false, false}, {STRAIGHT, false, false, false, true},
+                 {STRAIGHT, true, true, true, true},    {BENT, false, false, false, false},
+                 {BENT, true, true, false, true},       {TETRAHEDRA, false, false, false, true},
+                 {TETRAHEDRA, true, false, false, true}};
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        unsigned changes = 0, gaps = 0;
+        for (unsigned seed = 0; seed < 4; seed++) {
+            flight f;
+            make_flight(seed, cases[c].parallel, cases[c].flies, cases[c].bent, cases[c].turns, &f);
+            froe_motion *motion =
+                cases[c].faces == TETRAHEDRA ? make_tetrahedra(seed, 6) : make_motion_of(seed, cases[c].faces);
+            static instants x;
+            find_from(motion, &f, NULL, 0, &x);
+            size_t k = 0;
+            unsigned last = 0;
+            for (int i = 1; i < TIMES; i++) {
+                const double time = (i + 0.001) / TIMES;
+                const size_t before = k;
+                while (k < x.count && x.low[k] <= time) k++;
+                const unsigned now = look_from(motion, &f, time);
+                if (i > 1 && k == before && now != last)
+                    fail_msg("case %zu, seed %u: other faces at %.17g", c, seed, time);
+                changes += i > 1 && now != last, gaps += k == before;
+                last = now;
+            }
+            froe_motion_free(motion), froe_motion_free(f.rig);
+        }
+        print_message("  case %zu: %u changes, %u times after which nothing happens\n", c, changes, gaps);
+        assert_true(changes > 5 && gaps > 100);
+    }
+}
+
+/* How often other faces are in sight near the end of a gap between two instants than near its beginning. */
+static unsigned changes_in_gaps(const froe_motion *motion, const flight *f, const instants *x, unsigned *gaps) {
+    unsigned changes = 0;
+    for (size_t i = 0; i + 1 < x->count; i++) {
+        const double low = x->high[i], high = x->low[i + 1];
+        if (high - low < 1e-6) continue;
+        changes += look_from(motion, f, low + 0.02 * (high - low)) != look_from(motion, f, high - 0.02 * (high - low));
+        ++*gaps;
+    }
+    return changes;
+}
+
+/* Triangles at rest that pass through one another: the lines in which they do are edges, too. */
+static void crossings_at_rest_are_edges(void **state) {
+    (void)state;
+    enum { CROSSING = 9 };
+    static instants x;
+    uint32_t pairs[CROSSING * (CROSSING - 1)];
+    size_t count = 0;
+    unsigned gaps = 0, ignored = 0;
+    for (uint32_t i = 0; i < CROSSING; i++)
+        for (uint32_t j = 0; j < i; j++, count++) pairs[2 * count] = j, pairs[2 * count + 1] = i;
+    for (unsigned seed = 0; seed < 6; seed++) {
+        flight f;
+        make_flight(seed, seed % 2, false, false, true, &f);
+        froe_motion *motion = make_tangle(seed, CROSSING);
+        find_from(motion, &f, pairs, count, &x);
+        const unsigned wrong = changes_in_gaps(motion, &f, &x, &gaps);
+        if (wrong) fail_msg("seed %u: %u changes between two instants", seed, wrong);
+        find_from(motion, &f, NULL, 0, &x);
+        ignored += changes_in_gaps(motion, &f, &x, &gaps);
+        froe_motion_free(motion), froe_motion_free(f.rig);
+    }
+    print_message("  %u gaps; without the lines of crossing %u changes in them\n", gaps, ignored);
+    assert_true(gaps > 200 && ignored > 0);
 }
 
 /* Just before an instant and just after it: of those at which other faces come into sight, each is told, too, where
@@ -240,6 +438,76 @@ static void exact_films_show_what_is_in_sight_at_any_time(void **state) {
     assert_true(halving > 100);
 }
 
+/* The eye of a film that goes around, and its page, at a time: as vertices of a body that turns as a turntable does. */
+static void make_round(const froe_motion *motion, const froe_camera *camera, flight *f) {
+    enum { PLACES = 72 };
+    static double times[PLACES + 1], centres[3 * (PLACES + 1)], turns[4 * (PLACES + 1)];
+    static froe_camera cameras[PLACES];
+    const size_t starts[] = {0, 1, 2, 3, 4, 5, 6};
+    const double zeros[6] = {0};
+    const uint32_t bodies[6] = {0};
+    double at[18] = {0};
+    froe_projection view;
+    froe_scene *scene;
+    froe_motion_options w = froe_motion_defaults();
+    froe_moving m = froe_moving_defaults();
+    assert_int_equal(froe_film_cameras(motion, camera, true, PLACES, cameras, NULL), FROE_OK);
+    assert_int_equal(froe_camera_turns(camera, PLACES, turns, NULL), FROE_OK);
+    assert_int_equal(froe_motion_scene(motion, 0, NULL, &scene, NULL), FROE_OK);
+    assert_int_equal(froe_camera_place(cameras, scene, &view, NULL), FROE_OK);
+    froe_scene_free(scene);
+    *f = (flight){.parallel = camera->parallel, .body = froe_body_defaults()};
+    for (size_t i = 0; i <= PLACES; i++) {
+        times[i] = (double)i / PLACES;
+        memcpy(centres + 3 * i, cameras->target, sizeof cameras->target);
+    }
+    f->body.count = PLACES + 1, f->body.times = times, f->body.coords = centres, f->body.turns = turns;
+    for (int k = 0; k < 3; k++) at[k] = view.eye.at[k] - (f->parallel ? 0 : cameras->target[k]);
+    for (int k = 0; k < 12; k++) at[6 + k] = view.window[k] - cameras->target[k % 3];
+    w.dim = 3, w.begin = 0, w.end = 1;
+    assert_int_equal(froe_motion_new(&w, NULL, &f->rig, NULL), FROE_OK);
+    assert_int_equal(froe_motion_add_body(f->rig, &f->body, NULL, NULL), FROE_OK);
+    m.vertex_count = 6, m.starts = starts, m.times = zeros, m.coords = at, m.bodies = bodies;
+    assert_int_equal(froe_motion_add(f->rig, &m, NULL), FROE_OK);
+}
+
+/* At how many of some times a film shows other objects than are in sight. */
+static unsigned count_wrong_around(const froe_motion *motion, const froe_render_options *o, bool exact, int shares) {
+    froe_film_options film = froe_film_defaults();
+    froe_film_report report;
+    froe_diagnostic diag;
+    unsigned wrong = 0;
+    flight f;
+    film.frames = exact ? 3 : 9, film.exact = exact, film.turn = true;
+    if (froe_film(motion, "round.svg", o, &film, &report, &diag)) fail_msg("%s", diag.message);
+    playing_read("round.svg");
+    make_round(motion, &o->camera, &f);
+    for (int i = 0; i < shares; i++) {
+        const double time = chance();
+        bool near;
+        const unsigned shown = shown_at(time, &near);
+        wrong += !near && shown != look_from(motion, &f, time);
+    }
+    froe_motion_free(f.rig);
+    return wrong;
+}
+
+static void exact_films_go_around(void **state) {
+    (void)state;
+    unsigned halving = 0, wrong = 0;
+    for (unsigned seed = 0; seed < 6; seed++) {
+        froe_motion *motion = seed > 3 ? make_tangle(seed, FACES) : make_motion_of(seed, seed > 1 ? STRAIGHT : REST);
+        froe_render_options o = froe_render_defaults();
+        o.camera.parallel = seed % 2, o.camera.width = o.camera.height = 600, o.decimals = 4;
+        wrong += count_wrong_around(motion, &o, true, 200);
+        halving += count_wrong_around(motion, &o, false, 200);
+        froe_motion_free(motion);
+    }
+    print_message("  exact: %u of 1200 wrong, halving with three times as many frames: %u\n", wrong, halving);
+    assert_int_equal(wrong, 0);
+    assert_true(halving > 50);
+}
+
 /* Of bodies on parabolas that are off by a millionth, only a time within some millionths of an instant may differ from
  * what is in sight of the bodies; a half off, a film is wrong. */
 static void exact_films_show_bodies_that_turn_within_the_deviation(void **state) {
@@ -284,7 +552,8 @@ static froe_status find_once(void *user, const froe_allocator *alloc) {
     froe_moving m = froe_moving_defaults();
     m.vertex_count = 3, m.count = 1, m.starts = starts, m.times = times, m.coords = at;
     if (!status) status = froe_motion_add(motion, &m, NULL);
-    if (!status) status = froe_motion_sights(motion, eye.at, false, page, NULL, 0, 1, stop, &count, NULL);
+    const froe_sight_options o = ask(eye, page, NULL, 0, 1);
+    if (!status) status = froe_motion_sights(motion, &o, stop, &count, NULL);
     froe_motion_free(motion);
     return status;
 }
@@ -298,24 +567,30 @@ static void what_cannot_be_followed_is_refused(void **state) {
     (void)state;
     froe_motion *plane = NULL, *boxes = NULL, *bent = make_motion(1, true);
     froe_diagnostic diag;
-    const double eye[3] = {0, -30, 0};
+    const froe_eye point = {.at = {0, -30, 0}}, parallel = {.at = {0, -30, 0}, .parallel = true};
+    const froe_sight_options far = ask(parallel, NULL, NULL, 0, 0), near = ask(point, NULL, NULL, 0, 1),
+                             late = ask(parallel, NULL, NULL, 0, 2), o = ask(parallel, NULL, NULL, 0, 1);
     int count = 0;
     assert_int_equal(froe_generate_motion("moving", 3, 1, NULL, &plane, NULL), FROE_OK);
     assert_int_equal(froe_generate_motion("moving-boxes", 2, 1, NULL, &boxes, NULL), FROE_OK);
-    assert_int_equal(froe_motion_sights(plane, eye, true, NULL, NULL, 0, 0, stop, &count, &diag), FROE_E_UNSUPPORTED);
-    assert_int_equal(froe_motion_sights(boxes, eye, true, NULL, NULL, 0, 0, stop, &count, &diag), FROE_E_UNSUPPORTED);
+    assert_int_equal(froe_motion_sights(plane, &far, stop, &count, &diag), FROE_E_UNSUPPORTED);
+    assert_int_equal(froe_motion_sights(boxes, &far, stop, &count, &diag), FROE_E_UNSUPPORTED);
     assert_string_equal(diag.message, "object 0: It is of a body, which may turn.");
-    assert_int_equal(froe_motion_sights(bent, eye, false, NULL, NULL, 0, 1, stop, &count, &diag), FROE_E_UNSUPPORTED);
-    assert_int_equal(froe_motion_sights(bent, eye, true, NULL, NULL, 0, 2, stop, &count, &diag), FROE_E_ARG);
-    assert_int_equal(froe_motion_sights(bent, eye, true, NULL, NULL, 0, 1, NULL, &count, &diag), FROE_E_ARG);
-    assert_int_equal(count, 0);
-    assert_int_equal(froe_motion_sights(bent, eye, true, NULL, NULL, 0, 1, stop, &count, &diag), FROE_OK);
+    assert_int_equal(froe_motion_sights(bent, &near, stop, &count, &diag), FROE_OK);
+    assert_int_equal(froe_motion_sights(bent, &late, stop, &count, &diag), FROE_E_OPTIONS);
+    assert_int_equal(froe_motion_sights(bent, &o, NULL, &count, &diag), FROE_E_ARG);
+    assert_int_equal(count, 3);
+    count = 0;
+    assert_int_equal(froe_motion_sights(bent, &o, stop, &count, &diag), FROE_OK);
     assert_int_equal(count, 3);
     froe_motion_free(plane), froe_motion_free(boxes), froe_motion_free(bent);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(crossings_at_rest_are_edges),
+        cmocka_unit_test(eyes_that_move_see_changes_at_instants_alone),
+        cmocka_unit_test(exact_films_go_around),
         cmocka_unit_test(exact_films_show_what_is_in_sight_at_any_time),
         cmocka_unit_test(exact_films_show_bodies_that_turn_within_the_deviation),
         cmocka_unit_test(faces_in_sight_change_at_instants_alone),

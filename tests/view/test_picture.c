@@ -486,8 +486,21 @@ static void a_turntable_keeps_scale_and_page(void **state) {
             }
         }
         for (int k = 0; k < 3; k++) assert_true(fabs(view[0].right[k] + view[3].right[k]) < 1e-12);
+        double turns[4 * N + 4];
+        assert_int_equal(froe_camera_turns(&c, N, turns, NULL), FROE_OK);
+        for (int f = 0; f <= N; f++) { /* v + 2 n x (n x v + w v) */
+            const double *q = turns + 4 * f, *v = view[0].back;
+            const double t[3] = {q[1] * v[2] - q[2] * v[1] + q[3] * v[0], q[2] * v[0] - q[0] * v[2] + q[3] * v[1],
+                                 q[0] * v[1] - q[1] * v[0] + q[3] * v[2]};
+            assert_true(fabs(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] - 1) < 1e-14);
+            for (int k = 0; k < 3; k++) {
+                const int i = (k + 1) % 3, j = (k + 2) % 3;
+                assert_true(fabs(v[k] + 2 * (q[i] * t[j] - q[j] * t[i]) - view[f % N].back[k]) < 1e-12);
+            }
+        }
         c.up[2] = 0;
         assert_int_equal(froe_camera_turn(&c, tree->scene, N, turned, NULL), FROE_E_ARG);
+        assert_int_equal(froe_camera_turns(&c, N, turns, NULL), FROE_E_ARG);
     }
     froe_tree_free(tree);
 }

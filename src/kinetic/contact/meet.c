@@ -36,7 +36,7 @@ bool meet_is_too_wide(const froe_motion *m) {
 }
 
 froe_status meet_worker_new(const froe_motion *m, meet_worker *out) {
-    enum { NUMBERS = 800, MORE_NUMBERS = 12000, CHAINS = 4, MORE_CHAINS = 3 };
+    enum { NUMBERS = 800, MORE_NUMBERS = 12000, CHAINS = 4, MORE_CHAINS = 3, DEGREE = 10 };
     /* In space: what one step of a chain needs, and twice as much again: 15 chains of degree 8, or 81 of degree 6, keep
      * less. */
     const size_t limbs = widest(m), numbers = is_turnless(m) ? NUMBERS : MORE_NUMBERS;
@@ -44,7 +44,7 @@ froe_status meet_worker_new(const froe_motion *m, meet_worker *out) {
     *out = (meet_worker){.room = support_calloc(&m->alloc, 1, sizeof *out->room)};
     if (!out->room) return FROE_E_MEMORY;
     return num_arena_reserve(&m->alloc, &out->arena,
-                             numbers * limbs + chains * num_poly_arena(limbs, NUM_FRACTION_LIMBS));
+                             numbers * limbs + chains * num_poly_arena(DEGREE, limbs, NUM_FRACTION_LIMBS));
 }
 
 void meet_worker_free(const froe_motion *m, meet_worker *worker) {

@@ -20,6 +20,7 @@
 #include "num/wide.h"
 #include "support/array.h"
 #include <froe/kinetic.h>
+#include <math.h>
 
 typedef struct motion_knot {
     double time, at[3], control[3]; /**< as many as the motion has dimensions, the others 0; control[0] NaN: the piece
@@ -95,6 +96,11 @@ froe_status motion_replan(froe_motion *m, uint32_t vertex, size_t count, const d
 /* ------------------------------------------------------------------ pieces -- */
 
 enum { MOTION_DEGREE = 3, MOTION_TERMS = MOTION_DEGREE + 1 };
+
+/** 1, 2 or 3: of the piece that begins at a knot. REQUIRES: it is not the last of its plan. */
+static inline int motion_knot_degree(const motion_knot *knot) {
+    return isnan(knot->control[0]) ? 1 : knot->second == FROE_NONE ? 2 : MOTION_DEGREE;
+}
 
 typedef struct motion_piece {
     const motion_knot *from, *to; /**< equal: it stands still */

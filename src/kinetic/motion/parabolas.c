@@ -101,24 +101,26 @@ static void miss(const motion_arc *arc, const double p[3], int k, double out[5])
 
 /* A bound of the distance between an arc and the parabola with the control points p; infinite: there is no telling. */
 static double distance(const motion_arc *arc, const double p[3][3]) {
-    double square[5] = {0}, most = 0, least = (double)INFINITY;
+    double off[3][5], largest = 0, most = 0, least = (double)INFINITY;
     bool known = true;
+    int exponent = 0; /* of a power of 2 near the largest, by which all are divided, so that no square overflows */
     for (int k = 0; k < 3; k++) {
         const double points[3] = {p[0][k], p[1][k], p[2][k]};
-        double off[5];
-        miss(arc, points, k, off);
-        for (int i = 0; i < 5; i++) square[i] += off[i] * off[i];
+        miss(arc, points, k, off[k]);
+        for (int i = 0; i < 5; i++) known &= off[k][i] < (double)INFINITY, largest = fmax(largest, off[k][i]);
     }
+    if (known) frexp(largest, &exponent);
     for (int i = 0; i < 5; i++) {
-        known &= square[i] < (double)INFINITY;
-        most = fmax(most, square[i]);
+        double square = 0;
+        for (int k = 0; k < 3; k++) square += ldexp(off[k][i], -exponent) * ldexp(off[k][i], -exponent);
+        most = fmax(most, square);
     }
     for (int i = 0; i < 3; i++) {
         const double weight = arc->weight[i].x - arc->weight[i].e;
         known &= weight > 0;
         least = fmin(least, weight);
     }
-    return known ? sqrt(most) / least * (1 + 0x1p-40) + NUM_BALL_TINY : (double)INFINITY;
+    return known ? ldexp(sqrt(most), exponent) / least * (1 + 0x1p-40) + NUM_BALL_TINY : (double)INFINITY;
 }
 
 /* The control point of the parabola between p[0] and p[2], as p[1]. Returns the distance. */

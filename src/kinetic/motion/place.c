@@ -311,7 +311,7 @@ motion_piece motion_piece_after(const froe_motion *m, uint32_t vertex, uint32_t 
     const motion_knot *from = m->knots.data + plan->first + knot;
     const bool alone = plan->count == 1;
     motion_piece piece = {.from = from, .to = alone ? from : from + 1, .last = MOTION_FAR};
-    if (!alone) piece.degree = isnan(from->control[0]) ? 1 : from->second == FROE_NONE ? 2 : 3;
+    if (!alone) piece.degree = motion_knot_degree(from);
     if (piece.degree == 3) piece.second = m->seconds.data[from->second].at;
     if (knot + 2 < plan->count) piece.last = from[1].tick - 1;
     if (plan != own) {
