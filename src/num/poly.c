@@ -151,9 +151,10 @@ num_poly num_poly_without(num_arena *arena, const num_poly *f, num_dyadic x) {
     return g;
 }
 
-/* A coefficient of a chain is a determinant of up to 9 rows of coefficients of f and 10 of coefficients of f', or of the
- * remainder of f' g by f, which have 12 times the limbs of f: 129 times in all. Before it is divided, a pseudo-remainder
- * has three times as many. 96 such numbers are more than one step needs; the chain itself has 66 of a third. */
+/* A coefficient of a chain is a determinant of up to 9 rows of coefficients of f and 10 of coefficients of f', or of
+ * the remainder of f' g by f, which have 12 times the limbs of f: 129 times in all. Before it is divided, a
+ * pseudo-remainder has three times as many. 96 such numbers are more than one step needs; the chain itself has 66 of a
+ * third. */
 size_t num_poly_arena(size_t limbs, size_t argument) {
     enum { GROWTH = 3 * 129, NUMBERS = 96 };
     return (size_t)NUMBERS * ((limbs + 2) * GROWTH + NUM_DEGREE * (argument + 2));

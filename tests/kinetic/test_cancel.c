@@ -73,7 +73,7 @@ static froe_status snapshot(froe_kinetic *k, froe_diagnostic *why) {
 static froe_status replan(froe_kinetic *k, froe_diagnostic *why) {
     for (uint32_t v = 0; v < 20; v++) {
         const double times[] = {froe_kinetic_time(k)}, at[] = {100.0 * v, 77 * (v % 3)};
-        const froe_status status = froe_kinetic_replan(k, v, 1, times, at, NULL, why);
+        const froe_status status = froe_kinetic_replan(k, v, 1, times, at, NULL, NULL, why);
         if (status) return status;
     }
     return FROE_OK;
