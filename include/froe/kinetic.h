@@ -104,7 +104,8 @@ FROE_DEFAULTS(froe_moving, froe_moving_defaults); /**< none, no groups */
  * so have vertices. FROE_E_INPUT: a coordinate or time is NaN or infinite, times do not increase, a vertex has no plan
  * or one that does not cover the part of the window in which its objects live, an object dies before it appears, two
  * corners of a triangle are one vertex or of two bodies, there is no such body, a vertex of a body has a plan of its
- * own, a piece has a second control point and no first. FROE_E_ARG, FROE_E_OPTIONS, FROE_E_LIMIT, FROE_E_MEMORY. O(times + objects). */
+ * own, a piece has a second control point and no first. FROE_E_ARG, FROE_E_OPTIONS, FROE_E_LIMIT, FROE_E_MEMORY.
+ * O(times + objects). */
 FROE_API froe_status froe_motion_add(froe_motion *motion, const froe_moving *batch, froe_diagnostic *diag);
 
 /** As froe_scene_add_group(). */
@@ -216,9 +217,9 @@ typedef bool froe_contact_fn(void *user, const froe_contact *contact);
 /** All contacts between moving objects, in the order of their beginnings (low, high, a, b). None is missed, however
  * short, grazing ones included: candidates come from boxes in space and time, times from the roots of exact polynomials
  * (degree up to 4 in the plane, 6 with bodies or cubics, 8 with both; in space 3, with bodies that turn 5, along
- * parabolas 6, of a body and a triangle whose corners fly along parabolas each for itself 8; of corners on cubics 9, and
- * with a body 10). Triangles may lie in one plane, and may have no area,
- * at an instant or always. Objects that share a vertex always meet there, and are left out (but see `neighbours`), as
+ * parabolas 6, of a body and a triangle whose corners fly along parabolas each for itself 8; of corners on cubics 9,
+ * and with a body 10). Triangles may lie in one plane, and may have no area, at an instant or always. Objects that
+ * share a vertex always meet there, and are left out (but see `neighbours`), as
  * are two of one body. options NULL: the defaults. FROE_E_OPTIONS: from > to, or outside the window. FROE_E_LIMIT: two
  * things happen within 2^-2047 of the time between two knots; or in space a vertex flies along a cubic, and numbers are
  * as wide as coordinates of 400 bits with times of 180. FROE_E_UNSUPPORTED: neighbours in the plane.
@@ -237,8 +238,8 @@ typedef bool froe_sight_fn(void *user, double low, double high);
  * what is seen, no change is missed where no triangles touch; froe_motion_contacts() tells when they do. There may be
  * instants at which nothing changes. Those closer than neighbouring doubles are one. FROE_E_ARG: `from` and `to` are
  * not in order and within the window of the motion, or something is NULL. FROE_E_UNSUPPORTED: the motion is of the
- * plane, an object is of a body, or flies along a parabola and the eye is not parallel. FROE_E_LIMIT: two things
- * happen within 2^-2047 of the time between two knots. FROE_E_MEMORY. O(edges corners + candidates). */
+ * plane, an object is of a body, or flies along a cubic, or along a parabola and the eye is not parallel. FROE_E_LIMIT:
+ * two things happen within 2^-2047 of the time between two knots. FROE_E_MEMORY. O(edges corners + candidates). */
 FROE_API froe_status froe_motion_sights(const froe_motion *motion, const double eye[3], bool parallel,
                                         const double *window, const uint8_t *seen, double from, double to,
                                         froe_sight_fn *fn, void *user, froe_diagnostic *diag);
@@ -354,8 +355,8 @@ FROE_API double froe_kinetic_next(const froe_kinetic *kinetic);
 /** Objects added to the motion meanwhile take part from now on. Those whose time has come appear at once. */
 FROE_API froe_status froe_kinetic_update(froe_kinetic *kinetic, froe_diagnostic *diag);
 /** Gives a vertex another plan from now on, as in froe_moving: `count` times, coordinates, controls (NULL: linear) and
- * second controls (NULL: no cubic). Where it is now may change: then its segments leave here and appear there. The failures of froe_motion_add, and then
- * nothing is changed. FROE_E_UNSUPPORTED: the vertex belongs to a body. */
+ * second controls (NULL: no cubic). Where it is now may change: then its segments leave here and appear there. The
+ * failures of froe_motion_add, and then nothing is changed. FROE_E_UNSUPPORTED: the vertex belongs to a body. */
 FROE_API froe_status froe_kinetic_replan(froe_kinetic *kinetic, uint32_t vertex, size_t count, const double *times,
                                          const double *coords, const double *controls, const double *second_controls,
                                          froe_diagnostic *diag);
