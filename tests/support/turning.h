@@ -12,8 +12,8 @@ typedef struct turning_kind {
     int grid, size;   /**< of where they are, and of bodies and segments */
     int speed, legs;  /**< on the grid in all of the time; pieces of each plan */
     bool resting;     /**< centres do not move */
-    bool curved;     /**< centres and free segments fly on parabolas */
-    bool cubic;      /**< with curved: free segments on cubics */
+    bool curved;      /**< centres and free segments fly on parabolas */
+    bool cubic;       /**< with curved: free segments on cubics */
     bool quarters;    /**< turns by quarters: much coincides */
     bool closed;      /**< segments of a body are joined: each begins where the last one ends */
     bool still;       /**< bodies do not turn */
@@ -164,16 +164,6 @@ static const turning_kind turning_kinds[] = {
      .speed = 3000,
      .legs = 2,
      .curved = true},
-    {.name = "bodies among cubics",
-     .bodies = 3,
-     .each = 4,
-     .free = 4,
-     .grid = 3000,
-     .size = 1200,
-     .speed = 3000,
-     .legs = 2,
-     .curved = true,
-     .cubic = true},
     {.name = "closed bodies",
      .bodies = 4,
      .each = 5,
@@ -228,6 +218,16 @@ static const turning_kind turning_kinds[] = {
      .speed = 3000,
      .legs = 3,
      .mortal = true},
+    {.name = "bodies among cubics",
+     .bodies = 3,
+     .each = 4,
+     .free = 4,
+     .grid = 3000,
+     .size = 1200,
+     .speed = 3000,
+     .legs = 2,
+     .curved = true,
+     .cubic = true},
 };
 enum { TURNING_KINDS = sizeof turning_kinds / sizeof *turning_kinds };
 #endif
