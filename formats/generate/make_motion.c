@@ -99,8 +99,8 @@ static void make_quadratic(motion_maker *m) {
     }
 }
 
-/* On cubics with one velocity where they meet: each control point before a place is as far behind it as the one after is
- * ahead. */
+/* On cubics with one velocity where they meet: each control point before a place is as far behind it as the one after
+ * is ahead. */
 static void make_cubic(motion_maker *m) {
     while (more(m)) {
         flight_chain b = chain_of(2, KNOTS);

@@ -104,7 +104,8 @@ FROE_DEFAULTS(froe_moving, froe_moving_defaults); /**< none, no groups */
  * so have vertices. FROE_E_INPUT: a coordinate or time is NaN or infinite, times do not increase, a vertex has no plan
  * or one that does not cover the part of the window in which its objects live, an object dies before it appears, two
  * corners of a triangle are one vertex or of two bodies, there is no such body, a vertex of a body has a plan of its
- * own, a piece has a second control point and no first. FROE_E_ARG, FROE_E_OPTIONS, FROE_E_LIMIT, FROE_E_MEMORY. O(times + objects). */
+ * own, a piece has a second control point and no first. FROE_E_ARG, FROE_E_OPTIONS, FROE_E_LIMIT, FROE_E_MEMORY.
+ * O(times + objects). */
 FROE_API froe_status froe_motion_add(froe_motion *motion, const froe_moving *batch, froe_diagnostic *diag);
 
 /** As froe_scene_add_group(). */
@@ -251,12 +252,13 @@ FROE_DEFAULTS(froe_sight_options, froe_sight_defaults);
  * sees them. Each is a root of an exact polynomial of degree 12 at most. As long as what is seen is what `seen` says,
  * no change is missed where no triangles touch, and of triangles that touch none if they are at rest and among `pairs`;
  * froe_motion_contacts() tells when they do. There may be instants at which nothing changes. Those closer than
- * neighbouring doubles are one. From a point, corners and the eye may fly straight, and the eye may turn; a parallel
- * eye may turn, and corners may fly along parabolas, too. FROE_E_OPTIONS: not from _defaults(), times that are not in
+ * neighbouring doubles are one. From a point, corners and the eye may fly straight, and the eye may turn, or corners fly
+ * along parabolas if the eye rests; a parallel eye may turn, and corners may fly along parabolas, too, or along cubics
+ * if it does not turn. FROE_E_OPTIONS: not from _defaults(), times that are not in
  * order or not within the window of the motion, an eye that is nowhere. FROE_E_ARG: something is NULL. FROE_E_INPUT: a
  * pair is none at rest; the eye's plan does not cover the window; otherwise as froe_motion_add_body().
- * FROE_E_UNSUPPORTED: the motion is of the plane, an object is of a body, or an object or the eye flies along a
- * parabola and the eye is not parallel. FROE_E_LIMIT: two things happen within 2^-2047 of the time between two knots.
+ * FROE_E_UNSUPPORTED: the motion is of the plane, an object is of a body, or an object or the eye flies otherwise.
+ * FROE_E_LIMIT: two things happen within 2^-2047 of the time between two knots.
  * FROE_E_MEMORY. O(edges corners + candidates). */
 FROE_API froe_status froe_motion_sights(const froe_motion *motion, const froe_sight_options *options, froe_sight_fn *fn,
                                         void *user, froe_diagnostic *diag);
@@ -372,8 +374,8 @@ FROE_API double froe_kinetic_next(const froe_kinetic *kinetic);
 /** Objects added to the motion meanwhile take part from now on. Those whose time has come appear at once. */
 FROE_API froe_status froe_kinetic_update(froe_kinetic *kinetic, froe_diagnostic *diag);
 /** Gives a vertex another plan from now on, as in froe_moving: `count` times, coordinates, controls (NULL: linear) and
- * second controls (NULL: no cubic). Where it is now may change: then its segments leave here and appear there. The failures of froe_motion_add, and then
- * nothing is changed. FROE_E_UNSUPPORTED: the vertex belongs to a body. */
+ * second controls (NULL: no cubic). Where it is now may change: then its segments leave here and appear there. The
+ * failures of froe_motion_add, and then nothing is changed. FROE_E_UNSUPPORTED: the vertex belongs to a body. */
 FROE_API froe_status froe_kinetic_replan(froe_kinetic *kinetic, uint32_t vertex, size_t count, const double *times,
                                          const double *coords, const double *controls, const double *second_controls,
                                          froe_diagnostic *diag);

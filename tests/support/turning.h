@@ -13,6 +13,7 @@ typedef struct turning_kind {
     int speed, legs;  /**< on the grid in all of the time; pieces of each plan */
     bool resting;     /**< centres do not move */
     bool curved;      /**< centres and free segments fly on parabolas */
+    bool cubic;       /**< with curved: free segments on cubics */
     bool quarters;    /**< turns by quarters: much coincides */
     bool closed;      /**< segments of a body are joined: each begins where the last one ends */
     bool still;       /**< bodies do not turn */
@@ -59,7 +60,8 @@ static inline uint32_t turning_body(const turning_kind *kind, fuzz_source *r, fr
 typedef struct turning_batch {
     size_t starts[2 * TURNING_MOST + 1], count, knots;
     double times[2 * TURNING_MOST * (TURNING_LEGS + 1)], xy[4 * TURNING_MOST * (TURNING_LEGS + 1)];
-    double controls[4 * TURNING_MOST * (TURNING_LEGS + 1)], births[TURNING_MOST], deaths[TURNING_MOST];
+    double controls[4 * TURNING_MOST * (TURNING_LEGS + 1)], seconds[4 * TURNING_MOST * (TURNING_LEGS + 1)];
+    double births[TURNING_MOST], deaths[TURNING_MOST];
     uint32_t vertices[2 * TURNING_MOST], bodies[2 * TURNING_MOST], vertex_count;
 } turning_batch;
 
@@ -68,7 +70,10 @@ static inline uint32_t turning_vertex(turning_batch *t, const int at[2], uint32_
     t->bodies[v] = body;
     t->starts[v] = t->knots;
     t->times[t->knots] = 0;
-    for (size_t c = 0; c < 2; c++) t->xy[2 * t->knots + c] = at[c], t->controls[2 * t->knots + c] = (double)NAN;
+    for (size_t c = 0; c < 2; c++) {
+        t->xy[2 * t->knots + c] = at[c];
+        t->controls[2 * t->knots + c] = t->seconds[2 * t->knots + c] = (double)NAN;
+    }
     t->starts[v + 1] = ++t->knots;
     return v;
 }
@@ -105,6 +110,8 @@ static inline void turning_free(const turning_kind *kind, fuzz_source *r, turnin
                 place[c] += fuzz_int(r, -kind->speed, kind->speed) / kind->legs;
                 t->controls[2 * t->knots + c] =
                     kind->curved ? place[c] + fuzz_int(r, -kind->size, kind->size) : (double)NAN;
+                t->seconds[2 * t->knots + c] =
+                    kind->cubic ? place[c] + fuzz_int(r, -kind->size, kind->size) : (double)NAN;
             }
         }
         t->starts[v + 1] = t->knots;
@@ -133,7 +140,7 @@ static inline froe_motion *turning_new(const turning_kind *kind, uint64_t seed) 
     }
     froe_moving b = froe_moving_defaults();
     b.vertex_count = t->vertex_count, b.count = t->count, b.starts = t->starts, b.times = t->times, b.coords = t->xy;
-    b.controls = t->controls, b.vertices = t->vertices, b.bodies = t->bodies;
+    b.controls = t->controls, b.second_controls = t->seconds, b.vertices = t->vertices, b.bodies = t->bodies;
     b.births = t->births, b.deaths = t->deaths;
     froe_diagnostic why = {0};
     if (froe_motion_add(m, &b, &why)) {
@@ -211,6 +218,16 @@ static const turning_kind turning_kinds[] = {
      .speed = 3000,
      .legs = 3,
      .mortal = true},
+    {.name = "bodies among cubics",
+     .bodies = 3,
+     .each = 4,
+     .free = 4,
+     .grid = 3000,
+     .size = 1200,
+     .speed = 3000,
+     .legs = 2,
+     .curved = true,
+     .cubic = true},
 };
 enum { TURNING_KINDS = sizeof turning_kinds / sizeof *turning_kinds };
 #endif

@@ -583,6 +583,13 @@ static void what_cannot_be_followed_is_refused(void **state) {
     count = 0;
     assert_int_equal(froe_motion_sights(bent, &o, stop, &count, &diag), FROE_OK);
     assert_int_equal(count, 3);
+    const double times[] = {0, 1, 0, 0}, at[] = {-3, 0, 0, 3, 0, 0, 0, 1, 1, 0, 1, -1}, bend[12] = {0};
+    froe_moving m = froe_moving_defaults();
+    m.vertex_count = 3, m.count = 1, m.starts = (const size_t[]){0, 2, 3, 4}, m.times = times, m.coords = at;
+    m.controls = bend, m.second_controls = bend;
+    assert_int_equal(froe_motion_add(bent, &m, NULL), FROE_OK);
+    assert_int_equal(froe_motion_sights(bent, eye, true, NULL, NULL, 0, 1, stop, &count, &diag), FROE_E_UNSUPPORTED);
+    assert_non_null(strstr(diag.message, "It flies along a cubic, which no eye can follow exactly."));
     froe_motion_free(plane), froe_motion_free(boxes), froe_motion_free(bent);
 }
 

@@ -3,7 +3,8 @@
  * Two closed segments p0p1 and q0q1 meet iff the signs of twelve polynomials in time allow it: of the four turns
  *     o0 = [p0 p1 q0], o1 = [p0 p1 q1], o2 = [q0 q1 p0], o3 = [q0 q1 p1]     (degree up to 4, of cubics 6)
  * o0 o1 <= 0 and o2 o3 <= 0, and where all four are 0 also their bounding boxes overlap, which is up to the differences
- * of coordinates (degree up to 2, of cubics 3). Where bodies turn, both have degree up to 6, beside cubics 8 (strokes.h).
+ * of coordinates (degree up to 2, of cubics 3). Where bodies turn, both have degree up to 6, beside cubics 8
+ * (strokes.h).
  *
  * Error bounds first: most pairs stay apart for a simple reason. Then exactly. */
 #include "kinetic/contact/strokes.h"
