@@ -1,5 +1,5 @@
-/* glTF with an animation in every container, and with each word of its text changed: the motion is the same, or there is
- * a status and a sentence. */
+/* glTF with an animation in every container, and with each word of its text changed: the motion is the same, or there
+ * is a status and a sentence. */
 #include "animated.h"
 #include "support/memory.h"
 #include <ctype.h>

@@ -14,8 +14,8 @@
 
 enum { OLD_OBJECTS = 400, NEW_OBJECTS = 3000, SOME_OBJECTS = 500, SHARDS = 5 };
 
-/* The linker leads the calls of cmake/FroeTests.cmake here: at call number `ends_at`, from 1, the process is killed, loses
- * its power, or the call fails. */
+/* The linker leads the calls of cmake/FroeTests.cmake here: at call number `ends_at`, from 1, the process is killed,
+ * loses its power, or the call fails. */
 typedef enum end_kind { KILLED, POWER, POWER_BACK, FAILED } end_kind;
 static unsigned calls, ends_at;
 static end_kind how_ends;

@@ -1,5 +1,5 @@
-/* test_memory.c: every question to a folder of shards, and the building of one, while any allocation fails, with sizes that are checked where
- * blocks are given back. */
+/* test_memory.c: every question to a folder of shards, and the building of one, while any allocation fails, with sizes
+ * that are checked where blocks are given back. */
 #include "folders.h"
 #include "support/memory.h"
 #include <math.h>

@@ -1,0 +1,172 @@
+/* test_refusals.c: every step of building a folder of shards with arguments that are none: FROE_E_ARG or another status
+ * with a sentence, and nothing is changed. */
+#include "folders.h"
+#include <math.h>
+#include <unistd.h>
+
+static froe_diagnostic why;
+
+/* A status with a sentence that has these words. */
+static void expect(froe_status found, froe_status wanted, const char *words) {
+    assert_int_equal(found, wanted);
+    if (!strstr(why.message, words)) fail_msg("'%s' lacks '%s'", why.message, words);
+    why = (froe_diagnostic){0};
+}
+#define NULLS(call) expect(call, FROE_E_ARG, "is NULL")
+
+static froe_status take_none(void *user, const void *records, size_t count) {
+    (void)user, (void)records, (void)count;
+    return FROE_OK;
+}
+
+static void batches_are_checked(void **state) {
+    (void)state;
+    static const double corners[] = {0, 0, 1, 1, 2, 2};
+    static const uint32_t indices[] = {0, 2};
+    froe_shard_records records = {0};
+    froe_objects batch = froe_objects_defaults();
+    batch.kind = FROE_SEGMENT, batch.count = 1, batch.coords = corners;
+    NULLS(froe_shard_records_add(NULL, 2, &batch, 0, &why));
+    NULLS(froe_shard_records_add(&records, 2, NULL, 0, &why));
+    expect(froe_shard_records_add(&records, 1, &batch, 0, &why), FROE_E_ARG, "dimension 1 is not");
+    expect(froe_shard_records_add(&records, 9, &batch, 0, &why), FROE_E_ARG, "dimension 9 is not");
+    batch.size = 1;
+    expect(froe_shard_records_add(&records, 2, &batch, 0, &why), FROE_E_OPTIONS, "froe_objects_defaults");
+    batch.size = froe_objects_defaults().size, batch.coords = NULL;
+    assert_int_not_equal(froe_shard_records_add(&records, 2, &batch, 0, NULL), FROE_OK);
+    batch.kind = FROE_BALL, batch.coords = corners;
+    static const double radii[] = {-1, NAN};
+    for (int i = 0; i < 3; i++) {
+        batch.radii = i < 2 ? radii + i : NULL;
+        assert_int_not_equal(froe_shard_records_add(&records, 2, &batch, 0, NULL), FROE_OK);
+    }
+    NULLS(froe_shard_records_append(NULL, corners, 8, &why));
+    NULLS(froe_shard_records_append(&records, NULL, 8, &why));
+    assert_int_equal(records.count, 0);
+    /* The same object by indices and without. */
+    froe_shard_records plain = {0};
+    const double ends[] = {0, 0, 2, 2};
+    batch.kind = FROE_SEGMENT, batch.radii = NULL, batch.indices = indices, batch.point_count = 3;
+    assert_int_equal(froe_shard_records_add(&records, 2, &batch, 7, &why), FROE_OK);
+    batch.indices = NULL, batch.point_count = 0, batch.coords = ends;
+    assert_int_equal(froe_shard_records_add(&plain, 2, &batch, 7, &why), FROE_OK);
+    assert_true(records.count == plain.count && !memcmp(records.bytes, plain.bytes, plain.count));
+    froe_shard_records_free(&records), froe_shard_records_free(&plain), froe_shard_records_free(NULL);
+}
+
+static void samples_and_plans_are_checked(void **state) {
+    (void)state;
+    static const double corners[] = {0, 0, 0, 1, 1, 1};
+    froe_shard_records records = {0};
+    froe_shard_sample *sample, *other;
+    froe_shard_plan *plan = NULL;
+    froe_objects batch = froe_objects_defaults();
+    size_t count;
+    batch.kind = FROE_SEGMENT, batch.count = 1, batch.coords = corners;
+    assert_int_equal(froe_shard_records_add(&records, 3, &batch, 0, &why), FROE_OK);
+    assert_int_equal(froe_shard_sample_new(2, NULL, NULL), FROE_E_ARG);
+    assert_int_equal(froe_shard_sample_new(1, NULL, &sample), FROE_E_ARG);
+    assert_int_equal(froe_shard_sample_new(9, NULL, &sample), FROE_E_ARG);
+    assert_int_equal(froe_shard_sample_new(2, NULL, &sample), FROE_OK);
+    assert_int_equal(froe_shard_sample_add(NULL, records.bytes, records.count), FROE_E_ARG);
+    assert_int_equal(froe_shard_sample_add(sample, NULL, 8), FROE_E_ARG);
+    assert_int_equal(froe_shard_sample_add(sample, records.bytes, records.count), FROE_E_ARG); /* of space */
+    assert_int_equal(froe_shard_sample_add(sample, records.bytes, records.count - 8), FROE_E_ARG);
+    assert_true(froe_shard_sample_bound(NULL, 1) == UINT64_MAX && froe_shard_sample_bound(sample, 0) == UINT64_MAX);
+    froe_shard_sample_cut(NULL, 0);
+    assert_null(froe_shard_sample_words(NULL, &count));
+    assert_null(froe_shard_sample_words(sample, NULL));
+    assert_int_equal(froe_shard_sample_new(3, NULL, &other), FROE_OK);
+    assert_int_equal(froe_shard_sample_add(other, records.bytes, records.count), FROE_OK);
+    const uint64_t *words = froe_shard_sample_words(other, &count);
+    assert_non_null(words);
+    assert_int_equal(froe_shard_sample_merge(NULL, words, count), FROE_E_ARG);
+    assert_int_equal(froe_shard_sample_merge(other, NULL, count), FROE_E_ARG);
+    assert_int_equal(froe_shard_sample_merge(sample, words, count), FROE_E_ARG); /* of space */
+    assert_int_equal(froe_shard_sample_merge(other, words, 1), FROE_E_ARG);
+    assert_int_equal(froe_shard_sample_merge(other, words, count - 1), FROE_E_ARG);
+    NULLS(froe_shard_plan_new(NULL, 1, 0, &plan, &why));
+    NULLS(froe_shard_plan_new(sample, 1, 0, NULL, &why));
+    expect(froe_shard_plan_new(sample, 5000, 0, &plan, &why), FROE_E_ARG, "at most 4096 shards");
+    assert_int_equal(froe_shard_plan_count(NULL), 0);
+    const froe_shards_report report = froe_shard_report(NULL, NULL);
+    assert_int_equal(report.shards, 0);
+    froe_shard_plan_free(NULL);
+    froe_shard_sample_free(sample), froe_shard_sample_free(other), froe_shard_sample_free(NULL);
+    froe_shard_records_free(&records);
+}
+
+static void steps_on_the_disk_are_checked(void **state) {
+    (void)state;
+    static const double corners[] = {0, 0, 1, 1};
+    froe_shard_buckets *buckets;
+    froe_shard_draft *draft;
+    froe_shards_builder *builder;
+    bool replaced;
+    NULLS(froe_shard_buckets_new(NULL, 1, NULL, &buckets, &why));
+    NULLS(froe_shard_buckets_new(".", 1, NULL, NULL, &why));
+    expect(froe_shard_buckets_new(".", 0, NULL, &buckets, &why), FROE_E_ARG, "Buckets are 1 to");
+    expect(froe_shard_buckets_new(".", 5000, NULL, &buckets, &why), FROE_E_ARG, "Buckets are 1 to");
+    expect(froe_shard_buckets_new("absent", 1, NULL, &buckets, &why), FROE_E_IO, "absent: ");
+    assert_int_equal(froe_shard_buckets_new(".", 1, NULL, &buckets, &why), FROE_OK);
+    NULLS(froe_shard_buckets_add(NULL, 0, corners, 8, &why));
+    NULLS(froe_shard_buckets_add(buckets, 0, NULL, 8, &why));
+    assert_int_equal(froe_shard_buckets_add(buckets, 0, NULL, 0, &why), FROE_OK);
+    expect(froe_shard_buckets_add(buckets, 1, corners, 8, &why), FROE_E_ARG, "no bucket 1");
+    NULLS(froe_shard_buckets_take(NULL, 0, take_none, NULL, &why));
+    NULLS(froe_shard_buckets_take(buckets, 0, NULL, NULL, &why));
+    expect(froe_shard_buckets_take(buckets, 1, take_none, NULL, &why), FROE_E_ARG, "no bucket 1");
+    froe_shard_buckets_free(buckets), froe_shard_buckets_free(NULL);
+    NULLS(froe_shard_draft_begin(NULL, NULL, &draft, &why));
+    NULLS(froe_shard_draft_begin("d.froes", NULL, NULL, &why));
+    NULLS(froe_shard_draft_sync(NULL, 0, 1, &why));
+    NULLS(froe_shard_draft_sync(".", 0, 0, &why));
+    NULLS(froe_shard_draft_place(NULL, &replaced, &why));
+    froe_shard_draft_clear(NULL, 0, 1), froe_shard_draft_clear(".", 0, 0);
+    assert_null(froe_shard_draft_folder(NULL));
+    assert_int_equal(froe_shard_draft_end(NULL, FROE_E_IO, &why), FROE_E_IO);
+    static char far[5000];
+    memset(far, 'a', sizeof far - 1);
+    far[300] = 0; /* a name that no file has */
+    const char *const places[] = {"", "absent/d.froes", "..", "file/d.froes", far, "a/.."};
+    fclose(fopen("file", "w"));
+    for (size_t i = 0; i < sizeof places / sizeof *places; i++)
+        expect(froe_shard_draft_begin(places[i], NULL, &draft, &why), FROE_E_IO, ": ");
+    far[300] = 'a';
+    expect(froe_shard_draft_begin(far, NULL, &draft, &why), FROE_E_IO, "name too long");
+    NULLS(froe_shards_begin(NULL, 2, NULL, &builder, &why));
+    NULLS(froe_shards_begin("d.froes", 2, NULL, NULL, &why));
+    expect(froe_shards_begin("d.froes", 1, NULL, &builder, &why), FROE_E_ARG, "imension");
+    expect(froe_shards_begin("d.froes", 9, NULL, &builder, &why), FROE_E_ARG, "imension");
+    froe_shards_options o = froe_shards_defaults();
+    o.shards = 5000;
+    expect(froe_shards_begin("d.froes", 2, &o, &builder, &why), FROE_E_OPTIONS, "4096");
+    o.size = 1;
+    expect(froe_shards_begin("d.froes", 2, &o, &builder, &why), FROE_E_OPTIONS, "froe_shards_defaults");
+    NULLS(froe_shards_finish(NULL, NULL, &why));
+    froe_shards_abandon(NULL);
+    assert_int_equal(froe_shards_begin("d.froes/", 2, NULL, &builder, &why), FROE_OK);
+    froe_objects batch = froe_objects_defaults();
+    batch.kind = FROE_SEGMENT, batch.count = 1, batch.coords = corners;
+    NULLS(froe_shards_add(NULL, &batch, &why));
+    NULLS(froe_shards_add(builder, NULL, &why));
+    batch.group = 0;
+    expect(froe_shards_add(builder, &batch, &why), FROE_E_UNSUPPORTED, "roups");
+    froe_scene *space;
+    assert_int_equal(froe_scene_new(3, NULL, &space), FROE_OK);
+    NULLS(froe_shards_add_scene(builder, NULL, &why));
+    NULLS(froe_shards_add_scene(NULL, space, &why));
+    expect(froe_shards_add_scene(builder, space, &why), FROE_E_ARG, "of its dimension");
+    froe_scene_free(space);
+    expect(froe_shards_finish(builder, NULL, &why), FROE_E_INPUT, "no objects");
+    assert_true(access("d.froes", F_OK) && access(".d.froes.building", F_OK));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(batches_are_checked),
+        cmocka_unit_test(samples_and_plans_are_checked),
+        cmocka_unit_test(steps_on_the_disk_are_checked),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
