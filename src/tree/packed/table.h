@@ -55,8 +55,8 @@ table_cells tree_table_shape(const froe_tree *t);
 froe_status tree_table_cells(const froe_tree *t, table_cells *out);
 void tree_table_cells_free(const froe_tree *t, table_cells *cells);
 
-/** *out NULL: there is none, or there are 2^TABLE_NODE_BITS nodes or more. From the nodes alone. FROE_E_MEMORY. O(nodes +
- * cells). */
+/** *out NULL: there is none, or there are 2^TABLE_NODE_BITS nodes or more. From the nodes alone. FROE_E_MEMORY.
+ * O(nodes + cells). */
 froe_status tree_table_new(const froe_tree *t, tree_table **out);
 /** The same from cells of a file, of the shape that the tree has. FROE_E_FORMAT, without a sentence: a node does not
  * exist. O(cells). */
