@@ -6,7 +6,7 @@
 #define POLY num_ball_poly
 #define GAZE gaze_ball
 #define CURVE motion_ball_curve
-#define FORMULA(f) f##_ball
+#define FORMULA(f) f##_gaze_near
 #define FROM(x) num_ball_from(x)
 #define ADD(a, b) num_ball_add(a, b)
 #define SUB(a, b) num_ball_sub(a, b)
@@ -21,7 +21,7 @@
 #define POLY num_poly
 #define GAZE gaze_exact
 #define CURVE motion_dyadic_curve
-#define FORMULA(f) f##_dyadic
+#define FORMULA(f) f##_gaze_exact
 #define FROM(x) num_dyadic_from(arena, x)
 #define ADD(a, b) num_dyadic_add(arena, a, b)
 #define SUB(a, b) num_dyadic_sub(arena, a, b)
@@ -33,11 +33,11 @@
 #include "kinetic/sight/gaze_body.inc"
 
 void gaze_near(const gaze *g, double from, double to, gaze_ball *out) {
-    gaze_of_ball(NULL, g, from, to, out);
+    gaze_of_gaze_near(NULL, g, from, to, out);
 }
 
 void gaze_exactly(num_arena *arena, const gaze *g, double from, double to, gaze_exact *out) {
-    gaze_of_dyadic(arena, g, from, to, out);
+    gaze_of_gaze_exact(arena, g, from, to, out);
 }
 
 /* --------------------------------------------------------------------- degrees -- */
