@@ -124,8 +124,7 @@ static void halve(const near_poly *p, failure_stretch *s, failure_stretch *right
     double *b = s->b;
     s->width *= 0.5;
     s->error += p->size * 0x1p-48; /* d roundings */
-    *right = *s;
-    right->low += right->width;
+    right->low = s->low + s->width, right->width = s->width, right->error = s->error;
     for (int k = 0; k < d; k++) {
         right->b[d - k] = b[d];
         for (int i = d; i > k; i--) b[i] = 0.5 * (b[i - 1] + b[i]);
@@ -221,9 +220,10 @@ static int64_t find_first_failure(const failure_search *f) {
         int64_t at = -1;
         if (v == HOLDS) continue;
         if (v == HALVE && high - low > 4) {
-            failure_stretch left = *s;
-            halve(f->p, &left, s); /* the right half stays below */
-            stack[top + 1] = left;
+            failure_stretch *left = s + 1;
+            left->low = s->low, left->width = s->width, left->error = s->error;
+            for (int i = 0; i <= f->p->degree; i++) left->b[i] = s->b[i];
+            halve(f->p, left, s); /* the right half stays below */
             top += 2;
             continue;
         }

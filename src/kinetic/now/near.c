@@ -9,6 +9,12 @@ static void constant(double x, near_poly *out) {
     *out = (near_poly){.size = fabs(x), .c = {x}};
 }
 
+/* Without the room for higher degrees. */
+static void copy(const near_poly *p, near_poly *out) {
+    out->degree = p->degree, out->size = p->size, out->error = p->error;
+    for (int i = 0; i <= p->degree; i++) out->c[i] = p->c[i];
+}
+
 /* One rounding a coefficient. */
 static void subtract(const near_poly *a, const near_poly *b, near_poly *out) {
     const int both = a->degree < b->degree ? a->degree : b->degree;
@@ -124,21 +130,23 @@ static void find_named(now_state *now, name_point p, int axis, double span, near
     out->crossing = name_is_crossing(p);
     if (!out->crossing) {
         place_vertex(now, p.a, span, v);
-        out->base = v->at[axis];
+        copy(v->at + axis, &out->base);
         return;
     }
     lines_turn(now, p, span, v, step, &out->turn);
     step_between(v, v + 2, &between);
     turn_between(&between, step + 1, &shift);
     multiply(&shift, step->at + axis, &out->off);
-    out->base = v->at[axis];
+    copy(v->at + axis, &out->base);
 }
 
 /* ------------------------------------------------------------------- claims -- */
 
 static void times_turn(const near_name *p, near_poly *value) {
-    const near_poly was = *value;
-    if (p->crossing) multiply(&was, &p->turn, value);
+    near_poly was;
+    if (!p->crossing) return;
+    copy(value, &was);
+    multiply(&was, &p->turn, value);
 }
 
 /* (q - p) times both denominators:  (q0 - p0) p_turn q_turn + q_off p_turn - p_off q_turn. */
@@ -151,13 +159,13 @@ static void find_order(now_state *now, const now_claim *claim, int axis, double 
     for (int i = 0; i < 2; i++) {
         times_turn(p + i, &out->value);
         if (!p[i].crossing) continue;
-        off[i] = p[i].off, out->turn[i] = p[i].turn, out->has_turn[i] = true;
+        copy(&p[i].off, off + i), copy(&p[i].turn, out->turn + i), out->has_turn[i] = true;
         times_turn(p + (1 - i), off + i);
     }
     for (int i = 0; i < 2; i++) {
         if (!p[i].crossing) continue;
         if (i) negate(off + i);
-        sum = out->value;
+        copy(&out->value, &sum);
         subtract(&sum, off + i, &out->value);
     }
     int sign = 1;
