@@ -224,7 +224,7 @@ void num_isolate(num_arena *arena, const num_poly *f, num_isolation *out) {
     outcome found = HIT;
     for (int exact = 0; found == HIT; exact++) {
         if (exact) inside = num_poly_without(arena, &inside, fraction(out->root[exact - 1].lo));
-        out->chain = num_chain_of(arena, &inside, NULL);
+        num_chain_of(arena, &inside, NULL, &out->chain);
         out->near = num_poly_balls(arena, &inside);
         found = find_all(arena, out, exact);
     }
@@ -247,7 +247,8 @@ int num_isolated_sign(num_arena *arena, const num_isolated *root, const num_poly
     if (root->exact) return num_poly_sign(arena, g, fraction(root->lo));
     /* by Tarski's query: the sum over one root */
     const size_t mark = arena->top;
-    const num_chain chain = num_chain_of(arena, &root->of->chain.p[0], g);
+    num_chain chain;
+    num_chain_of(arena, &root->of->chain.p[0], g, &chain);
     const int low = num_chain_variations(arena, &chain, fraction(root->lo));
     sign = low - num_chain_variations(arena, &chain, num_isolated_high(arena, root));
     arena->top = mark;

@@ -108,8 +108,7 @@ static num_poly next_in_chain(num_arena *arena, const num_poly *a, const num_pol
     return r;
 }
 
-num_chain num_chain_of(num_arena *arena, const num_poly *f, const num_poly *g) {
-    num_chain chain = {1, {*f}};
+void num_chain_of(num_arena *arena, const num_poly *f, const num_poly *g, num_chain *out) {
     const num_dyadic one = num_dyadic_scaled(arena, 1, 1, 0);
     shrinking s = {one, one};
     num_poly next = derivative(arena, f);
@@ -117,12 +116,12 @@ num_chain num_chain_of(num_arena *arena, const num_poly *f, const num_poly *g) {
         next = product(arena, &next, g);
         if (next.degree >= f->degree) next = remainder_of(arena, next, f); /* which changes no sign at a root of f */
     }
+    out->p[0] = *f, out->count = 1;
     while (next.degree >= 0) {
-        const num_poly *last = &chain.p[chain.count - 1];
-        chain.p[chain.count++] = next;
-        next = next_in_chain(arena, last, &chain.p[chain.count - 1], &s);
+        const num_poly *last = &out->p[out->count - 1];
+        out->p[out->count++] = next;
+        next = next_in_chain(arena, last, &out->p[out->count - 1], &s);
     }
-    return chain;
 }
 
 int num_chain_variations(num_arena *arena, const num_chain *chain, num_dyadic x) {

@@ -14,7 +14,8 @@
 
 enum {
     NUM_DEGREE = 12, /* of polynomials that callers give */
-    NUM_COEFFICIENTS = 2 * NUM_DEGREE
+    NUM_COEFFICIENTS = 2 * NUM_DEGREE,
+    NUM_BALL_COEFFICIENTS = NUM_DEGREE + 4 /* many of these polynomials stand on the stack at once */
 };
 
 typedef struct num_poly {
@@ -25,7 +26,7 @@ typedef struct num_poly {
 /** A polynomial with error bounds; of a num_poly, or made as such. */
 typedef struct num_ball_poly {
     int degree;
-    num_ball c[NUM_COEFFICIENTS];
+    num_ball c[NUM_BALL_COEFFICIENTS];
 } num_ball_poly;
 
 /** Strips leading zeros: sets the degree from at most `most`. */
@@ -54,8 +55,8 @@ typedef struct num_chain {
     int count;
     num_poly p[NUM_DEGREE + 2];
 } num_chain;
-/** Of f and f' g; g NULL: 1. f not zero, of degree <= NUM_DEGREE, as g. */
-num_chain num_chain_of(num_arena *arena, const num_poly *f, const num_poly *g);
+/** Of f and f' g, into *out, which is large; g NULL: 1. f not zero, not in *out, of degree <= NUM_DEGREE, as g. */
+void num_chain_of(num_arena *arena, const num_poly *f, const num_poly *g, num_chain *out);
 int num_chain_variations(num_arena *arena, const num_chain *chain, num_dyadic x); /**< the arena stays */
 
 /** Limbs that suffice for all that is done with polynomials of that degree whose coefficients have up to `limbs` limbs,

@@ -77,16 +77,21 @@ static void chains_of_constants_and_of_zero(void **state) {
     const num_poly f = poly(4, (const double[]){-0.0625, 0, 0, 0, 1}),
                    one = poly(0, (const double[]){1}); /* x^4 = 1/16 */
     const num_poly zero = {.degree = -1}, five = poly(0, (const double[]){5});
-    const num_chain sturm = num_chain_of(&arena, &f, NULL), same = num_chain_of(&arena, &f, &one);
+    num_chain sturm, same, chain;
+    num_chain_of(&arena, &f, NULL, &sturm);
+    num_chain_of(&arena, &f, &one, &same);
     for (int i = 0; i <= 4; i++) {
         const num_dyadic x = number(i / 4.0);
         assert_int_equal(num_chain_variations(&arena, &sturm, x), num_chain_variations(&arena, &same, x));
     }
     assert_int_equal(
         num_chain_variations(&arena, &sturm, (num_dyadic){0}) - num_chain_variations(&arena, &sturm, number(1)), 1);
-    assert_int_equal(num_chain_of(&arena, &f, &zero).count, 1);
-    assert_int_equal(num_chain_of(&arena, &five, NULL).count, 1);
-    assert_int_equal(num_chain_of(&arena, &five, &f).count, 1);
+    num_chain_of(&arena, &f, &zero, &chain);
+    assert_int_equal(chain.count, 1);
+    num_chain_of(&arena, &five, NULL, &chain);
+    assert_int_equal(chain.count, 1);
+    num_chain_of(&arena, &five, &f, &chain);
+    assert_int_equal(chain.count, 1);
 }
 
 static void no_sign_is_sure_of_zero(void **state) {

@@ -1,7 +1,6 @@
 /* align.c: see align.h. */
 #include "kinetic/sight/align.h"
 #include <math.h>
-#include <string.h>
 
 #define T num_ball
 #define POLY num_ball_poly
@@ -256,6 +255,14 @@ bool align_pass(align_room *room, const align_point *point, const align_edge *ed
     return find_roots(room, &f, (align_case){point, &edge}, out, found);
 }
 
+/* The polynomial of three edges; apart, so that what it needs on the stack is gone when roots are looked for. */
+__attribute__((noinline)) static void exact_meet(align_room *room, const align_edge *const edge[3], num_poly *f) {
+    begin_exact(room);
+    for (int i = 0; i < 3; i++) exact_line(room, edge[i], room->lines + i);
+    pair_of_exact(&room->arena, &room->exactly, room->lines, room->lines + 1, &room->pair);
+    meet_exact(&room->arena, &room->pair, room->lines + 2, f);
+}
+
 bool align_meet(align_room *room, const align_pair *pair, const align_edge *third, meet_time *out, int *found) {
     const align_edge *const edge[3] = {pair->edge[0], pair->edge[1], third};
     num_ball_poly near;
@@ -263,9 +270,6 @@ bool align_meet(align_room *room, const align_pair *pair, const align_edge *thir
     *found = 0;
     meet_near(NULL, &pair->near, &third->near, &near);
     if (surely_none(&near)) return true;
-    begin_exact(room);
-    for (int i = 0; i < 3; i++) exact_line(room, edge[i], room->lines + i);
-    pair_of_exact(&room->arena, &room->exactly, room->lines, room->lines + 1, &room->pair);
-    meet_exact(&room->arena, &room->pair, room->lines + 2, &f);
+    exact_meet(room, edge, &f);
     return find_roots(room, &f, (align_case){NULL, edge}, out, found);
 }

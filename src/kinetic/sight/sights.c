@@ -34,6 +34,8 @@ typedef struct sight_search {
     const froe_motion *m;
     const froe_sight_options *o;
     align_room room;
+    align_edge lines[3];   /**< of the edges that are looked at: large, and so not on the stack */
+    align_pair pairs[2];   /**< of the first two; in another order */
     int chart, side;       /**< boxes are quotients by this component of rays, which has this sign before the eye */
     sight_point *points;   /**< vertices of the motion, corners of the window, ends of crossings */
     uint32_t own, count;   /**< of them vertices, and all */
@@ -183,10 +185,10 @@ static bool list_edges(sight_search *s) {
 
 /* --------------------------------------------------------------------- looking -- */
 
-static align_edge edge_of(const sight_search *s, const sight_edge *e) {
-    align_edge out;
-    for (int i = 0; i < 2; i++) out.end[i] = &s->points[e->v[i]].at;
-    align_line(&s->room, &out);
+static const align_edge *edge_of(sight_search *s, const sight_edge *e, int place) {
+    align_edge *out = s->lines + place;
+    for (int i = 0; i < 2; i++) out->end[i] = &s->points[e->v[i]].at;
+    align_line(&s->room, out);
     return out;
 }
 
@@ -212,9 +214,11 @@ static bool share_end(const sight_edge *a, const sight_edge *b) {
     return a->v[0] == b->v[0] || a->v[0] == b->v[1] || a->v[1] == b->v[0] || a->v[1] == b->v[1];
 }
 
-static void pair_of(const sight_search *s, const align_edge *a, const align_edge *b, align_pair *out) {
+static const align_pair *pair_of(sight_search *s, const align_edge *a, const align_edge *b, int place) {
+    align_pair *out = s->pairs + place;
     out->edge[0] = a, out->edge[1] = b;
     align_two(&s->room, out);
+    return out;
 }
 
 /* When an edge passes the crossing of two. That of the window comes last. */
@@ -224,9 +228,8 @@ static bool meet_edges(sight_search *s, const sight_edge *const e[3], const alig
     bool well = true;
     if (e[0]->window + e[1]->window + e[2]->window > 1) return true; /* they have corners in common, or are apart */
     if (e[0]->window || e[1]->window) {
-        align_pair others;
-        pair_of(s, pair->edge[e[0]->window], third, &others);
-        well = align_meet(&s->room, &others, pair->edge[e[1]->window], found, &count);
+        const align_pair *others = pair_of(s, pair->edge[e[0]->window], third, 1);
+        well = align_meet(&s->room, others, pair->edge[e[1]->window], found, &count);
     } else {
         well = align_meet(&s->room, pair, third, found, &count);
     }
@@ -236,9 +239,7 @@ static bool meet_edges(sight_search *s, const sight_edge *const e[3], const alig
 /* All edges that pass the crossing of two. Where three of them are seen, one order of the three is enough. */
 static bool pass_crossing(sight_search *s, size_t i, const align_edge *line, size_t j) {
     const sight_edge *edges = s->edges.data, *a = edges + i, *b = edges + j;
-    align_edge second;
-    align_pair pair;
-    bool known = false;
+    const align_pair *pair = NULL;
     sight_box both;
     for (int k = 0; k < 2; k++)
         both.lo[k] = fmax(a->box.lo[k], b->box.lo[k]), both.hi[k] = fmin(a->box.hi[k], b->box.hi[k]);
@@ -246,9 +247,8 @@ static bool pass_crossing(sight_search *s, size_t i, const align_edge *line, siz
         const sight_edge *c = edges + n;
         if ((c->seen && n <= j) || n == i || n == j || !(a->moves || b->moves || c->moves)) continue;
         if (!boxes_meet(&both, &c->box) || share_end(a, c) || share_end(b, c)) continue;
-        if (!known) second = edge_of(s, b), pair_of(s, line, &second, &pair), known = true;
-        const align_edge third = edge_of(s, c);
-        if (!meet_edges(s, (const sight_edge *const[]){a, b, c}, &pair, &third)) return false;
+        if (!pair) pair = pair_of(s, line, edge_of(s, b, 1), 0);
+        if (!meet_edges(s, (const sight_edge *const[]){a, b, c}, pair, edge_of(s, c, 2))) return false;
     }
     return true;
 }
@@ -260,13 +260,13 @@ static froe_status look_between(sight_search *s, double from, double to) {
     bool well = true;
     for (size_t i = 0; i < s->edges.count && well; i++) {
         const sight_edge *e = s->edges.data + i;
-        const align_edge line = edge_of(s, e);
-        for (uint32_t v = 0; v < s->count && well; v++) well = pass_edge(s, e, &line, v);
+        const align_edge *line = edge_of(s, e, 0);
+        for (uint32_t v = 0; v < s->count && well; v++) well = pass_edge(s, e, line, v);
         for (size_t j = i + 1; e->seen && well && j < s->edges.count; j++) {
             const sight_edge *other = s->edges.data + j;
             if (other->box.lo[0] > e->box.hi[0]) break;
             if (other->seen && !share_end(e, other) && boxes_meet(&e->box, &other->box))
-                well = pass_crossing(s, i, &line, j);
+                well = pass_crossing(s, i, line, j);
         }
     }
     return s->status;
