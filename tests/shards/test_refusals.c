@@ -1,4 +1,5 @@
-/* test_refusals.c: every step of building a folder of shards with arguments that are none: FROE_E_ARG or another status
+/* test_refusals.c: every step of building a folder of shards, and every question to one, with arguments
+ * that are none: FROE_E_ARG or another status
  * with a sentence, and nothing is changed. */
 #include "folders.h"
 #include <math.h>
@@ -162,11 +163,73 @@ static void steps_on_the_disk_are_checked(void **state) {
     assert_true(access("d.froes", F_OK) && access(".d.froes.building", F_OK));
 }
 
+static bool stop(void *user, double done) {
+    (void)user, (void)done;
+    return false;
+}
+
+static void questions_are_checked(void **state) {
+    (void)state;
+    enum { OBJECTS = 20 };
+    static const double x[] = {0, 0, 1, 1};
+    one_object *list = lattice_objects(2, FROE_SEGMENT, OBJECTS, 9, 6);
+    froe_shards_options o = froe_shards_defaults();
+    froe_shards *s;
+    froe_finds finds = {0};
+    froe_find find;
+    froe_query *query;
+    uint64_t count;
+    const froe_tree *tree;
+    froe_range range = froe_range_defaults();
+    o.shards = 3, range.points = x;
+    assert_int_equal(build_folder("asked.froes", 2, list, OBJECTS, &o, NULL, &why), FROE_OK);
+    free(list);
+    assert_false(froe_is_shards(NULL));
+    NULLS(froe_shards_open(NULL, NULL, &s, &why));
+    NULLS(froe_shards_open("asked.froes", NULL, NULL, &why));
+    assert_int_equal(froe_shards_open("asked.froes", NULL, &s, &why), FROE_OK);
+    NULLS(froe_shards_range(NULL, &range, 1, NULL, &finds, &why));
+    NULLS(froe_shards_range(s, NULL, 1, NULL, &finds, &why));
+    NULLS(froe_shards_range(s, &range, 1, NULL, NULL, &why));
+    NULLS(froe_shards_boxes(s, NULL, 1, NULL, &finds, &why));
+    NULLS(froe_shards_any(s, NULL, 1, NULL, &find, &why));
+    NULLS(froe_shards_count(s, &range, 1, NULL, NULL, &why));
+    NULLS(froe_shards_locate(s, NULL, 1, NULL, &finds, &why));
+    NULLS(froe_shards_vertical(s, NULL, 1, 1, NULL, &find, &why));
+    NULLS(froe_shards_ray(s, x, NULL, 1, INFINITY, NULL, &find, &why));
+    NULLS(froe_shards_ray_any(s, x, NULL, 1, INFINITY, NULL, &find, &why));
+    NULLS(froe_shards_ray_all(s, x, NULL, 1, INFINITY, NULL, &finds, &why));
+    NULLS(froe_shards_near(s, NULL, 1, 1, INFINITY, NULL, &finds, &why));
+    NULLS(froe_shards_locate_count(s, x, 1, NULL, NULL, &why));
+    assert_int_equal(froe_shards_locate_count(s, x, 0, NULL, &count, &why), FROE_OK);
+    NULLS(froe_shards_tree(NULL, 0, &tree, &why));
+    NULLS(froe_shards_tree(s, 0, NULL, &why));
+    expect(froe_shards_tree(s, 3, &tree, &why), FROE_E_ARG, "no shard 3");
+    NULLS(froe_shards_query(NULL, 0, &query, &why));
+    NULLS(froe_shards_query(s, 0, NULL, &why));
+    expect(froe_shards_query(s, 3, &query, &why), FROE_E_ARG, "no shard 3");
+    NULLS(froe_shards_check(NULL, NULL, &why));
+    froe_batch_options b = froe_batch_defaults();
+    b.progress = stop;
+    expect(froe_shards_check(s, &b, &why), FROE_E_CANCELLED, "Cancelled");
+    expect(froe_shards_range(s, &range, 1, &b, &finds, &why), FROE_E_CANCELLED, "Cancelled");
+    b.size = 1;
+    expect(froe_shards_check(s, &b, &why), FROE_E_OPTIONS, "froe_batch_defaults");
+    expect(froe_shards_range(s, &range, 1, &b, &finds, &why), FROE_E_OPTIONS, "froe_batch_defaults");
+    NULLS(froe_shards_share(s, 0, 1, NULL, NULL, &why));
+    NULLS(froe_shard_manifest_write(NULL, NULL, ".", NULL, &why));
+    assert_int_equal(froe_shards_about(NULL).shards, 0);
+    assert_int_equal(froe_shards_range(s, &range, 1, NULL, &finds, &why), FROE_OK); /* all the same */
+    froe_finds_free(&finds);
+    froe_shards_close(s), froe_shards_close(NULL);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(batches_are_checked),
         cmocka_unit_test(samples_and_plans_are_checked),
         cmocka_unit_test(steps_on_the_disk_are_checked),
+        cmocka_unit_test(questions_are_checked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

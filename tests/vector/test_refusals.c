@@ -1,0 +1,116 @@
+/* test_refusals.c: every function that renders with arguments that are none: a status with a sentence, and no file. */
+#include "support/scenes.h"
+#include <froe/formats.h>
+#include <froe/render.h>
+#include <math.h>
+#include <unistd.h>
+
+static froe_diagnostic why;
+
+static void expect(froe_status found, froe_status wanted, const char *words) {
+    assert_int_equal(found, wanted);
+    if (!strstr(why.message, words)) fail_msg("'%s' lacks '%s'", why.message, words);
+    why = (froe_diagnostic){0};
+}
+#define NULLS(call) expect(call, FROE_E_ARG, "is NULL")
+#define REFUSED(call, words) expect(call, FROE_E_OPTIONS, words)
+
+static bool take_bytes(void *user, const void *bytes, size_t count) {
+    (void)user, (void)bytes, (void)count;
+    return true;
+}
+
+static bool take_path(void *user, const froe_render_path *path) {
+    (void)user, (void)path;
+    return true;
+}
+
+static bool take_line(void *user, const froe_stroke *line) {
+    (void)user, (void)line;
+    return true;
+}
+
+static void films_are_checked(void **state) {
+    (void)state;
+    froe_motion *plane, *space;
+    froe_camera cameras[2] = {froe_camera_defaults(), froe_camera_defaults()};
+    froe_render_options o = froe_render_defaults();
+    froe_film_options f = froe_film_defaults();
+    assert_int_equal(froe_generate_motion("moving", 3, 1, NULL, &plane, &why), FROE_OK);
+    assert_int_equal(froe_generate_motion("moving-boxes", 3, 1, NULL, &space, &why), FROE_OK);
+    NULLS(froe_film_cameras(NULL, cameras, false, 1, cameras, &why));
+    NULLS(froe_film_cameras(space, NULL, false, 1, cameras, &why));
+    NULLS(froe_film_cameras(space, cameras, false, 1, NULL, &why));
+    NULLS(froe_film_cameras(space, cameras, false, 0, cameras, &why));
+    expect(froe_film_cameras(plane, cameras, false, 1, cameras, &why), FROE_E_UNSUPPORTED, "plane");
+    NULLS(froe_film(NULL, "film.svg", NULL, NULL, NULL, &why));
+    NULLS(froe_film(space, NULL, NULL, NULL, NULL, &why));
+    NULLS(froe_film_write(NULL, take_bytes, NULL, NULL, NULL, NULL, &why));
+    NULLS(froe_film_write(space, NULL, NULL, NULL, NULL, NULL, &why));
+    expect(froe_film(plane, "film.svg", NULL, NULL, NULL, &why), FROE_E_UNSUPPORTED, "of the plane");
+    static const unsigned frames[] = {0, 1000001};
+    for (int i = 0; i < 2; i++) {
+        f.frames = frames[i];
+        REFUSED(froe_film(space, "film.svg", NULL, &f, NULL, &why), "option 'frames'");
+    }
+    f = froe_film_defaults(), f.halvings = 21;
+    REFUSED(froe_film(space, "film.svg", NULL, &f, NULL, &why), "option 'halvings'");
+    static const double seconds[] = {0, -1, 1e7, NAN};
+    for (int i = 0; i < 4; i++) {
+        f = froe_film_defaults(), f.seconds = seconds[i];
+        REFUSED(froe_film(space, "film.svg", NULL, &f, NULL, &why), "option 'seconds'");
+    }
+    f = froe_film_defaults(), f.size = 1;
+    REFUSED(froe_film(space, "film.svg", NULL, &f, NULL, &why), "froe_film_defaults");
+    o.size = 1;
+    REFUSED(froe_film(space, "film.svg", &o, NULL, NULL, &why), "froe_render_defaults");
+    for (int i = 0; i < 3; i++) {
+        o = froe_render_defaults();
+        o.layers = i == 0, o.interleaved = i == 1, o.seams = i == 2 ? FROE_SEAMS_TWICE : o.seams;
+        REFUSED(froe_film(space, "film.svg", &o, NULL, NULL, &why), "no layers");
+    }
+    assert_int_not_equal(access("film.svg", F_OK), 0);
+    froe_motion_free(plane), froe_motion_free(space);
+}
+
+static void pictures_are_checked(void **state) {
+    (void)state;
+    froe_scene *scene;
+    froe_tree *tree;
+    const froe_camera camera = froe_camera_defaults();
+    froe_build_options b = froe_build_defaults();
+    assert_int_equal(froe_generate("cuboids", 2, 1, NULL, &scene, &why), FROE_OK);
+    assert_int_equal(froe_build(scene, &b, &tree, &why), FROE_OK);
+    NULLS(froe_render(NULL, "picture.svg", NULL, NULL, &why));
+    NULLS(froe_render(tree, NULL, NULL, NULL, &why));
+    NULLS(froe_render_write(NULL, FROE_RENDER_SVG, take_bytes, NULL, NULL, NULL, &why));
+    NULLS(froe_render_write(tree, FROE_RENDER_SVG, NULL, NULL, NULL, NULL, &why));
+    for (int i = -1; i <= FROE_RENDER_FORMAT_COUNT; i += 1 + FROE_RENDER_FORMAT_COUNT)
+        expect(froe_render_write(tree, (froe_render_format)i, take_bytes, NULL, NULL, NULL, &why), FROE_E_OPTIONS,
+               "format");
+    NULLS(froe_render_paths(NULL, 1, take_path, NULL, NULL, NULL, &why));
+    NULLS(froe_render_paths(tree, 1, NULL, NULL, NULL, NULL, &why));
+    NULLS(froe_render_lines(NULL, take_line, NULL, NULL, NULL, &why));
+    NULLS(froe_render_lines(tree, NULL, NULL, NULL, NULL, &why));
+    NULLS(froe_render_animation(NULL, "picture.svg", NULL, &camera, 1, 1, NULL, &why));
+    NULLS(froe_render_animation(tree, NULL, NULL, &camera, 1, 1, NULL, &why));
+    NULLS(froe_render_animation(tree, "picture.svg", NULL, NULL, 1, 1, NULL, &why));
+    NULLS(froe_render_animation(tree, "picture.svg", NULL, &camera, 0, 1, NULL, &why));
+    static const double numbers[] = {0, -1, 1e7, NAN};
+    for (int i = 0; i < 4; i++) {
+        assert_int_not_equal(froe_render_paths(tree, numbers[i], take_path, NULL, NULL, NULL, NULL), FROE_OK);
+        assert_int_not_equal(froe_render_animation(tree, "picture.svg", NULL, &camera, 1, numbers[i], NULL, NULL),
+                             FROE_OK);
+    }
+    assert_int_not_equal(access("picture.svg", F_OK), 0);
+    assert_int_equal(froe_render(tree, "picture.svg", NULL, NULL, &why), FROE_OK); /* all the same */
+    froe_tree_free(tree), froe_scene_free(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(films_are_checked),
+        cmocka_unit_test(pictures_are_checked),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
