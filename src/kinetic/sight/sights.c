@@ -359,7 +359,6 @@ static froe_status check_motion(const sight_search *s, froe_diagnostic *diag) {
     const froe_motion *m = s->m;
     const gaze *g = &s->room.gaze;
     const int turn = gaze_turn(g), flight = gaze_flight(g), most = g->parallel ? 4 : 6;
-    const char *who = !g->parallel ? "a parallel eye" : "a parallel eye that does not turn";
     for (uint32_t i = 0; i < m->objects.count; i++)
         for (int k = 0; k < 3; k++) {
             const motion_plan *plan = m->plans.data + m->objects.data[i].vertices[k];
@@ -370,12 +369,13 @@ static froe_status check_motion(const sight_search *s, froe_diagnostic *diag) {
                 const int degree = motion_knot_degree(m->knots.data + plan->first + n);
                 if (degree * most + 2 * turn > NUM_DEGREE)
                     return support_fail_at(diag, FROE_E_UNSUPPORTED, i, FROE_NONE, FROE_NONE,
-                                           "object %u: It flies along a %s, which only %s can follow.", i,
-                                           degree == 2 ? "parabola" : "cubic", who);
+                                           "object %u: It flies along a %s can follow.", i,
+                                           degree == 2 ? "parabola, which only a parallel eye"
+                                                       : "cubic, which only a parallel eye that does not turn");
             }
         }
     if (flight * most + 2 * turn <= NUM_DEGREE) return FROE_OK;
-    return support_fail(diag, FROE_E_UNSUPPORTED, "The eye flies along a parabola, which only %s can do.", who);
+    return support_fail(diag, FROE_E_UNSUPPORTED, "The eye flies along a parabola, which only a parallel eye can do.");
 }
 
 /* Rays are quotients by the component in which the eye is farthest from a corner of the window; without a window, from
