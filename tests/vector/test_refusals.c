@@ -3,6 +3,7 @@
 #include <froe/formats.h>
 #include <froe/render.h>
 #include <math.h>
+#include <stdio.h>
 #include <unistd.h>
 
 static froe_diagnostic why;
@@ -104,6 +105,7 @@ static void pictures_are_checked(void **state) {
     }
     assert_int_not_equal(access("picture.svg", F_OK), 0);
     assert_int_equal(froe_render(tree, "picture.svg", NULL, NULL, &why), FROE_OK); /* all the same */
+    assert_int_equal(remove("picture.svg"), 0);
     froe_tree_free(tree), froe_scene_free(scene);
 }
 
