@@ -58,9 +58,9 @@ mutations: deps-test ## every bit of small tree files turned over, an hour: refu
 	@cmake --build $(BUILD) --parallel $(JOBS) --target test_conformance_mutations
 	@cd $(BUILD)/scratch/conformance-mutations && $(abspath $(BUILD))/tests/test_conformance_mutations all
 
-faults: deps-test ## every allocation and every writing call of every command failing, and signals at each; an hour
+faults: deps-test ## every allocation, read and write of every command failing, and signals at each; an hour
 	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=Release -DFROE_TESTS=ON
-	@cmake --build $(BUILD) --parallel $(JOBS) --target test_cli_allocations test_cli_faults froe_faulty froe_faulty_core
+	@cmake --build $(BUILD) --parallel $(JOBS) --target test_cli_allocations test_cli_faults test_cli_reads froe_faulty froe_faulty_core
 	@scripts/faults $(BUILD)
 
 # Tests that limit memory, stacks or sizes of files fail here, because counters need some; make test judges them.

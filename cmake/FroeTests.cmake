@@ -8,7 +8,7 @@ pkg_check_modules(GMP REQUIRED IMPORTED_TARGET GLOBAL gmp)
 
 # A limit is thirty times what a test takes on two cores, so that a busy machine fails none: seconds, up to ten where
 # nothing is said. Sanitizers, counters of lines and unoptimised code take longer by a factor.
-set(takes cli/allocations 20 cli/build 20 cli/deep 15 cli/demo 20 cli/faults 15 cli/generate 15 cli/memory 20 cli/render 20
+set(takes cli/allocations 20 cli/build 20 cli/deep 15 cli/demo 20 cli/faults 15 cli/generate 15 cli/memory 20 cli/reads 15 cli/render 20 shards/faults 15
           docs/docs-reference-render 30 docs/docs-howto-gallery 20 docs/docs-tutorials-draw-a-model 15
           kinetic/live-ordinary 15 kinetic/live-augmented 15 query/range_eps-at_the_limits_they_keep_it_too 20)
 set(slower 1)

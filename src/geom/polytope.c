@@ -117,7 +117,8 @@ static bool add_images(const froe_allocator *alloc, int dim, geom_polytope *p) {
     for (size_t i = 0; i < p->corners.count; i++) {
         const uint32_t *of = p->corners.data[i].planes;
         const geom_plane *planes = p->planes.data;
-        double x[3], error = geom_image_corner(planes + of[0], planes + of[1], planes + of[2], x);
+        double x[3] = {0}; /* where nothing is certain, it may stay so */
+        const double error = geom_image_corner(planes + of[0], planes + of[1], planes + of[2], x);
         memcpy(p->images.data + p->images.count, x, (size_t)dim * sizeof *x);
         p->images.count += (size_t)dim;
         if (!(error <= p->error)) p->error = error;
