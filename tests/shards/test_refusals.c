@@ -97,13 +97,10 @@ static void samples_and_plans_are_checked(void **state) {
     froe_shard_records_free(&records);
 }
 
-static void steps_on_the_disk_are_checked(void **state) {
+static void buckets_are_checked(void **state) {
     (void)state;
     static const double corners[] = {0, 0, 1, 1};
     froe_shard_buckets *buckets;
-    froe_shard_draft *draft;
-    froe_shards_builder *builder;
-    bool replaced;
     NULLS(froe_shard_buckets_new(NULL, 1, NULL, &buckets, &why));
     NULLS(froe_shard_buckets_new(".", 1, NULL, NULL, &why));
     expect(froe_shard_buckets_new(".", 0, NULL, &buckets, &why), FROE_E_ARG, "Buckets are 1 to");
@@ -118,6 +115,12 @@ static void steps_on_the_disk_are_checked(void **state) {
     NULLS(froe_shard_buckets_take(buckets, 0, NULL, NULL, &why));
     expect(froe_shard_buckets_take(buckets, 1, take_none, NULL, &why), FROE_E_ARG, "no bucket 1");
     froe_shard_buckets_free(buckets), froe_shard_buckets_free(NULL);
+}
+
+static void drafts_are_checked(void **state) {
+    (void)state;
+    froe_shard_draft *draft;
+    bool replaced;
     NULLS(froe_shard_draft_begin(NULL, NULL, &draft, &why));
     NULLS(froe_shard_draft_begin("d.froes", NULL, NULL, &why));
     NULLS(froe_shard_draft_sync(NULL, 0, 1, &why));
@@ -135,6 +138,12 @@ static void steps_on_the_disk_are_checked(void **state) {
         expect(froe_shard_draft_begin(places[i], NULL, &draft, &why), FROE_E_IO, ": ");
     far[300] = 'a';
     expect(froe_shard_draft_begin(far, NULL, &draft, &why), FROE_E_IO, "name too long");
+}
+
+static void builders_are_checked(void **state) {
+    (void)state;
+    static const double corners[] = {0, 0, 1, 1};
+    froe_shards_builder *builder;
     NULLS(froe_shards_begin(NULL, 2, NULL, &builder, &why));
     NULLS(froe_shards_begin("d.froes", 2, NULL, NULL, &why));
     expect(froe_shards_begin("d.froes", 1, NULL, &builder, &why), FROE_E_ARG, "imension");
@@ -226,10 +235,9 @@ static void questions_are_checked(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(batches_are_checked),
-        cmocka_unit_test(samples_and_plans_are_checked),
-        cmocka_unit_test(steps_on_the_disk_are_checked),
-        cmocka_unit_test(questions_are_checked),
+        cmocka_unit_test(batches_are_checked),  cmocka_unit_test(samples_and_plans_are_checked),
+        cmocka_unit_test(buckets_are_checked),  cmocka_unit_test(drafts_are_checked),
+        cmocka_unit_test(builders_are_checked), cmocka_unit_test(questions_are_checked),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
