@@ -460,9 +460,7 @@ static void views(floats_run *r, void *user) {
         froe_order_options o = froe_order_defaults();
         double page[2] = {0, 0}, turns[16];
         uint32_t *pieces = calloc(3 * froe_tree_piece_count(tree) + 1, sizeof *pieces);
-        o.threads = 2;
-        o.progress = floats_progress;
-        o.user = r;
+        o.threads = 2, o.progress = floats_progress, o.user = r;
         for (int e = 0; e < 3; e++) MUST(r, froe_tree_order(tree, eyes + e, NULL, note_piece, r, NULL));
         MUST(r, froe_tree_orders(tree, eyes, 3, &o, pieces, NULL));
         MUST(r, froe_tree_order_nodes(tree, eyes, NULL, note_node, r, NULL));
