@@ -102,8 +102,8 @@ static int check_film(const render_args *args) {
     return 0;
 }
 
-/* Exact films follow corners: by a parallel eye all, and from a point what flies straight, or along parabolas if the eye
- * stands still. */
+/* Exact films follow corners that fly straight, along parabolas unless the eye is a point that goes around, and along
+ * cubics if the eye is parallel and stands still. */
 static int prepare_exactly(film_run *r) {
     const char *path = r->args->tree.scene.path;
     const int code = cli_replace_bodies(path, r->motion, r->args->moving.deviation, &r->replaced, &r->reached);

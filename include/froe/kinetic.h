@@ -69,8 +69,8 @@ FROE_API froe_status froe_motion_add_body(froe_motion *motion, const froe_body *
 
 /** A batch of moving objects, as arrays the caller keeps. In the plane, vertex v passes the points
  *     coords[2 i], coords[2 i + 1]  at  times[i],   i = starts[v] .. starts[v+1]-1,
- * in between on a straight line at constant speed, or, where controls[2 i], controls[2 i + 1] is not NaN, on
- * the parabola with that control point (Bezier's form):
+ * in between on a straight line at constant speed, or, where controls[2 i], controls[2 i + 1] is not NaN, on the
+ * parabola with that control point (Bezier's form):
  *     p(t) = ((t1-t)^2 p0 + 2 (t1-t)(t-t0) c + (t-t0)^2 p1) / (t1-t0)^2
  * so a body that starts at p0 with velocity v has c = p0 + v (t1-t0) / 2. Where second_controls[2 i],
  * second_controls[2 i + 1] is no NaN either, it moves on the cubic with both control points:
@@ -217,13 +217,13 @@ typedef bool froe_contact_fn(void *user, const froe_contact *contact);
 /** All contacts between moving objects, in the order of their beginnings (low, high, a, b). None is missed, however
  * short, grazing ones included: candidates come from boxes in space and time, times from the roots of exact polynomials
  * (degree up to 4 in the plane, 6 with bodies or cubics, 8 with both; in space 3, with bodies that turn 5, along
- * parabolas 6, of a body and a triangle whose corners fly along parabolas each for itself 8; of corners on cubics 9, and
- * with a body 10). Triangles may lie in one plane, and may have no area,
- * at an instant or always. Objects that share a vertex always meet there, and are left out (but see `neighbours`), as
- * are two of one body. options NULL: the defaults. FROE_E_OPTIONS: from > to, or outside the window. FROE_E_LIMIT: two
- * things happen within 2^-2047 of the time between two knots; or in space a vertex flies along a cubic, and numbers are
- * as wide as coordinates of 400 bits with times of 180. FROE_E_UNSUPPORTED: neighbours in the plane.
- * FROE_E_MEMORY, FROE_E_CANCELLED. O(n log^2 n + candidates). */
+ * parabolas 6, of a body and a triangle whose corners fly along parabolas each for itself 8, of corners on cubics 9,
+ * and with a body 10). Triangles may lie in one plane, and may have no area, at an instant or always. Objects that
+ * share a vertex always meet there, and are left out (but see `neighbours`), as are two of one body. options NULL: the
+ * defaults. FROE_E_OPTIONS: from > to, or outside the window. FROE_E_LIMIT: two things happen within 2^-2047 of the
+ * time between two knots; or in space a vertex flies along a cubic, and numbers are as wide as coordinates of 400 bits
+ * with times of 180. FROE_E_UNSUPPORTED: neighbours in the plane. FROE_E_MEMORY, FROE_E_CANCELLED.
+ * O(n log^2 n + candidates). */
 FROE_API froe_status froe_motion_contacts(const froe_motion *motion, const froe_contact_options *options,
                                           froe_contact_fn *fn, void *user, froe_diagnostic *diag);
 
@@ -252,14 +252,13 @@ FROE_DEFAULTS(froe_sight_options, froe_sight_defaults);
  * sees them. Each is a root of an exact polynomial of degree 12 at most. As long as what is seen is what `seen` says,
  * no change is missed where no triangles touch, and of triangles that touch none if they are at rest and among `pairs`;
  * froe_motion_contacts() tells when they do. There may be instants at which nothing changes. Those closer than
- * neighbouring doubles are one. From a point, corners and the eye may fly straight, and the eye may turn, or corners fly
- * along parabolas if the eye rests; a parallel eye may turn, and corners may fly along parabolas, too, or along cubics
- * if it does not turn. FROE_E_OPTIONS: not from _defaults(), times that are not in
- * order or not within the window of the motion, an eye that is nowhere. FROE_E_ARG: something is NULL. FROE_E_INPUT: a
- * pair is none at rest; the eye's plan does not cover the window; otherwise as froe_motion_add_body().
- * FROE_E_UNSUPPORTED: the motion is of the plane, an object is of a body, or an object or the eye flies otherwise.
- * FROE_E_LIMIT: two things happen within 2^-2047 of the time between two knots.
- * FROE_E_MEMORY. O(edges corners + candidates). */
+ * neighbouring doubles are one. Seen from a point, corners and the eye may fly along parabolas, or straight if the eye
+ * turns. A parallel eye may fly along parabolas and turn, and corners may fly along parabolas, or along cubics if the
+ * eye does not turn. FROE_E_OPTIONS: not from _defaults(), times that are not in order or not within the window of the
+ * motion, an eye that is nowhere. FROE_E_ARG: something is NULL. FROE_E_INPUT: a pair is none at rest; the eye's plan
+ * does not cover the window; otherwise as froe_motion_add_body(). FROE_E_UNSUPPORTED: the motion is of the plane, an
+ * object is of a body, or an object or the eye flies otherwise. FROE_E_LIMIT: two things happen within 2^-2047 of the
+ * time between two knots. FROE_E_MEMORY. O(edges corners + candidates). */
 FROE_API froe_status froe_motion_sights(const froe_motion *motion, const froe_sight_options *options, froe_sight_fn *fn,
                                         void *user, froe_diagnostic *diag);
 

@@ -458,11 +458,9 @@ static void views(floats_run *r, void *user) {
         froe_projection view;
         froe_camera cameras[3], camera = froe_camera_defaults();
         froe_order_options o = froe_order_defaults();
-        double page[2] = {0, 0};
+        double page[2] = {0, 0}, turns[16];
         uint32_t *pieces = calloc(3 * froe_tree_piece_count(tree) + 1, sizeof *pieces);
-        o.threads = 2;
-        o.progress = floats_progress;
-        o.user = r;
+        o.threads = 2, o.progress = floats_progress, o.user = r;
         for (int e = 0; e < 3; e++) MUST(r, froe_tree_order(tree, eyes + e, NULL, note_piece, r, NULL));
         MUST(r, froe_tree_orders(tree, eyes, 3, &o, pieces, NULL));
         MUST(r, froe_tree_order_nodes(tree, eyes, NULL, note_node, r, NULL));
@@ -472,6 +470,7 @@ static void views(floats_run *r, void *user) {
         for (int e = 0; e < 3; e++) ask_visibility(r, tree, surface, eyes + e);
         if (!ASK(r, froe_camera_turn(&camera, scene, 3, cameras, NULL)))
             for (int c = 0; c < 3; c++) floats_note(r, cameras[c].eye, 24);
+        if (!ASK(r, froe_camera_turns(&camera, 3, turns, NULL))) floats_note(r, turns, sizeof turns);
         if (!ASK(r, froe_camera_place(&camera, scene, &view, NULL))) {
             floats_note(r, view.window, sizeof view.window);
             TELL(r, froe_project(&view, froe_scene_vertex(scene, 0), page));

@@ -45,7 +45,7 @@ static void films(floats_run *r, void *user) {
     froe_render_options o = froe_render_defaults();
     froe_film_options film = froe_film_defaults();
     froe_camera cameras[2];
-    froe_motion *motion;
+    froe_motion *motion, *rest;
     froe_scene *scene;
     (void)user;
     o.alloc = &memory, o.progress = floats_progress, o.user = r;
@@ -58,7 +58,12 @@ static void films(floats_run *r, void *user) {
     floats_note(r, cameras[1].eye, sizeof cameras[1].eye);
     MUST(r, froe_motion_scene(motion, 0.1, &memory, &scene, NULL));
     floats_note(r, froe_scene_vertex(scene, 1), 3 * sizeof(double));
+    MUST(r, froe_motion_at_rest(scene, 0, 1, &memory, &rest, NULL));
+    film.turn = film.exact = true;
+    MUST(r, froe_film(rest, "turn.svg", &o, &film, NULL, NULL));
+    floats_note_file(r, "turn.svg");
     froe_scene_free(scene);
+    froe_motion_free(rest);
     froe_motion_free(motion);
 }
 

@@ -13,8 +13,8 @@ static double chance(void) {
 
 enum { REST, STRAIGHT, BENT, CUBIC, TETRAHEDRA, TANGLE };
 
-/* Triangles at rest, that fly straight, or (bent) along parabolas or cubics, each between planes of its own across y, so that
- * none touches another. Large ones are before small ones. */
+/* Triangles at rest, that fly straight, or (bent) along parabolas or cubics, each between planes of its own across y,
+ * so that none touches another. Large ones are before small ones. */
 static froe_motion *make_motion_of(uint64_t seed, int kind) {
     froe_motion *motion = NULL;
     froe_motion_options w = froe_motion_defaults();
@@ -279,14 +279,14 @@ static void eyes_that_move_see_changes_at_instants_alone(void **state) {
     const struct {
         int faces;
         bool parallel, flies, bent, turns;
-    } cases[] = {{REST, false, true, false, false},     {REST, false, true, true, false},
-                 {REST, false, false, false, true},     {REST, false, true, false, true},
-                 {REST, true, false, false, true},      {REST, true, true, true, true},
-                 {STRAIGHT, false, true, false, false}, {STRAIGHT, false, false, false, true},
-                 {STRAIGHT, true, true, true, true},    {BENT, false, false, false, false},
-                 {BENT, true, true, false, true},       {CUBIC, true, false, false, false},
-                 {CUBIC, true, true, true, false},      {TETRAHEDRA, false, false, false, true},
-                 {TETRAHEDRA, true, false, false, true}};
+    } cases[] = {{REST, false, true, false, false},       {REST, false, true, true, false},
+                 {REST, false, false, false, true},       {REST, false, true, false, true},
+                 {REST, true, false, false, true},        {REST, true, true, true, true},
+                 {STRAIGHT, false, true, false, false},   {STRAIGHT, false, false, false, true},
+                 {STRAIGHT, true, true, true, true},      {BENT, false, false, false, false},
+                 {BENT, false, true, true, false},        {BENT, true, true, false, true},
+                 {CUBIC, true, false, false, false},      {CUBIC, true, true, true, false},
+                 {TETRAHEDRA, false, false, false, true}, {TETRAHEDRA, true, false, false, true}};
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         unsigned changes = 0, gaps = 0;
         for (unsigned seed = 0; seed < 4; seed++) {

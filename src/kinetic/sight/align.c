@@ -50,8 +50,8 @@ static void widen_bits(const double *x, size_t count, int *unit, int *top) {
 }
 
 /* A coefficient is a product of six places and three of the eye. A place has a coordinate, and times up to five times:
- * three times for itself and twice for the centre of the eye; one where triangles cross has four coordinates. Of the eye there are
- * two quaternions, each with a time, and a place. */
+ * three times for itself and twice for the centre of the eye; one where triangles cross has four coordinates. Of the
+ * eye there are two quaternions, each with a time, and a place. */
 froe_status align_begin(align_room *room, const froe_motion *motion, const double *rest, size_t count, bool crossings) {
     enum { NUMBERS = 2500, CHAINS = 3, SPARE_BITS = 128 };
     const froe_motion *rig = room->gaze.rig;

@@ -370,12 +370,13 @@ static froe_status check_motion(const sight_search *s, froe_diagnostic *diag) {
                 if (degree * most + 2 * turn > NUM_DEGREE)
                     return support_fail_at(diag, FROE_E_UNSUPPORTED, i, FROE_NONE, FROE_NONE,
                                            "object %u: It flies along a %s can follow.", i,
-                                           degree == 2 ? "parabola, which only a parallel eye"
+                                           degree == 2 ? "parabola, which only a parallel eye or one that does not turn"
                                                        : "cubic, which only a parallel eye that does not turn");
             }
         }
     if (flight * most + 2 * turn <= NUM_DEGREE) return FROE_OK;
-    return support_fail(diag, FROE_E_UNSUPPORTED, "The eye flies along a parabola, which only a parallel eye can do.");
+    return support_fail(diag, FROE_E_UNSUPPORTED,
+                        "The eye turns and flies along a parabola, which only a parallel eye can do.");
 }
 
 /* Rays are quotients by the component in which the eye is farthest from a corner of the window; without a window, from
