@@ -10,7 +10,7 @@ typedef struct vector_output {
     uint64_t count;     /**< bytes so far */
     froe_status status; /**< the first failure, after which nothing is written: FROE_E_IO, FROE_E_MEMORY */
     size_t filled;      /**< of the buffer */
-    char buffer[1 << 13];
+    char buffer[1 << 11];
 } vector_output;
 
 void vector_put(vector_output *output, const void *bytes, size_t count);

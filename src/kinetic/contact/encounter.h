@@ -17,6 +17,7 @@ typedef struct encounter {
     const froe_motion *m;
     num_arena *arena;
     walk_room *w;
+    triangles_room *room;
     motion_piece piece[2][3];
     double origin[3];
     bool may_cross[6]; /**< edge i of the first the second; 3 + j: edge j of the second the first */

@@ -42,7 +42,8 @@ froe_status meet_worker_new(const froe_motion *m, meet_worker *out) {
     const size_t limbs = widest(m), numbers = is_turnless(m) ? NUMBERS : MORE_NUMBERS;
     const size_t chains = m->dim == 2 ? CHAINS : MORE_CHAINS;
     *out = (meet_worker){.room = support_calloc(&m->alloc, 1, sizeof *out->room)};
-    if (!out->room) return FROE_E_MEMORY;
+    if (m->dim == 3) out->shapes = support_calloc(&m->alloc, 1, meet_triangles_bytes());
+    if (!out->room || (m->dim == 3 && !out->shapes)) return FROE_E_MEMORY;
     return num_arena_reserve(&m->alloc, &out->arena,
                              numbers * limbs + chains * num_poly_arena(DEGREE, limbs, NUM_FRACTION_LIMBS));
 }
@@ -50,4 +51,5 @@ froe_status meet_worker_new(const froe_motion *m, meet_worker *out) {
 void meet_worker_free(const froe_motion *m, meet_worker *worker) {
     num_arena_free(&m->alloc, &worker->arena);
     support_free(&m->alloc, worker->room, sizeof *worker->room);
+    support_free(&m->alloc, worker->shapes, meet_triangles_bytes());
 }

@@ -26,12 +26,14 @@ typedef struct meet_stats {
 } meet_stats;
 
 typedef struct walk_room walk_room;
+typedef struct triangles_room triangles_room;
 
 /** What one thread needs. */
 typedef struct meet_worker {
     num_arena arena;
     meet_stats stats;
     walk_room *room;        /**< for polynomials and their roots */
+    triangles_room *shapes; /**< in space: for what these are made of; NULL in the plane */
     const meet_span *spans; /**< what was found */
     int span_count;
 } meet_worker;
@@ -48,4 +50,6 @@ froe_status meet_find(const froe_motion *m, meet_worker *worker, uint32_t p, uin
 /** The two kinds of objects, for meet.c. False: too close. */
 bool meet_segments(const froe_motion *m, meet_worker *worker, const motion_object *p, const motion_object *q);
 bool meet_triangles(const froe_motion *m, meet_worker *worker, const motion_object *p, const motion_object *q);
+/** Bytes of a triangles_room. */
+size_t meet_triangles_bytes(void);
 #endif

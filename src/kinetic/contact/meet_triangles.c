@@ -87,6 +87,21 @@ typedef struct ball_patch {
     int depth;
 } ball_patch;
 
+enum { MOST_HALVINGS = 4 };
+
+/* What one pair needs; large. */
+struct triangles_room {
+    trios_ball near;
+    num_ball_poly near_line[2][3];
+    ball_patch all, part, stack[MOST_HALVINGS + 1];
+    trios_dyadic exact;
+    num_poly line[2][3];
+};
+
+size_t meet_triangles_bytes(void) {
+    return sizeof(triangles_room);
+}
+
 /* Finds the signs that stay, and which edges may cross. False: none, nor can all corners be in one plane. */
 static bool may_meet(ball_patch *p) {
     bool may = p->may_be_flat = true;
@@ -116,57 +131,57 @@ static void take_half(const ball_patch *p, bool upper, ball_patch *half) {
 }
 
 /* The same for halves of halves of the time, one by one, until one of the least may hold a contact. */
-static bool may_meet_in_parts(const ball_patch *all) {
-    enum { MOST_HALVINGS = 4 };
-    ball_patch stack[MOST_HALVINGS + 1], p;
+static bool may_meet_in_parts(triangles_room *room) {
+    ball_patch *stack = room->stack, *p = &room->part;
     int count = 0;
-    take_half(all, true, &stack[count++]);
-    take_half(all, false, &stack[count++]);
+    take_half(&room->all, true, &stack[count++]);
+    take_half(&room->all, false, &stack[count++]);
     while (count) {
-        p = stack[--count];
-        if (!may_meet(&p)) continue;
-        if (p.depth == MOST_HALVINGS) return true;
-        take_half(&p, true, &stack[count++]);
-        take_half(&p, false, &stack[count++]);
+        *p = stack[--count];
+        if (!may_meet(p)) continue;
+        if (p->depth == MOST_HALVINGS) return true;
+        take_half(p, true, &stack[count++]);
+        take_half(p, false, &stack[count++]);
     }
     return false;
 }
 
 static bool surely_apart(encounter *g) {
-    trios_ball p;
-    ball_patch all = {.depth = 0};
-    num_ball_poly of[2][3];
-    for (int i = 0; i < 2; i++) shape_of_ball(NULL, g->m, g->piece[i], g->w, g->origin, &p.shape[i]);
-    finish_pair_ball(NULL, &p);
-    memcpy(all.sign, g->w->sign, sizeof all.sign);
+    trios_ball *p = &g->room->near;
+    ball_patch *all = &g->room->all;
+    num_ball_poly(*of)[3] = g->room->near_line;
+    all->depth = 0;
+    for (int i = 0; i < 2; i++) shape_of_ball(NULL, g->m, g->piece[i], g->w, g->origin, &p->shape[i]);
+    finish_pair_ball(NULL, p);
+    memcpy(all->sign, g->w->sign, sizeof all->sign);
     for (int i = 0; i < 2; i++) {
-        signed char *sign = all.sign + SIDES + 3 * i;
+        signed char *sign = all->sign + SIDES + 3 * i;
         for (int k = 0; k < 3; k++) {
-            num_ball_poly *side = &all.f[SIDES + 3 * i + k];
+            num_ball_poly *side = &all->f[SIDES + 3 * i + k];
             if (sign[k] != NUM_UNSURE) continue;
-            side_ball(NULL, &p, i, k, side);
+            side_ball(NULL, p, i, k, side);
             sign[k] = (signed char)num_ball_poly_sign_throughout(side);
         }
         if (sign[0] != NUM_UNSURE && sign[0] == sign[1] && sign[0] == sign[2]) return true;
     }
     for (int j = 0; j < 3; j++) {
-        line_ball(NULL, &p, j, of);
+        line_ball(NULL, p, j, of);
         for (int i = 0; i < 3; i++)
-            if (all.sign[PASSES + 3 * i + j] == NUM_UNSURE) pass_ball(NULL, p.shape, i, of, &all.f[PASSES + 3 * i + j]);
+            if (all->sign[PASSES + 3 * i + j] == NUM_UNSURE) pass_ball(NULL, p->shape, i, of, &all->f[PASSES + 3 * i + j]);
     }
-    memset(all.counts, true, sizeof all.counts);
-    memcpy(all.may_cross, g->may_cross, sizeof all.may_cross);
-    if (!may_meet(&all) || !may_meet_in_parts(&all)) return true;
-    memcpy(g->w->sign, all.sign, sizeof all.sign);
-    memcpy(g->may_cross, all.may_cross, sizeof all.may_cross);
-    g->may_be_flat = all.may_be_flat;
+    memset(all->counts, true, sizeof all->counts);
+    memcpy(all->may_cross, g->may_cross, sizeof all->may_cross);
+    if (!may_meet(all) || !may_meet_in_parts(g->room)) return true;
+    memcpy(g->w->sign, all->sign, sizeof all->sign);
+    memcpy(g->may_cross, all->may_cross, sizeof all->may_cross);
+    g->may_be_flat = all->may_be_flat;
     return false;
 }
 
 /* ------------------------------------------------------------------- exactly -- */
 
 static void take_in_space(const encounter *g, const trios_dyadic *p, const bool needed[IN_SPACE]) {
-    num_poly *f = g->w->f, of[2][3];
+    num_poly *f = g->w->f, (*of)[3] = g->room->line;
     for (int i = 0; i < 6; i++)
         if (needed[SIDES + i]) side_dyadic(g->arena, p, i / 3, i % 3, &f[SIDES + i]);
     for (int j = 0; j < 3; j++) {
@@ -209,16 +224,16 @@ static bool flat_at_times(const encounter *g) {
 static bool list_events(const encounter *g) {
     walk_room *w = g->w;
     bool needed[IN_SPACE] = {false}, told = true, always_flat = g->may_be_flat;
-    trios_dyadic p;
-    for (int i = 0; i < 2; i++) shape_of_dyadic(g->arena, g->m, g->piece[i], g->w, g->origin, &p.shape[i]);
-    finish_pair_dyadic(g->arena, &p);
+    trios_dyadic *p = &g->room->exact;
+    for (int i = 0; i < 2; i++) shape_of_dyadic(g->arena, g->m, g->piece[i], g->w, g->origin, &p->shape[i]);
+    finish_pair_dyadic(g->arena, p);
     for (int edge = 0; edge < 6; edge++) {
         int of[5];
         encounter_crossing_signs(edge, of);
         for (int i = 0; i < 5 && (g->may_cross[edge] || g->may_be_flat); i++)
             needed[of[i]] = w->sign[of[i]] == NUM_UNSURE;
     }
-    take_in_space(g, &p, needed);
+    take_in_space(g, p, needed);
     for (int i = 0; i < IN_SPACE; i++)
         if (needed[i]) {
             num_poly_trim(&w->f[i], w->f[i].degree);
@@ -227,7 +242,7 @@ static bool list_events(const encounter *g) {
     for (int i = 0; i < IN_SPACE && told && w->from < w->to && !always_flat; i++)
         if (needed[i]) told = walk_list(g->arena, w, i);
     if (!told || !(always_flat || flat_at_times(g))) return told;
-    take_in_plane(g, &p);
+    take_in_plane(g, p);
     for (int i = TURNS; i < ALL_SIGNS && told && w->from < w->to && always_flat; i++) told = walk_list(g->arena, w, i);
     return told;
 }
@@ -295,7 +310,7 @@ static bool do_meet(void *user, const walk_moment *at) {
 }
 
 bool meet_triangles(const froe_motion *m, meet_worker *worker, const motion_object *p, const motion_object *q) {
-    encounter g = {.m = m, .arena = &worker->arena, .w = worker->room};
+    encounter g = {.m = m, .arena = &worker->arena, .w = worker->room, .room = worker->shapes};
     for (int i = 0; i < 3; i++) {
         g.piece[0][i] = motion_piece_at_time(m, p->vertices[i], g.w->from);
         g.piece[1][i] = motion_piece_at_time(m, q->vertices[i], g.w->from);

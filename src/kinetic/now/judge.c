@@ -6,15 +6,15 @@
  * vertices at this tick; the formulas are those of poly_body.inc. */
 #include "kinetic/now/turning.h"
 
-enum { SHORT_BITS = 126, WIDE_BITS = NUM_WIDE_BITS - 1, VERTICES = 8 };
+enum { SHORT_BITS = 126, WIDE_BITS = NUM_WIDE_BITS - 1 };
 
 /* The vertices of a question, at the tick or as polynomials in ticks from it on, as integers: |x|, |y| <= 2^place and
  * |w| <= 2^weight, all coefficients alike. */
 typedef struct judge_cast {
     now_state *now;
     bool along;
-    uint32_t vertex[VERTICES];
-    motion_whole_curve curve[VERTICES];
+    uint32_t vertex[NOW_POINTS];
+    motion_whole_curve curve[NOW_POINTS];
     int count, degree, place, weight;
     bool turning; /* one of them is of a body */
 } judge_cast;
@@ -195,7 +195,7 @@ typedef struct judge_question {
 } judge_question;
 
 static int judge_short(const judge_cast *c, const judge_question *ask) {
-    short_point v[VERTICES];
+    short_point *v = c->now->points->narrow;
     for (int i = 0; i < c->count; i++) {
         const motion_whole_curve *from = c->curve + i;
         v[i].x.degree = v[i].y.degree = v[i].z.degree = terms_of(c, i) - 1;
@@ -210,7 +210,7 @@ static int judge_short(const judge_cast *c, const judge_question *ask) {
 }
 
 static int judge_wide(const judge_cast *c, const judge_question *ask) {
-    wide_point v[VERTICES];
+    wide_point *v = c->now->points->wide;
     wide_points(c, v);
     if (ask->what == JUDGE_ORDER) return wide_order_sign(v, ask->count, ask->both);
     if (ask->what == JUDGE_VOLUME) return wide_volume_sign(v);
@@ -240,7 +240,7 @@ static int judge_turning(const judge_cast *c, const judge_question *ask) {
 
 static int judge_dyadic(const judge_cast *c, const judge_question *ask) {
     num_arena *arena = &c->now->context.arena;
-    exact_point v[VERTICES];
+    exact_point *v = c->now->points->exact;
     if (c->turning) return judge_turning(c, ask);
     dyadic_points(c, v);
     if (ask->what == JUDGE_ORDER) return exact_order_sign(arena, v, ask->count, ask->both);
@@ -325,7 +325,7 @@ void now_claim_exact(now_state *now, const now_claim *claim, int axis, poly_exac
     }
     judge_cast c = {.now = now, .along = true};
     int count[2];
-    exact_point v[VERTICES];
+    exact_point *v = now->points->exact;
     cast_claim(&c, claim, count);
     if (!c.turning) dyadic_points(&c, v);
     if (c.turning)
@@ -350,7 +350,7 @@ bool now_claim_wide(now_state *now, const now_claim *claim, int axis, int64_t sp
     judge_cast c = {.now = now, .along = true};
     int count[2], length = 64 - __builtin_clzll((uint64_t)span | 1) + 1;
     const bool lines = claim->q.b == NAME_NONE, side = lines || claim->p.b == NAME_SEGMENT;
-    wide_point v[VERTICES];
+    wide_point *v = now->points->wide;
     if (claim->above == NOW_ALONG) return false;
     cast_claim(&c, claim, count);
     if (!cast_integers(&c)) return false;

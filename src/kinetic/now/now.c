@@ -9,7 +9,8 @@ froe_status now_new(froe_motion *motion, const froe_allocator *alloc, now_state 
     froe_status status = geom_context_new(alloc, &now.context);
     if (status) return status;
     now.memories = support_calloc(&now.context.alloc, NOW_MEMORIES, sizeof *now.memories);
-    if (!now.memories || num_arena_reserve(&now.context.alloc, &now.context.arena, POLY_LIMBS) || now_grow(&now)) {
+    now.points = support_calloc(&now.context.alloc, 1, sizeof *now.points);
+    if (!now.memories || !now.points || num_arena_reserve(&now.context.alloc, &now.context.arena, POLY_LIMBS) || now_grow(&now)) {
         now_free(&now);
         return FROE_E_MEMORY;
     }
@@ -24,6 +25,7 @@ void now_free(now_state *now) {
     array_free(alloc, &now->segments);
     array_free(alloc, &now->faces);
     support_free(alloc, now->memories, NOW_MEMORIES * sizeof *now->memories);
+    support_free(alloc, now->points, sizeof *now->points);
     num_context_free(&now->context);
 }
 

@@ -71,6 +71,14 @@ typedef struct now_face {
 /** The numbers that decide where doubles do not: integers of 128 bits, of 320, or dyadic numbers (judge.c). */
 typedef enum now_stage { NOW_SHORT, NOW_WIDE, NOW_DYADIC, NOW_STAGES } now_stage;
 
+/** The vertices of a question, in one kind of number; large. */
+enum { NOW_POINTS = 8 };
+typedef union now_points {
+    short_point narrow[NOW_POINTS];
+    wide_point wide[NOW_POINTS];
+    exact_point exact[NOW_POINTS];
+} now_points;
+
 typedef struct now_state {
     froe_motion *motion;
     uint64_t edition; /**< of the motion when courses, bends and memories were computed */
@@ -86,6 +94,7 @@ typedef struct now_state {
     now_memory *memories;        /**< of crossings, by a hash of their names */
     num_context context;
     now_stage least;             /**< where judging begins; tests begin with each */
+    now_points *points;          /**< of the question that is judged */
     uint64_t judged[NOW_STAGES]; /**< questions that doubles left open, by the stage that decided them */
     bool lost;                   /**< the crossing of parallel lines was asked for */
     bool tied;                   /**< a comparison was equal at the tick, and perhaps not just after it */
