@@ -126,7 +126,7 @@ static int check_one_file(const cli_output *out) {
 
 /* Returns an exit code. */
 static int copy_output(const cli_output *out) {
-    char buffer[1 << 16];
+    char buffer[1 << 14];
     ssize_t got, put = 0;
     const int in = open(out->copy, O_RDONLY | O_CLOEXEC);
     if (in < 0) return cli_fail_file(CLI_RESOURCES, out->copy, "read");

@@ -12,7 +12,7 @@
 
 /* Copies until the input ends. Exit code. */
 static int copy_input(FILE *in, const char *name, const char *copy) {
-    char buffer[1 << 16];
+    char buffer[1 << 14];
     size_t got = 0;
     int code = 0;
     FILE *out = fopen(copy, "wb");

@@ -2,6 +2,8 @@
 #include "command.h"
 #include "exit.h"
 #include "queries/queries.h"
+#include "support/fail.h"
+#include <stdlib.h>
 
 typedef struct locate_args {
     cli_common common;
@@ -49,19 +51,24 @@ static void put_all_finds(froe_shards *shards, const froe_finds *objects, const 
 }
 
 /* A block of points asked of a folder. */
+static froe_status answer_vertical_by_shards(const locate_args *args, const cli_asked *asked, const cli_block *block,
+                                             cli_table *out, froe_diagnostic *diag) {
+    froe_find *firsts = malloc(block->count * sizeof *firsts + 1);
+    if (!firsts) return support_fail_memory(diag);
+    const froe_status status = froe_shards_vertical(asked->shards, cli_block_numbers(block), block->count,
+                                                    args->above ? 1 : -1, &asked->batch, firsts, diag);
+    if (!status) cli_table_put_firsts(out, firsts, block->count, args->query.count);
+    free(firsts);
+    return status;
+}
+
 static froe_status answer_by_shards(const locate_args *args, const cli_asked *asked, const cli_block *block,
                                     cli_table *out, froe_diagnostic *diag) {
     const double *points = cli_block_numbers(block);
     const bool areas = asked->dim == 2 && froe_scene_group_count(asked->scene) > 0;
-    froe_find firsts[CLI_BLOCK];
     froe_finds objects = {0}, groups = {0};
     froe_status status = FROE_OK;
-    if (args->above || args->below) {
-        status = froe_shards_vertical(asked->shards, points, block->count, args->above ? 1 : -1, &asked->batch, firsts,
-                                      diag);
-        if (!status) cli_table_put_firsts(out, firsts, block->count, args->query.count);
-        return status;
-    }
+    if (args->above || args->below) return answer_vertical_by_shards(args, asked, block, out, diag);
     if (!args->groups) status = froe_shards_locate(asked->shards, points, block->count, &asked->batch, &objects, diag);
     if (!status && (args->groups || (areas && !args->query.count)))
         status = froe_shards_groups(asked->shards, points, block->count, &asked->batch, &groups, diag);

@@ -36,8 +36,9 @@ static const cli_part parts[] = {CLI_TREE_PART(ray_args),
 /* Rays asked of a folder. */
 static froe_status answer_by_shards(const ray_args *args, const cli_asked *asked, const double *origins,
                                     const double *directions, size_t count, cli_table *out, froe_diagnostic *diag) {
-    froe_find firsts[CLI_BLOCK];
     froe_finds all = {0};
+    froe_find *firsts = malloc(count * sizeof *firsts + 1);
+    if (!firsts) return support_fail_memory(diag);
     const froe_status status =
         args->all
             ? froe_shards_ray_all(asked->shards, origins, directions, count, args->t_max, &asked->batch, &all, diag)
@@ -45,6 +46,7 @@ static froe_status answer_by_shards(const ray_args *args, const cli_asked *asked
     if (!status && args->all) cli_table_put_finds(out, &all, args->query.count);
     if (!status && !args->all) cli_table_put_firsts(out, firsts, count, args->query.count);
     froe_finds_free(&all);
+    free(firsts);
     return status;
 }
 

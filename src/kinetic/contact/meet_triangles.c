@@ -167,7 +167,8 @@ static bool surely_apart(encounter *g) {
     for (int j = 0; j < 3; j++) {
         line_ball(NULL, p, j, of);
         for (int i = 0; i < 3; i++)
-            if (all->sign[PASSES + 3 * i + j] == NUM_UNSURE) pass_ball(NULL, p->shape, i, of, &all->f[PASSES + 3 * i + j]);
+            if (all->sign[PASSES + 3 * i + j] == NUM_UNSURE)
+                pass_ball(NULL, p->shape, i, of, &all->f[PASSES + 3 * i + j]);
     }
     memset(all->counts, true, sizeof all->counts);
     memcpy(all->may_cross, g->may_cross, sizeof all->may_cross);

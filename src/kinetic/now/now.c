@@ -10,7 +10,8 @@ froe_status now_new(froe_motion *motion, const froe_allocator *alloc, now_state 
     if (status) return status;
     now.memories = support_calloc(&now.context.alloc, NOW_MEMORIES, sizeof *now.memories);
     now.points = support_calloc(&now.context.alloc, 1, sizeof *now.points);
-    if (!now.memories || !now.points || num_arena_reserve(&now.context.alloc, &now.context.arena, POLY_LIMBS) || now_grow(&now)) {
+    if (!now.memories || !now.points || num_arena_reserve(&now.context.alloc, &now.context.arena, POLY_LIMBS) ||
+        now_grow(&now)) {
         now_free(&now);
         return FROE_E_MEMORY;
     }
