@@ -140,6 +140,25 @@ test("objects that move, their places, and a partition that is asked and changed
     assert.throws(() => plane.addBody({ times: [0], coords: [0] }), TypeError);
 });
 
+test("vertices fly straight, along parabolas and along cubics", () => {
+    const meets = (more) => { // -1 + 8 t, -1 + 8 t^2 or -1 + 8 t^3 is 0
+        const motion = froe.motion({ begin: 0, end: 1 });
+        motion.add({ starts: [0, 2, 4], times: [0, 1, 0, 1], coords: [0, -1, 0, 7, 0, -1, 0, 7], ...more });
+        motion.add({ starts: [0, 2, 4], times: [0, 1, 0, 1], coords: [-1, 0, -1, 0, 1, 0, 1, 0] });
+        const again = froe.readMotion("again.json", motion.write()).contacts().begins;
+        assert.deepEqual(motion.contacts().begins, again);
+        return again;
+    };
+    const low = [0, -1, 0, -1, 0, -1, 0, -1], none = new Array(8).fill(NaN);
+    assert.deepEqual([...meets({})], [0.125, 0.125]);
+    const [before, after] = meets({ controls: low });
+    assert.ok(before <= Math.SQRT1_2 / 2 && Math.SQRT1_2 / 2 <= after && after - before < 1e-15);
+    assert.deepEqual([...meets({ controls: low, secondControls: none })], [before, after]);
+    assert.deepEqual([...meets({ controls: low, secondControls: low })], [0.5, 0.5]);
+    assert.throws(() => meets({ secondControls: low }), (error) => error.status === "FROE_E_INPUT");
+    assert.throws(() => meets({ controls: low, secondControls: [1] }), TypeError);
+});
+
 test("events in space are about edges of triangles, as seen from above", () => {
     const motion = froe.motion({ dim: 3, begin: 0, end: 8 });
     motion.add({ starts: [0, 1, 2, 3], times: [0, 0, 0], coords: [0, 0, 0, 4, 0, 0, 0, 4, 0] });

@@ -88,7 +88,7 @@ froe_status gaze_begin(gaze *g, const froe_motion *m, const froe_sight_options *
     for (int k = 0; k < 3; k++)
         if (!isfinite(g->at[k]))
             return support_fail(diag, FROE_E_OPTIONS, "option 'at': Coordinate %d is not a finite number.", k);
-    if (g->parallel && !g->at[0] && !g->at[1] && !g->at[2])
+    if (g->parallel && g->at[0] == 0 && g->at[1] == 0 && g->at[2] == 0)
         return support_fail(diag, FROE_E_OPTIONS, "option 'at': The direction towards a parallel eye is 0.");
     return o->body ? make_rig(g, m, o->body, diag) : FROE_OK;
 }
