@@ -71,8 +71,8 @@ typedef struct now_face {
 /** The numbers that decide where doubles do not: integers of 128 bits, of 320, or dyadic numbers (judge.c). */
 typedef enum now_stage { NOW_SHORT, NOW_WIDE, NOW_DYADIC, NOW_STAGES } now_stage;
 
-/** The vertices of a question, in one kind of number; large. */
 enum { NOW_POINTS = 8 };
+/** The vertices of a question, in one kind of number; large. */
 typedef union now_points {
     short_point narrow[NOW_POINTS];
     wide_point wide[NOW_POINTS];
