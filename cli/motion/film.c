@@ -89,7 +89,7 @@ static int check_film(const render_args *args) {
     const bool many = args->frames || args->turntable;
     if (args->tree.method || args->tree.save || args->section.count)
         return cli_fail(CLI_USE, NULL,
-                        "--method, --save-tree, --section: A moving model has a tree of its own at each instant.");
+                        "--method, --save-tree, --section: A model that moves or is filmed has trees of its own.");
     if (!isnan(args->at) && (many || args->animate))
         return cli_fail(CLI_USE, NULL, "--at: It is one picture, and excludes --frames, --turntable and --animate.");
     if (args->exact && !args->animate) return cli_fail(CLI_USE, NULL, "--exact: It is for --animate.");
