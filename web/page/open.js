@@ -87,8 +87,8 @@ async function bareScene(froe, source) {
     if (source.made) return froe.generate(...source.made);
     if (source.bytes) return froe.read(source.name, source.bytes, { files: source.files });
     const scene = await froe.scene(3);
-    const added = source.groups.map((group) => scene.addGroup(group));
-    await scene.add({ kind: "polygon", coords: source.coords, groups: source.groupOf });
-    await Promise.all(added);
+    // All at once: if the worker ends, each of these is refused, and none may be left without a handler.
+    await Promise.all([...source.groups.map((group) => scene.addGroup(group)),
+        scene.add({ kind: "polygon", coords: source.coords, groups: source.groupOf })]);
     return scene;
 }
