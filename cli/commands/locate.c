@@ -50,7 +50,7 @@ static void put_all_finds(froe_shards *shards, const froe_finds *objects, const 
     }
 }
 
-/* A block of points asked of a folder. */
+/* The first object above or below each point of a block, asked of a folder. */
 static froe_status answer_vertical_by_shards(const locate_args *args, const cli_asked *asked, const cli_block *block,
                                              cli_table *out, froe_diagnostic *diag) {
     froe_find *firsts = malloc(block->count * sizeof *firsts + 1);
@@ -62,6 +62,7 @@ static froe_status answer_vertical_by_shards(const locate_args *args, const cli_
     return status;
 }
 
+/* A block of points asked of a folder. */
 static froe_status answer_by_shards(const locate_args *args, const cli_asked *asked, const cli_block *block,
                                     cli_table *out, froe_diagnostic *diag) {
     const double *points = cli_block_numbers(block);

@@ -1,6 +1,5 @@
-/* test_refusals.c: every step of building a folder of shards, and every question to one, with arguments
- * that are none: FROE_E_ARG or another status
- * with a sentence, and nothing is changed. */
+/* test_refusals.c: every step of building a folder of shards, and every question to one, with arguments that
+ * are none: FROE_E_ARG or another status with a sentence, and nothing is changed. */
 #include "folders.h"
 #include <math.h>
 #include <unistd.h>

@@ -37,8 +37,8 @@ bool meet_is_too_wide(const froe_motion *m) {
 
 froe_status meet_worker_new(const froe_motion *m, meet_worker *out) {
     enum { NUMBERS = 800, MORE_NUMBERS = 12000, CHAINS = 4, MORE_CHAINS = 3, DEGREE = 10 };
-    /* In space: what one step of a chain needs, and twice as much again: 15 chains of degree 8, or 81 of degree 6, keep
-     * less. */
+    /* In space: what one step of a chain of that degree needs, and twice as much again: 15 chains of degree 8, or 81 of
+     * degree 6, keep less. */
     const size_t limbs = widest(m), numbers = is_turnless(m) ? NUMBERS : MORE_NUMBERS;
     const size_t chains = m->dim == 2 ? CHAINS : MORE_CHAINS;
     *out = (meet_worker){.room = support_calloc(&m->alloc, 1, sizeof *out->room)};
