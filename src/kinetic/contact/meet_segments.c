@@ -12,22 +12,14 @@
 
 enum { TURNS = 4, GAPS = 8 /* the polynomials, in this order */ };
 
-#define T num_ball
+#include "num/ball_terms.inc"
 #define CURVE motion_ball_curve
 #define POLY num_ball_poly
-#define FORMULA(f) f##_ball
-#define ADD(a, b) num_ball_add(a, b)
-#define SUB(a, b) num_ball_sub(a, b)
-#define MUL(a, b) num_ball_mul(a, b)
 #include "kinetic/contact/segments_body.inc"
 
-#define T num_dyadic
+#include "num/dyadic_terms.inc"
 #define CURVE motion_dyadic_curve
 #define POLY num_poly
-#define FORMULA(f) f##_dyadic
-#define ADD(a, b) num_dyadic_add(arena, a, b)
-#define SUB(a, b) num_dyadic_sub(arena, a, b)
-#define MUL(a, b) num_dyadic_mul(arena, a, b)
 #include "kinetic/contact/segments_body.inc"
 
 typedef struct meeting {

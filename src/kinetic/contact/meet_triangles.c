@@ -17,6 +17,7 @@
  * Degrees in time: corners on straight lines 3, bodies that turn 5, either along parabolas 6, corners on parabolas of
  * their own and a body that turns 8. */
 #include "kinetic/contact/encounter.h"
+#include "kinetic/motion/products.h"
 #include <string.h>
 
 /* Do the pieces of all corners have one degree, and begin and end together? */
@@ -28,30 +29,16 @@ static bool same_times(const motion_piece piece[3]) {
     return true;
 }
 
-#define T num_ball
+#include "num/ball_terms.inc"
 #define CURVE motion_ball_curve
 #define POLY num_ball_poly
-#define FORMULA(f) f##_ball
-#define ADD(a, b) num_ball_add(a, b)
-#define SUB(a, b) num_ball_sub(a, b)
-#define MUL(a, b) num_ball_mul(a, b)
-#define FROM(x) num_ball_from(x)
-#define MARK (void)arena
-#define KEEP(a) (a)
 #define SPAN(m, piece, from, to, out) motion_span_ball(m, piece, from, to, out)
 #define TURN(m, piece, from, to, out) motion_turn_ball(m, piece, from, to, out)
 #include "kinetic/contact/triangles_body.inc"
 
-#define T num_dyadic
+#include "num/dyadic_terms.inc"
 #define CURVE motion_dyadic_curve
 #define POLY num_poly
-#define FORMULA(f) f##_dyadic
-#define ADD(a, b) num_dyadic_add(arena, a, b)
-#define SUB(a, b) num_dyadic_sub(arena, a, b)
-#define MUL(a, b) num_dyadic_mul(arena, a, b)
-#define FROM(x) num_dyadic_from(arena, x)
-#define MARK const size_t mark = arena->top
-#define KEEP(a) num_dyadic_keep(arena, mark, a)
 #define SPAN(m, piece, from, to, out) motion_span_dyadic(arena, m, piece, from, to, out)
 #define TURN(m, piece, from, to, out) motion_turn_dyadic(arena, m, piece, from, to, out)
 #define EXACT

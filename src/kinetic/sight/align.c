@@ -2,37 +2,23 @@
 #include "kinetic/sight/align.h"
 #include <math.h>
 
-#define T num_ball
+#include "num/ball_terms.inc"
 #define POLY num_ball_poly
 #define GAZE gaze_ball
 #define PLACE align_ball_place
 #define LINE align_ball_line
 #define PAIR align_ball_pair
 #define CURVE motion_ball_curve
-#define FORMULA(f) f##_near
-#define FROM(x) num_ball_from(x)
-#define ADD(a, b) num_ball_add(a, b)
-#define SUB(a, b) num_ball_sub(a, b)
-#define MUL(a, b) num_ball_mul(a, b)
-#define MARK (void)arena
-#define KEEP(a) (a)
 #define SPAN(m, piece, from, to, out) motion_span_ball(m, piece, from, to, out)
 #include "kinetic/sight/align_body.inc"
 
-#define T num_dyadic
+#include "num/dyadic_terms.inc"
 #define POLY num_poly
 #define GAZE gaze_exact
 #define PLACE align_exact_place
 #define LINE align_exact_line
 #define PAIR align_exact_pair
 #define CURVE motion_dyadic_curve
-#define FORMULA(f) f##_exact
-#define FROM(x) num_dyadic_from(arena, x)
-#define ADD(a, b) num_dyadic_add(arena, a, b)
-#define SUB(a, b) num_dyadic_sub(arena, a, b)
-#define MUL(a, b) num_dyadic_mul(arena, a, b)
-#define MARK const size_t mark = arena->top
-#define KEEP(a) num_dyadic_keep(arena, mark, a)
 #define SPAN(m, piece, from, to, out) motion_span_dyadic(arena, m, piece, from, to, out)
 #include "kinetic/sight/align_body.inc"
 
@@ -84,27 +70,27 @@ void align_go(align_room *room, double from, double to) {
 }
 
 void align_place(const align_room *room, align_point *point) {
-    seen_place_near(NULL, room, &room->near, point, &point->near);
+    seen_place_ball(NULL, room, &room->near, point, &point->near);
 }
 
 void align_line(const align_room *room, align_edge *edge) {
     if (edge->end[0]->carried)
-        carried_line_near(NULL, room, &room->near, edge->end, &edge->near);
+        carried_line_ball(NULL, room, &room->near, edge->end, &edge->near);
     else
-        line_of_near(NULL, &room->near, &edge->end[0]->near, &edge->end[1]->near, &edge->near);
+        line_of_ball(NULL, &room->near, &edge->end[0]->near, &edge->end[1]->near, &edge->near);
 }
 
 void align_two(const align_room *room, align_pair *pair) {
-    pair_of_near(NULL, &room->near, &pair->edge[0]->near, &pair->edge[1]->near, &pair->near);
+    pair_of_ball(NULL, &room->near, &pair->edge[0]->near, &pair->edge[1]->near, &pair->near);
 }
 
 static void exact_line(align_room *room, const align_edge *edge, align_exact_line *out) {
     if (edge->end[0]->carried) {
-        carried_line_exact(&room->arena, room, &room->exactly, edge->end, out);
+        carried_line_dyadic(&room->arena, room, &room->exactly, edge->end, out);
         return;
     }
-    for (int i = 0; i < 2; i++) seen_place_exact(&room->arena, room, &room->exactly, edge->end[i], room->places + i);
-    line_of_exact(&room->arena, &room->exactly, room->places, room->places + 1, out);
+    for (int i = 0; i < 2; i++) seen_place_dyadic(&room->arena, room, &room->exactly, edge->end[i], room->places + i);
+    line_of_dyadic(&room->arena, &room->exactly, room->places, room->places + 1, out);
 }
 
 /* ------------------------------------------------------------------------ rays -- */
@@ -117,22 +103,22 @@ void align_ray(const align_room *room, const align_point *point, num_ball_poly r
     int k = 0;
     for (int i = 0; i < 3; i++) {
         for (int j = 0; j < 3; j++) back[i][j] = room->near.turn[j][i];
-        a[i] = constant_near(num_ball_from(g->rig || g->parallel ? g->at[i] : 0));
+        a[i] = constant_ball(num_ball_from(g->rig || g->parallel ? g->at[i] : 0));
         if (fabs(g->at[i]) > fabs(g->at[k])) k = i;
     }
-    for (int i = 0; i < 3; i++) scalar_product_near(NULL, back[i], point->near.x, &turned[i]);
-    product_near(NULL, &room->near.square, &point->near.w, &scale);
-    const num_ball_poly one = constant_near(num_ball_from(1));
+    for (int i = 0; i < 3; i++) scalar_product_ball(NULL, back[i], point->near.x, &turned[i]);
+    product_ball(NULL, &room->near.square, &point->near.w, &scale);
+    const num_ball_poly one = constant_ball(num_ball_from(1));
     for (int i = 0; i < 3 && !g->parallel; i++) {
-        const term_near term[] = {{&scale, &a[i], false}, {&turned[i], &one, true}};
-        sum_products_near(NULL, term, 2, &ray[i]);
+        const term_ball term[] = {{&scale, &a[i], false}, {&turned[i], &one, true}};
+        sum_products_ball(NULL, term, 2, &ray[i]);
     }
     for (int i = 0; i < 2 && g->parallel; i++) {
         const int at = (k + 1 + i) % 3;
-        const term_near term[] = {{&turned[at], &a[k], false}, {&turned[k], &a[at], true}};
-        sum_products_near(NULL, term, 2, &ray[i]);
+        const term_ball term[] = {{&turned[at], &a[k], false}, {&turned[k], &a[at], true}};
+        sum_products_ball(NULL, term, 2, &ray[i]);
     }
-    if (g->parallel) product_near(NULL, &scale, &a[k], &ray[2]);
+    if (g->parallel) product_ball(NULL, &scale, &a[k], &ray[2]);
 }
 
 /* The eye at an instant. */
@@ -246,12 +232,12 @@ bool align_pass(align_room *room, const align_point *point, const align_edge *ed
     num_ball_poly near;
     num_poly f;
     *found = 0;
-    pass_plane_near(NULL, &point->near, &edge->near, &near);
+    pass_plane_ball(NULL, &point->near, &edge->near, &near);
     if (surely_none(&near)) return true;
     begin_exact(room);
     exact_line(room, edge, room->lines);
-    seen_place_exact(&room->arena, room, &room->exactly, point, room->places);
-    pass_plane_exact(&room->arena, room->places, room->lines, &f);
+    seen_place_dyadic(&room->arena, room, &room->exactly, point, room->places);
+    pass_plane_dyadic(&room->arena, room->places, room->lines, &f);
     return find_roots(room, &f, (align_case){point, &edge}, out, found);
 }
 
@@ -259,8 +245,8 @@ bool align_pass(align_room *room, const align_point *point, const align_edge *ed
 __attribute__((noinline)) static void exact_meet(align_room *room, const align_edge *const edge[3], num_poly *f) {
     begin_exact(room);
     for (int i = 0; i < 3; i++) exact_line(room, edge[i], room->lines + i);
-    pair_of_exact(&room->arena, &room->exactly, room->lines, room->lines + 1, &room->pair);
-    meet_exact(&room->arena, &room->pair, room->lines + 2, f);
+    pair_of_dyadic(&room->arena, &room->exactly, room->lines, room->lines + 1, &room->pair);
+    pass_pair_dyadic(&room->arena, &room->pair, room->lines + 2, f);
 }
 
 bool align_meet(align_room *room, const align_pair *pair, const align_edge *third, meet_time *out, int *found) {
@@ -268,7 +254,7 @@ bool align_meet(align_room *room, const align_pair *pair, const align_edge *thir
     num_ball_poly near;
     num_poly f;
     *found = 0;
-    meet_near(NULL, &pair->near, &third->near, &near);
+    pass_pair_ball(NULL, &pair->near, &third->near, &near);
     if (surely_none(&near)) return true;
     exact_meet(room, edge, &f);
     return find_roots(room, &f, (align_case){NULL, edge}, out, found);

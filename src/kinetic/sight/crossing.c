@@ -1,18 +1,5 @@
 /* crossing.c: see crossing.h. */
 #include "kinetic/sight/crossing.h"
-#include "num/poly.h"
-
-#define T num_dyadic
-#define POLY num_poly
-#define CURVE motion_dyadic_curve
-#define FORMULA(f) f##_crossing
-#define FROM(x) num_dyadic_from(arena, x)
-#define ADD(a, b) num_dyadic_add(arena, a, b)
-#define SUB(a, b) num_dyadic_sub(arena, a, b)
-#define MUL(a, b) num_dyadic_mul(arena, a, b)
-#define MARK const size_t mark = arena->top
-#define KEEP(a) num_dyadic_keep(arena, mark, a)
-#include "kinetic/sight/crossing_body.inc"
 
 enum { ENDS = 6 };
 
@@ -24,7 +11,7 @@ size_t crossing_arena(int unit, int top) {
 
 static int side_of_face(num_arena *arena, const double *const face[3], const double *p) {
     const size_t mark = arena->top;
-    const int sign = volume_crossing(arena, face, p).sign;
+    const int sign = volume_dyadic(arena, face, p).sign;
     arena->top = mark;
     return sign;
 }
@@ -58,8 +45,8 @@ static int add_ends(num_arena *arena, const double *const a[3], const double *co
 static int compare_crossings(num_arena *arena, const crossing_end *p, const crossing_end *q, int axis) {
     const size_t mark = arena->top;
     motion_dyadic_curve at[2];
-    cross_at_crossing(arena, p, &at[0]);
-    cross_at_crossing(arena, q, &at[1]);
+    cross_at_dyadic(arena, p, &at[0]);
+    cross_at_dyadic(arena, q, &at[1]);
     const num_dyadic first = axis == 0 ? at[0].x[0] : axis == 1 ? at[0].y[0] : at[0].z[0];
     const num_dyadic last = axis == 0 ? at[1].x[0] : axis == 1 ? at[1].y[0] : at[1].z[0];
     const int sign = num_dyadic_compare(num_dyadic_mul(arena, last, at[0].w), num_dyadic_mul(arena, first, at[1].w));

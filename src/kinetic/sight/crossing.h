@@ -8,6 +8,7 @@
 #ifndef FROE_KINETIC_CROSSING_H
 #define FROE_KINETIC_CROSSING_H
 #include "kinetic/motion/motion.h"
+#include "kinetic/motion/products.h"
 
 /** The end of a crossing: an edge, and the triangle that it passes from below. */
 typedef struct crossing_end {
@@ -19,4 +20,12 @@ typedef struct crossing_end {
 bool crossing_find(num_arena *arena, const double *const a[3], const double *const b[3], crossing_end out[2]);
 /** Limbs for coordinates that are multiples of 2^unit below 2^top. */
 size_t crossing_arena(int unit, int top);
+
+#include "num/ball_terms.inc"
+#define CURVE motion_ball_curve
+#include "kinetic/sight/crossing_body.inc"
+
+#include "num/dyadic_terms.inc"
+#define CURVE motion_dyadic_curve
+#include "kinetic/sight/crossing_body.inc"
 #endif

@@ -1,43 +1,30 @@
 /* gaze.c: see gaze.h. */
 #include "kinetic/sight/gaze.h"
+#include "kinetic/motion/products.h"
 #include "support/fail.h"
 
-#define T num_ball
+#include "num/ball_terms.inc"
 #define POLY num_ball_poly
 #define GAZE gaze_ball
 #define CURVE motion_ball_curve
-#define FORMULA(f) f##_gaze_near
-#define FROM(x) num_ball_from(x)
-#define ADD(a, b) num_ball_add(a, b)
-#define SUB(a, b) num_ball_sub(a, b)
-#define MUL(a, b) num_ball_mul(a, b)
-#define MARK (void)arena
-#define KEEP(a) (a)
 #define SPAN(m, piece, from, to, out) motion_span_ball(m, piece, from, to, out)
 #define TURN(m, piece, from, to, out) motion_turn_ball(m, piece, from, to, out)
 #include "kinetic/sight/gaze_body.inc"
 
-#define T num_dyadic
+#include "num/dyadic_terms.inc"
 #define POLY num_poly
 #define GAZE gaze_exact
 #define CURVE motion_dyadic_curve
-#define FORMULA(f) f##_gaze_exact
-#define FROM(x) num_dyadic_from(arena, x)
-#define ADD(a, b) num_dyadic_add(arena, a, b)
-#define SUB(a, b) num_dyadic_sub(arena, a, b)
-#define MUL(a, b) num_dyadic_mul(arena, a, b)
-#define MARK const size_t mark = arena->top
-#define KEEP(a) num_dyadic_keep(arena, mark, a)
 #define SPAN(m, piece, from, to, out) motion_span_dyadic(arena, m, piece, from, to, out)
 #define TURN(m, piece, from, to, out) motion_turn_dyadic(arena, m, piece, from, to, out)
 #include "kinetic/sight/gaze_body.inc"
 
 void gaze_near(const gaze *g, double from, double to, gaze_ball *out) {
-    gaze_of_gaze_near(NULL, g, from, to, out);
+    gaze_of_ball(NULL, g, from, to, out);
 }
 
 void gaze_exactly(num_arena *arena, const gaze *g, double from, double to, gaze_exact *out) {
-    gaze_of_gaze_exact(arena, g, from, to, out);
+    gaze_of_dyadic(arena, g, from, to, out);
 }
 
 /* --------------------------------------------------------------------- degrees -- */
