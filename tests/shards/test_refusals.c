@@ -4,15 +4,7 @@
 #include <math.h>
 #include <unistd.h>
 
-static froe_diagnostic why;
-
-/* A status with a sentence that has these words. */
-static void expect(froe_status found, froe_status wanted, const char *words) {
-    assert_int_equal(found, wanted);
-    if (!strstr(why.message, words)) fail_msg("'%s' lacks '%s'", why.message, words);
-    why = (froe_diagnostic){0};
-}
-#define NULLS(call) expect(call, FROE_E_ARG, "is NULL")
+#include "support/refusals.h" /* last: others have variables called `why` */
 
 static froe_status take_none(void *user, const void *records, size_t count) {
     (void)user, (void)records, (void)count;

@@ -6,14 +6,8 @@
 #include <stdio.h>
 #include <unistd.h>
 
-static froe_diagnostic why;
+#include "support/refusals.h" /* last: others have variables called `why` */
 
-static void expect(froe_status found, froe_status wanted, const char *words) {
-    assert_int_equal(found, wanted);
-    if (!strstr(why.message, words)) fail_msg("'%s' lacks '%s'", why.message, words);
-    why = (froe_diagnostic){0};
-}
-#define NULLS(call) expect(call, FROE_E_ARG, "is NULL")
 #define REFUSED(call, words) expect(call, FROE_E_OPTIONS, words)
 
 static bool take_bytes(void *user, const void *bytes, size_t count) {
