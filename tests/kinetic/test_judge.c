@@ -244,6 +244,28 @@ static void look_near_failure(now_state *now, const now_claim *claim, fuzz_sourc
     }
 }
 
+/* Asked at ticks in any order, and of a state that was asked nothing before. Threads know less of what was asked. */
+static void places_in_doubles_do_not_depend_on_what_was_asked(void **state) {
+    (void)state;
+    for (size_t i = 0; i < MOVING_KINDS; i++) {
+        froe_motion *m = moving_new(moving_kinds + i, 13, NULL);
+        fuzz_source r = {i + 1};
+        now_state asked, fresh;
+        assert_int_equal(now_new(m, NULL, &asked), FROE_OK);
+        for (int j = 0; j < 40; j++) {
+            assert_int_equal(now_new(m, NULL, &fresh), FROE_OK);
+            asked.tick = fresh.tick = (int64_t)(fuzz_bits(&r) % (uint64_t)m->last_tick) | 1;
+            for (uint32_t v = 0; v < m->plans.count; v++) {
+                const now_spot a = now_vertex_spot(&asked, v), b = now_vertex_spot(&fresh, v);
+                assert_true(a.x == b.x && a.y == b.y && a.error == b.error);
+            }
+            now_free(&fresh);
+        }
+        now_free(&asked);
+        froe_motion_free(m);
+    }
+}
+
 static void sure_signs_in_doubles_are_right(void **state) {
     (void)state;
     uint64_t seen[2] = {0};
@@ -272,6 +294,7 @@ static void sure_signs_in_doubles_are_right(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(all_stages_agree_with_whole_numbers),
                                        cmocka_unit_test(failures_are_first),
+                                       cmocka_unit_test(places_in_doubles_do_not_depend_on_what_was_asked),
                                        cmocka_unit_test(sure_signs_in_doubles_are_right)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,4 +1,5 @@
-/* course.c: pieces of flight plans in doubles, each looked up when its first tick has come.
+/* course.c: pieces of flight plans in doubles, each looked up when it is asked for. They begin at the first tick of the
+ * piece, so that no number depends on what was asked before.
  *
  * Positions, times 2^lift, are x[0] + x[1] s + x[2] s^2 + x[3] s^3 for s from 0 to span, and nowhere further off than
  * `error`. */
@@ -55,13 +56,19 @@ static motion_piece find_piece(const now_state *now, uint32_t vertex) {
     return motion_piece_at(m, vertex, now->tick);
 }
 
+/* Of a piece, within the window of the motion. Before a plan begins nothing holds but at the present tick. */
+static int64_t first_tick(const now_state *now, const motion_piece *piece) {
+    const int64_t first = piece->degree && piece->from->tick > 0 ? piece->from->tick : 0;
+    return first < now->tick ? first : now->tick;
+}
+
 void now_look_up(now_state *now, uint32_t vertex) {
     const froe_motion *m = now->motion;
     now_course *c = now->courses.data + vertex;
     now_bend *bend = now->bends.data + vertex;
     bend->piece = find_piece(now, vertex);
     c->last = bend->piece.last < m->last_tick ? bend->piece.last : m->last_tick | 1;
-    c->base = now->tick;
+    c->base = first_tick(now, &bend->piece);
     c->degree = (uint32_t)bend->piece.degree;
     if (bend->piece.corner) {
         *c = (now_course){.base = c->base, .last = c->last, .degree = NOW_TURNING};

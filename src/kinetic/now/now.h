@@ -194,7 +194,7 @@ double now_turning_speed(now_state *now, uint32_t vertex);
 /* course.c */
 /** Looks up the piece that the present tick belongs to. */
 void now_look_up(now_state *now, uint32_t vertex);
-/** Pieces are looked up once, when the first tick of theirs has come; trials of later ticks do not leave them. */
+/** Trials of later ticks do not leave the piece. */
 static inline const now_course *now_course_of(now_state *now, uint32_t vertex) {
     const now_course *c = now->courses.data + vertex;
     if (now->tick > c->last || now->tick < c->base) now_look_up(now, vertex);

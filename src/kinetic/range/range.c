@@ -43,24 +43,6 @@ static froe_status make_motion_of_members(kinetic_range *range) {
 
 /* --------------------------------------------------------------- partition -- */
 
-/* Pieces in doubles are those of the whole, so that nothing about an event differs in its last place. */
-static void take_courses(kinetic_range *range) {
-    const now_state *from = &range->whole->now;
-    now_state *to = &range->part->now;
-    for (size_t v = 0; v < range->vertices.count; v++) {
-        to->courses.data[v] = from->courses.data[range->vertices.data[v]];
-        to->bends.data[v] = from->bends.data[range->vertices.data[v]];
-    }
-}
-
-void range_give_back(const kinetic_range *range, now_state *now) {
-    const now_state *from = &range->part->now;
-    for (size_t v = 0; v < range->vertices.count; v++) {
-        now->courses.data[range->vertices.data[v]] = from->courses.data[v];
-        now->bends.data[range->vertices.data[v]] = from->bends.data[v];
-    }
-}
-
 static froe_status make_part(kinetic_range *range) {
     const froe_kinetic *whole = range->whole;
     froe_kinetic_options options = froe_kinetic_defaults();
@@ -69,7 +51,6 @@ static froe_status make_part(kinetic_range *range) {
     if (!status) status = kinetic_new_at(&range->motion, &whole->call.alloc, &options, whole->now.tick, &range->part);
     if (status) return status;
     froe_kinetic *part = range->part;
-    take_courses(range);
     for (uint32_t s = 0; s < range->members.count; s++) {
         const uint32_t object = range->members.data[s];
         ktree_segment_at(&part->tree, s)->key = ktree_segment_at(&whole->tree, object)->key;

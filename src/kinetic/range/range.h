@@ -53,7 +53,5 @@ typedef struct range_window {
 /** Makes the part at the present tick of the whole, and lets it go on through the window. Reads nothing but what is the
  * same in all threads. FROE_E_MEMORY. */
 froe_status range_follow(kinetic_range *range, range_window *window);
-/** Gives the pieces of plans that the part has come to back to the whole, which stands at the same tick. */
-void range_give_back(const kinetic_range *range, now_state *now);
 void range_free(kinetic_range *range);
 #endif

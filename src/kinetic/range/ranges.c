@@ -298,12 +298,8 @@ static void add_counts(froe_kinetic_stats *all, const froe_kinetic_stats *part) 
 
 /* The whole takes over where the ranges have come to. */
 static void take_over(window *w, int64_t tick) {
-    froe_kinetic *k = w->k;
-    k->now.tick = tick;
-    for (size_t i = 0; i < w->count; i++) {
-        range_give_back(w->ranges + i, &k->now);
-        add_counts(&k->counts, &w->ranges[i].part->counts);
-    }
+    w->k->now.tick = tick;
+    for (size_t i = 0; i < w->count; i++) add_counts(&w->k->counts, &w->ranges[i].part->counts);
 }
 
 /* ---------------------------------------------------------------- together -- */
