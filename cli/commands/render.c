@@ -193,10 +193,10 @@ static froe_status render_turning(const render_args *args, render_fn *write, con
     if (!status && args->animate)
         status = froe_render_animation(tree, args->output.path, o, cameras, args->turntable, seconds, report, diag);
     for (size_t i = 0; !status && !args->animate && i < args->turntable; i++) {
-        char path[4096];
+        char *path = render_frame_name(args->output.path, i);
         o->camera = cameras[i];
-        status = render_name_frame(args->output.path, i, path, sizeof path) ? write(tree, path, o, report, diag)
-                                                                            : FROE_E_ARG;
+        status = path ? write(tree, path, o, report, diag) : support_fail_memory(diag);
+        free(path);
     }
     free(cameras);
     return status;
@@ -205,14 +205,13 @@ static froe_status render_turning(const render_args *args, render_fn *write, con
 static int render(const render_args *args, const froe_tree *tree, froe_render_options *o) {
     froe_diagnostic diag;
     froe_render_report report;
-    char path[4096];
     if (args->animate && !args->turntable)
         return cli_fail(CLI_USE, NULL,
                         "--animate: It needs --turntable, or of a moving model --frames or --animation.");
     if (args->turntable && (args->eye.count || args->target.count))
         return cli_fail(CLI_USE, NULL,
                         "--turntable: It goes around the middle of the scene, and excludes --eye and --target.");
-    if (args->turntable && !args->animate && !render_name_frame(args->output.path, 0, path, sizeof path))
+    if (args->turntable && !args->animate && !render_names_frames(args->output.path))
         return cli_fail(CLI_USE, NULL, "--turntable: '%s' is not like pic-%%03d.svg.", args->output.name);
     render_fn *write = froe_render;
     const int code = render_find_writer(args->output.path, &write);

@@ -6,17 +6,31 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool render_name_frame(const char *pattern, size_t i, char *out, size_t room) {
-    const char *percent = strchr(pattern, '%'), *at = percent;
-    char *end;
-    if (!percent) return false;
-    const bool zeros = at[1] == '0';
-    const long width = strtol(at + 1, &end, 10);
-    if (*end != 'd' || width < 0 || width > 20 || strchr(end, '%')) return false;
-    const int head = (int)(percent - pattern);
-    const int length = zeros ? snprintf(out, room, "%.*s%0*zu%s", head, pattern, (int)width, i, end + 1)
-                             : snprintf(out, room, "%.*s%*zu%s", head, pattern, (int)width, i, end + 1);
-    return length > 0 && (size_t)length < room;
+enum { MOST_WIDTH = 20 }; /* as many digits as a number of 64 bits has */
+
+/* The width in front of the only 'd' behind the only '%'; *end: behind the d. -1: there is none. */
+static int find_width(const char *pattern, const char **end) {
+    const char *percent = strchr(pattern, '%');
+    char *behind;
+    if (!percent) return -1;
+    const long width = strtol(percent + 1, &behind, 10);
+    if (*behind != 'd' || width < 0 || width > MOST_WIDTH || strchr(behind, '%')) return -1;
+    *end = behind + 1;
+    return (int)width;
+}
+
+bool render_names_frames(const char *pattern) {
+    const char *end;
+    return find_width(pattern, &end) >= 0;
+}
+
+char *render_frame_name(const char *pattern, size_t i) {
+    const char *percent = strchr(pattern, '%'), *end = "";
+    const int width = find_width(pattern, &end), head = (int)(percent - pattern);
+    const size_t room = strlen(pattern) + MOST_WIDTH + 1;
+    char *name = malloc(room);
+    if (name) snprintf(name, room, percent[1] == '0' ? "%.*s%0*zu%s" : "%.*s%*zu%s", head, pattern, width, i, end);
+    return name;
 }
 
 int render_find_writer(const char *path, render_fn **write) {

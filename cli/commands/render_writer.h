@@ -8,6 +8,8 @@ typedef __typeof__(froe_render) render_fn;
 
 /** PNG and DXF are written by libraries; *write stays as it is for other endings. Returns 0 or an exit code. */
 int render_find_writer(const char *path, render_fn **write);
-/** The name of frame i: "pic-%03d.svg" has one %d, perhaps with a width; false: it has not. */
-bool render_name_frame(const char *pattern, size_t i, char *out, size_t room);
+/** Is it like "pic-%03d.svg", with one %d, perhaps with a width? */
+bool render_names_frames(const char *pattern);
+/** The name of frame i by such a pattern, which the caller frees; NULL: there is no memory. */
+char *render_frame_name(const char *pattern, size_t i);
 #endif

@@ -50,12 +50,11 @@ static froe_status draw_frames(film_run *r, size_t frames, render_fn *write, fro
     froe_status status =
         froe_film_cameras(r->motion, &r->options->camera, r->args->turntable > 0, frames, cameras, diag);
     for (size_t i = 0; i < frames && !status; i++) {
-        char path[4096];
-        const double share = (double)i / (double)frames;
+        const double share = (double)i / (double)frames, time = window.begin * (1 - share) + window.end * share;
+        char *path = render_frame_name(r->args->output.path, i);
         r->options->camera = cameras[i];
-        status = render_name_frame(r->args->output.path, i, path, sizeof path)
-                     ? draw_instant(r, window.begin * (1 - share) + window.end * share, write, path, diag)
-                     : FROE_E_ARG;
+        status = path ? draw_instant(r, time, write, path, diag) : FROE_E_MEMORY;
+        free(path);
     }
     free(cameras);
     return status;
@@ -85,7 +84,6 @@ static json_t *report_film(const film_run *r) {
 }
 
 static int check_film(const render_args *args) {
-    char path[4096];
     const bool many = args->frames || args->turntable;
     if (args->tree.method || args->tree.save || args->section.count)
         return cli_fail(CLI_USE, NULL,
@@ -97,7 +95,7 @@ static int check_film(const render_args *args) {
         return cli_fail(CLI_USE, args->tree.scene.path, "A moving model needs --at, --frames or --animate.");
     if (args->frames && args->turntable && args->frames != args->turntable)
         return cli_fail(CLI_USE, NULL, "--frames: There is one picture for each place of the turntable.");
-    if (many && !args->animate && !render_name_frame(args->output.path, 0, path, sizeof path))
+    if (many && !args->animate && !render_names_frames(args->output.path))
         return cli_fail(CLI_USE, NULL, "--frames: '%s' is not like pic-%%03d.svg.", args->output.name);
     return 0;
 }

@@ -21,17 +21,13 @@ typedef struct job_run {
     size_t count;
     double start, span;
     atomic_size_t next, finished, failed; /* failed: lowest failing job so far */
+    atomic_uint begun;                    /* threads other than the calling one that have their number */
     pthread_mutex_t lock;                 /* guards status, working */
     pthread_cond_t quiet;                 /* `working` reached 0 */
     froe_status status;                   /* of job `failed` */
     unsigned working;                     /* threads other than the calling one */
     base_floats_held caller;
 } job_run;
-
-typedef struct job_worker {
-    job_run *run;
-    unsigned worker;
-} job_worker;
 
 void base_task_init(base_task *task, unsigned threads, froe_progress_fn *progress, void *user) {
     long processors = threads ? (long)threads : sysconf(_SC_NPROCESSORS_ONLN);
@@ -78,10 +74,10 @@ static void report_progress(job_run *c, bool always) {
 }
 
 static void *run_worker(void *argument) {
-    job_worker *h = argument;
-    job_run *c = h->run;
+    job_run *c = argument;
+    const unsigned worker = atomic_fetch_add(&c->begun, 1) + 1;
     base_floats_begin_thread(c->caller);
-    while (work_on_jobs(c, h->worker)) {
+    while (work_on_jobs(c, worker)) {
     }
     pthread_mutex_lock(&c->lock);
     if (--c->working == 0) pthread_cond_signal(&c->quiet);
@@ -90,15 +86,14 @@ static void *run_worker(void *argument) {
 }
 
 /* Starts up to `wanted` threads, fewer if the system refuses. */
-static unsigned start_threads(job_run *c, unsigned wanted, job_worker *workers, pthread_t *threads) {
+static unsigned start_threads(job_run *c, unsigned wanted, pthread_t *threads) {
     pthread_attr_t attr;
     unsigned started = 0;
     if (pthread_attr_init(&attr) != 0) return 0;
     (void)pthread_attr_setstacksize(&attr, STACK_BYTES);
     pthread_mutex_lock(&c->lock);
     for (; started < wanted; started++) {
-        workers[started] = (job_worker){c, started + 1};
-        if (pthread_create(&threads[started], &attr, run_worker, &workers[started]) != 0) break;
+        if (pthread_create(&threads[started], &attr, run_worker, c) != 0) break;
         c->working++;
     }
     pthread_mutex_unlock(&c->lock);
@@ -124,9 +119,8 @@ static void wait_for_quiet(job_run *c) {
 }
 
 static void run_on_threads(job_run *c, unsigned others) {
-    job_worker workers[BASE_THREADS_MAX];
     pthread_t threads[BASE_THREADS_MAX];
-    unsigned started = others ? start_threads(c, others, workers, threads) : 0;
+    unsigned started = others ? start_threads(c, others, threads) : 0;
     while (work_on_jobs(c, 0)) report_progress(c, false);
     if (started) wait_for_quiet(c);
     for (unsigned i = 0; i < started; i++) pthread_join(threads[i], NULL);
@@ -142,6 +136,7 @@ froe_status base_run(base_task *task, double span, size_t count, base_job_fn *fn
                  .start = task->done,
                  .span = span * task->scale,
                  .caller = base_floats_of_caller()};
+    atomic_init(&c.begun, 0);
     atomic_init(&c.next, 0);
     atomic_init(&c.finished, 0);
     atomic_init(&c.failed, SIZE_MAX);
