@@ -15,6 +15,7 @@ typedef struct moving_kind {
     bool curved; /**< on parabolas */
     bool cubic;  /**< with curved: on cubics */
     bool mixed;  /**< with cubic: on cubics, parabolas and straight lines, piece by piece */
+    double late; /**< with cubic: the second control point bends them alone, up to 64 of these away */
     bool chains; /**< each segment begins where the last one ends */
     bool rigid;  /**< all with the speed of the first */
     bool twice;  /**< each two segments are the same */
@@ -42,6 +43,8 @@ static inline void moving_bend(const moving_kind *kind, fuzz_source *r, moving_d
     const int around = kind->grid / 4 + 1, degree = kind->mixed ? fuzz_int(r, 1, 3) : kind->cubic ? 3 : 2;
     for (size_t c = 0; c < 2; c++) {
         d->seconds[2 * i + c] = degree > 2 ? p[c] + fuzz_int(r, -around, around) : (double)NAN;
+        if (kind->late > 0)
+            d->controls[2 * i + c] = p[c], d->seconds[2 * i + c] = p[c] + kind->late * fuzz_int(r, -64, 64);
         if (degree < 2) d->controls[2 * i + c] = (double)NAN;
     }
 }
@@ -230,6 +233,15 @@ static const moving_kind moving_kinds[] = {
      .cubic = true,
      .back = true,
      .chains = true},
+    {.name = "upright late cubics",
+     .count = 16,
+     .grid = 200,
+     .length = 90,
+     .speed = 5,
+     .curved = true,
+     .cubic = true,
+     .late = 1,
+     .upright = true},
 };
 enum { MOVING_KINDS = sizeof moving_kinds / sizeof *moving_kinds };
 #endif

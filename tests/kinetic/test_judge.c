@@ -146,6 +146,18 @@ static void check_motion(froe_motion *m, uint64_t seed, uint64_t judged[NOW_STAG
     froe_motion_free(m);
 }
 
+/* At each tick a piece begins near 0, so that its coefficients of s^2 and s^3 are the widest by far. */
+static const moving_kind bent = {.name = "bent",
+                                 .count = 20,
+                                 .grid = 3,
+                                 .length = 2,
+                                 .speed = 1,
+                                 .curved = true,
+                                 .cubic = true,
+                                 .legs = 8,
+                                 .late = 0x1p40,
+                                 .tick = MOVING_TIME / 8};
+
 static void all_stages_agree_with_whole_numbers(void **state) {
     (void)state;
     uint64_t judged[NOW_STAGES] = {0}, wide_claims = 0;
@@ -155,6 +167,7 @@ static void all_stages_agree_with_whole_numbers(void **state) {
         for (int stage = 0; stage < NOW_STAGES; stage++) judged[stage] += here[stage];
         assert_true(here[NOW_WIDE] > 0);
     }
+    for (uint64_t seed = 1; seed <= 4; seed++) check_motion(moving_new(&bent, seed, NULL), seed, judged, &wide_claims);
     for (int kind = 0; kind < MOTION_KINDS; kind++)
         check_motion(motion_new((motion_kind)kind), (uint64_t)kind + 99, judged, &wide_claims);
     /* a third of the questions begins at each stage; that so many more ended later says how often one was too narrow */

@@ -128,6 +128,38 @@ static void test_bodies_turn_in_ranges_as_in_one_partition(void **state) {
     assert_true(all.windows > all.stopped && all.kinds[FROE_EVENT_TURN] && all.kinds[FROE_EVENT_CONTACT]);
 }
 
+enum { RESTING = 48, VISITS = 16 };
+
+/* Segments at rest, and one that flies over ten of them and back, again and again, along cubics of which the second
+ * control point alone is far away. */
+static froe_motion *make_visits(void) {
+    enum { KNOTS = 2 * RESTING + 2 * (VISITS + 1) };
+    size_t starts[2 * RESTING + 3] = {0}, at = 0;
+    double times[KNOTS] = {0}, coords[2 * KNOTS], controls[2 * KNOTS] = {0}, seconds[2 * KNOTS] = {0};
+    for (size_t v = 0; v < 2 * RESTING + 2; v++, starts[v] = at)
+        for (size_t i = 0; i < (v < 2 * RESTING ? 1 : VISITS + 1); i++, at++) {
+            const double x[2] = {100.0 * (double)(v / 2 % RESTING) + 30.0 * (double)(v % 2), 7.0 * (double)(v % 11)};
+            times[at] = (double)(i * MOVING_TIME) / VISITS;
+            for (size_t c = 0; c < 2; c++) coords[2 * at + c] = controls[2 * at + c] = seconds[2 * at + c] = x[c];
+            seconds[2 * at] += 2000;
+        }
+    froe_motion_options w = froe_motion_defaults();
+    froe_moving b = froe_moving_defaults();
+    w.begin = 0, w.end = MOVING_TIME;
+    b.vertex_count = 2 * RESTING + 2, b.count = RESTING + 1;
+    b.starts = starts, b.times = times, b.coords = coords, b.controls = controls, b.second_controls = seconds;
+    return batch_motion(&w, &b, NULL);
+}
+
+/* A range knows who comes into it during a window, however far that one is before and after. */
+static void test_visitors_of_a_range(void **state) {
+    (void)state;
+    sums all = {0};
+    for (unsigned threads = 2; threads <= 8; threads++)
+        assert_true(compare_motion(make_visits(), 1, threads, RANGES, &all));
+    assert_true(all.windows > all.stopped && all.events > 1000);
+}
+
 /* On two to eight threads. */
 static void test_events_and_trees_do_not_depend_on_threads(void **state) {
     (void)state;
@@ -241,6 +273,7 @@ static void test_one_partition_otherwise(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_events_and_trees_do_not_depend_on_threads),
+        cmocka_unit_test(test_visitors_of_a_range),
         cmocka_unit_test(test_bodies_turn_in_ranges_as_in_one_partition),
         cmocka_unit_test(test_ranges_need_their_guards),
         cmocka_unit_test(test_ranges_need_to_stop_at_what_is_wide),
