@@ -360,13 +360,13 @@ static void check_join(uint64_t seed, const map *m, int grid) {
 
 static void ranges_on_small_grids(void **state) {
     (void)state;
-    for (uint64_t seed = 1; seed <= 36 / EXACT_SHARE; seed++)
+    for (uint64_t seed = 1; seed <= 18 / EXACT_SHARE; seed++)
         check_ranges(seed, maps + seed % MAPS, 3 + (int)(seed % 5), 12);
 }
 
 static void groups_of_two_trees(void **state) {
     (void)state;
-    for (uint64_t seed = 1; seed <= 36 / EXACT_SHARE; seed++) check_join(seed, maps + seed % MAPS, 3 + (int)(seed % 5));
+    for (uint64_t seed = 1; seed <= 14 / EXACT_SHARE; seed++) check_join(seed, maps + seed % MAPS, 3 + (int)(seed % 5));
 }
 
 /* ------------------------------------------------------------ other ranges -- */

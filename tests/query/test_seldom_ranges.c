@@ -253,11 +253,11 @@ static void any_question_may_lack_memory(void **state) {
     (void)state;
     froe_scene *scenes[] = {areas(),
                             parted_squares(),
-                            trees_scene(2, FROE_SEGMENT, 60, 0, 0.2, 1),
-                            trees_scene(3, FROE_POLYGON, 60, 0, 0.3, 1),
-                            trees_scene(2, FROE_BOX, 60, 0, 0.7, 1),
-                            trees_scene(2, FROE_POINT, 200, 0, 0, 1),
-                            trees_scene(4, FROE_HULL, 20, 0, 0.7, 1)};
+                            trees_scene(2, FROE_SEGMENT, 30, 0, 0.2, 1),
+                            trees_scene(3, FROE_POLYGON, 30, 0, 0.3, 1),
+                            trees_scene(2, FROE_BOX, 30, 0, 0.7, 1),
+                            trees_scene(2, FROE_POINT, 100, 0, 0, 1),
+                            trees_scene(4, FROE_HULL, 10, 0, 0.7, 1)};
     static const char *const methods[][2] = {
         {"index", "autopartition"}, {"index", "autopartition"}, {"index", "autopartition"}, {"index", "autopartition"},
         {"density", "density"},     {"index", "density"},       {"density", "density"}};
