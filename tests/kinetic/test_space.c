@@ -42,14 +42,14 @@ static void trees_are_those_of_cylindrical_after_every_event(void **state) {
             const uint64_t before = counts.all;
             froe_motion *m = space_new(space_kinds + i, seed, NULL);
             froe_kinetic *k = start(m, seed);
-            follow(k, space_kinds + i, seed, space_kinds[i].legs ? 240 : 70, &counts);
+            follow(k, space_kinds + i, seed, space_kinds[i].legs ? 240 : 30, &counts);
             if (counts.all == before && space_kinds[i].count > 1) fail_msg("%s: no events", space_kinds[i].name);
             froe_kinetic_free(k);
             froe_motion_free(m);
         }
     for (int j = 0; j < FROE_EVENT_TOUCH; j++)
         if (!counts.events[j]) fail_msg("no event of kind %s", froe_event_name((froe_event_kind)j));
-    assert_true(counts.all >= 1200 && counts.compared >= 1200);
+    assert_true(counts.all >= 500 && counts.compared >= 500);
 }
 
 /* Of a tetrahedron that changes its form a face turns over while another vertex is behind it. Its edges enter cells
@@ -257,11 +257,13 @@ static void a_scene_that_leans_has_the_same_tree(void **state) {
 static void a_scene_of_any_size_has_the_same_tree(void **state) {
     static const int scales[] = {-1050, -664, -300, 200, 480, 990};
     space_kind kind = *kind_named("small");
+    kind.count /= 2;
     froe_motion *m = space_new(&kind, 2, NULL);
     froe_kinetic *k = start(m, 2);
     space_counts counts = {0};
     (void)state;
     assert_int_equal(froe_kinetic_advance(k, SPACE_WINDOW, space_count, &counts, NULL), FROE_OK);
+    assert_true(counts.all > 10);
     for (size_t i = 0; i < sizeof scales / sizeof *scales; i++) {
         kind.scale = scales[i];
         froe_motion *scaled = space_new(&kind, 2, NULL);

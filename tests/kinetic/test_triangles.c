@@ -253,10 +253,10 @@ static void contacts_are_those_of_linear_programs(void **state) {
         froe_motion *m = motion_of(&batch);
         check_motion(m, &t);
         froe_motion_free(m);
-        assert_true(t.contacts >= 4);
+        assert_true(t.contacts >= 2);
         if (kind >= LATTICE && kind != LINED && kind != LIVES && kind < CUBIC)
-            assert_true(t.instants > 1 && t.known > 1);
-        if (kind != STACKED) assert_true(t.lasting > 2);
+            assert_true(t.instants > 0 && t.known > 0);
+        if (kind != STACKED) assert_true(t.lasting > 0);
     }
 }
 

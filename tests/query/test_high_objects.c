@@ -7,9 +7,9 @@
 #include "support/sanitized.h"
 #include <stdio.h>
 
-enum { OBJECTS = 16, QUESTIONS = 4 };
+enum { OBJECTS = 16, QUESTIONS = 2 };
 
-enum { SEEDS = SANITIZED ? 1 : 2 };
+enum { SEEDS = 1 };
 
 typedef struct trial {
     fuzz_source r;
@@ -248,7 +248,7 @@ static void questions_are_answered_as_in_rationals(void **state) {
     (void)state;
     for (int dim = 4; dim <= FROE_MAX_DIM; dim++)
         for (uint64_t seed = 0; seed < SEEDS; seed++) {
-            trial t = {.r = {seed * 100 + (uint64_t)dim}, .dim = dim, .lattice = seed % 2 == 0, .scale = 1};
+            trial t = {.r = {seed * 100 + (uint64_t)dim}, .dim = dim, .lattice = (dim + (int)seed) % 2 == 0, .scale = 1};
             ask_scene(&t);
         }
     for (int i = 1; i < 4; i++) assert_true(seen[i] > 2);

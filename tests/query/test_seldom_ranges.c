@@ -175,7 +175,7 @@ static void an_eps_without_a_margin_adds_nothing(void **state) {
 
 /* A square as four segments, and twice as sixteen a side: whole, and without the first part of each side. */
 static froe_scene *parted_squares(void) {
-    enum { PARTS = 16 };
+    enum { PARTS = 8 };
     froe_scene *scene;
     assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
     for (int g = 0; g < 3; g++) {
