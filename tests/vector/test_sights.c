@@ -288,32 +288,32 @@ static void eyes_that_move_see_changes_at_instants_alone(void **state) {
                  {BENT, false, true, true, false},        {BENT, true, true, false, true},
                  {CUBIC, true, false, false, false},      {CUBIC, true, true, true, false},
                  {TETRAHEDRA, false, false, false, true}, {TETRAHEDRA, true, false, false, true}};
-    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
-        unsigned changes = 0, gaps = 0;
-        for (unsigned seed = 0; seed < (SANITIZED ? 1 : 2); seed++) {
-            flight f;
-            make_flight(seed, cases[c].parallel, cases[c].flies, cases[c].bent, cases[c].turns, &f);
-            froe_motion *motion =
-                cases[c].faces == TETRAHEDRA ? make_tetrahedra(seed, 6) : make_motion_of(seed, cases[c].faces);
-            static instants x;
-            find_from(motion, &f, NULL, 0, &x);
-            size_t k = 0;
-            unsigned last = 0;
-            for (int i = 1; i < TIMES; i++) {
-                const double time = (i + 0.001) / TIMES;
-                const size_t before = k;
-                while (k < x.count && x.low[k] <= time) k++;
-                const unsigned now = look_from(motion, &f, time);
-                if (i > 1 && k == before && now != last)
-                    fail_msg("case %zu, seed %u: other faces at %.17g", c, seed, time);
-                changes += i > 1 && now != last, gaps += k == before;
-                last = now;
-            }
-            froe_motion_free(motion), froe_motion_free(f.rig);
+    static instants x;
+    unsigned all = 0;
+    for (unsigned c = 0; c < sizeof cases / sizeof *cases; c++) {
+        const unsigned seed = c % 4;
+        unsigned changes = 0, gaps = 0, last = 0;
+        size_t k = 0;
+        flight f;
+        make_flight(seed, cases[c].parallel, cases[c].flies, cases[c].bent, cases[c].turns, &f);
+        froe_motion *motion =
+            cases[c].faces == TETRAHEDRA ? make_tetrahedra(seed, 6) : make_motion_of(seed, cases[c].faces);
+        find_from(motion, &f, NULL, 0, &x);
+        for (int i = 1; i < TIMES; i++) {
+            const double time = (i + 0.001) / TIMES;
+            const size_t before = k;
+            while (k < x.count && x.low[k] <= time) k++;
+            const unsigned now = look_from(motion, &f, time);
+            if (i > 1 && k == before && now != last) fail_msg("case %u: other faces at %.17g", c, time);
+            changes += i > 1 && now != last, gaps += k == before;
+            last = now;
         }
-        print_message("  case %zu: %u changes, %u times after which nothing happens\n", c, changes, gaps);
-        assert_true(changes > 2 && gaps > 20);
+        froe_motion_free(motion), froe_motion_free(f.rig);
+        print_message("  case %u: %u changes, %u times after which nothing happens\n", c, changes, gaps);
+        assert_true(changes > 0 && gaps > 20);
+        all += changes;
     }
+    assert_true(all > 100);
 }
 
 /* How often other faces are in sight near the end of a gap between two instants than near its beginning. */
@@ -358,7 +358,7 @@ static void crossings_at_rest_are_edges(void **state) {
 static void what_is_seen_before_tells_the_first_change(void **state) {
     (void)state;
     unsigned changes = 0, fewer = 0;
-    for (unsigned seed = 20; seed < 32; seed++) {
+    for (unsigned seed = 20; seed < 28; seed++) {
         froe_motion *motion = make_motion(seed, seed % 4 == 3);
         const froe_eye eye = make_eye(seed % 2);
         const instants all = find(motion, eye, NULL, 0, 1);
@@ -380,7 +380,7 @@ static void what_is_seen_before_tells_the_first_change(void **state) {
         froe_motion_free(motion);
     }
     print_message("  %u changes, %u of them after fewer instants than there are in all\n", changes, fewer);
-    assert_true(changes > 30 && fewer > 5);
+    assert_true(changes > 20 && fewer > 3);
 }
 
 /* The objects that a film shows at a share of its time, as bits; *near: something begins or ends about then. */
@@ -432,15 +432,15 @@ static froe_render_options look_from_afar(bool parallel) {
 static void exact_films_show_what_is_in_sight_at_any_time(void **state) {
     (void)state;
     unsigned halving = 0;
-    for (unsigned seed = 40; seed < 46; seed++) {
+    for (unsigned seed = 40; seed < 44; seed++) {
         froe_motion *motion = make_motion(seed, seed % 4 == 3);
         const froe_render_options o = look_from_afar(seed % 2);
         assert_int_equal(count_wrong(motion, motion, &o, true), 0);
         halving += count_wrong(motion, motion, &o, false);
         froe_motion_free(motion);
     }
-    print_message("  halving: %u of 1200 wrong\n", halving);
-    assert_true(halving > 100);
+    print_message("  halving: %u of 800 wrong\n", halving);
+    assert_true(halving > 70);
 }
 
 /* The eye of a film that goes around, and its page, at a time: as vertices of a body that turns as a turntable does. */
