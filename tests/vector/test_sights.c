@@ -338,19 +338,21 @@ static void crossings_at_rest_are_edges(void **state) {
     unsigned gaps = 0, ignored = 0;
     for (uint32_t i = 0; i < CROSSING; i++)
         for (uint32_t j = 0; j < i; j++, count++) pairs[2 * count] = j, pairs[2 * count + 1] = i;
-    for (unsigned seed = 0; seed < 6; seed++) {
+    for (unsigned seed = 0; seed < (SANITIZED ? 2 : 6); seed++) {
         flight f;
         make_flight(seed, seed % 2, false, false, true, &f);
         froe_motion *motion = make_tangle(seed, CROSSING);
         find_from(motion, &f, pairs, count, &x);
         const unsigned wrong = changes_in_gaps(motion, &f, &x, &gaps);
         if (wrong) fail_msg("seed %u: %u changes between two instants", seed, wrong);
-        find_from(motion, &f, NULL, 0, &x);
-        ignored += changes_in_gaps(motion, &f, &x, &gaps);
+        if (!SANITIZED) {
+            find_from(motion, &f, NULL, 0, &x);
+            ignored += changes_in_gaps(motion, &f, &x, &gaps);
+        }
         froe_motion_free(motion), froe_motion_free(f.rig);
     }
     print_message("  %u gaps; without the lines of crossing %u changes in them\n", gaps, ignored);
-    assert_true(gaps > 200 && ignored > 0);
+    assert_true(gaps > 200 && (SANITIZED || ignored > 0));
 }
 
 /* Just before an instant and just after it: of those at which other faces come into sight, each is told, too, where
@@ -432,7 +434,7 @@ static froe_render_options look_from_afar(bool parallel) {
 static void exact_films_show_what_is_in_sight_at_any_time(void **state) {
     (void)state;
     unsigned halving = 0;
-    for (unsigned seed = 40; seed < 44; seed++) {
+    for (unsigned seed = SANITIZED ? 42 : 40; seed < 44; seed++) {
         froe_motion *motion = make_motion(seed, seed % 4 == 3);
         const froe_render_options o = look_from_afar(seed % 2);
         assert_int_equal(count_wrong(motion, motion, &o, true), 0);
@@ -440,7 +442,7 @@ static void exact_films_show_what_is_in_sight_at_any_time(void **state) {
         froe_motion_free(motion);
     }
     print_message("  halving: %u of 800 wrong\n", halving);
-    assert_true(halving > 70);
+    assert_true(halving > (SANITIZED ? 20 : 70));
 }
 
 /* The eye of a film that goes around, and its page, at a time: as vertices of a body that turns as a turntable does. */
@@ -500,7 +502,7 @@ static unsigned count_wrong_around(const froe_motion *motion, const froe_render_
 static void exact_films_go_around(void **state) {
     (void)state;
     unsigned halving = 0, wrong = 0;
-    for (unsigned seed = 0; seed < 6; seed++) {
+    for (unsigned seed = SANITIZED ? 3 : 0; seed < (SANITIZED ? 5 : 6); seed++) {
         froe_motion *motion = seed > 3 ? make_tangle(seed, FACES) : make_motion_of(seed, seed > 1 ? STRAIGHT : REST);
         froe_render_options o = froe_render_defaults();
         o.camera.parallel = seed % 2, o.camera.width = o.camera.height = 600, o.decimals = 4;
@@ -510,7 +512,7 @@ static void exact_films_go_around(void **state) {
     }
     print_message("  exact: %u of 1200 wrong, halving with three times as many frames: %u\n", wrong, halving);
     assert_int_equal(wrong, 0);
-    assert_true(halving > 50);
+    assert_true(SANITIZED || halving > 50);
 }
 
 /* Of bodies on parabolas that are off by a millionth, only a time within some millionths of an instant may differ from
@@ -518,7 +520,7 @@ static void exact_films_go_around(void **state) {
 static void exact_films_show_bodies_that_turn_within_the_deviation(void **state) {
     (void)state;
     unsigned rough = 0;
-    for (unsigned seed = 60; seed < 63; seed++) {
+    for (unsigned seed = 60; seed < (SANITIZED ? 61 : 63); seed++) {
         const froe_render_options o = look_from_afar(true);
         froe_motion *motion = make_turning(seed), *filmed;
         for (int i = 0; i < 2; i++) {
@@ -533,7 +535,7 @@ static void exact_films_show_bodies_that_turn_within_the_deviation(void **state)
         froe_motion_free(motion);
     }
     print_message("  a half off: %u of 600 wrong\n", rough);
-    assert_true(rough > 0);
+    assert_true(SANITIZED || rough > 0);
 }
 
 static bool stop(void *user, double low, double high) {
