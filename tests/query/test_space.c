@@ -4,6 +4,7 @@
 #include "query/packed/space.h"
 #include "support/large.h"
 #include "support/memory.h"
+#include "support/sanitized.h"
 #include "tree/trees.h"
 #include "tree/validate.h"
 #include <stdlib.h>
@@ -28,7 +29,7 @@ static const kind_of_scene kinds[] = {
     {"one", 1, 0, 24, 0.2, 1, 0, false},
     {"triangles", 600, 0, 24, 0.2, 1, 0, true},
 };
-enum { KINDS = sizeof kinds / sizeof *kinds, QUERIES = 80 };
+enum { KINDS = sizeof kinds / sizeof *kinds, QUERIES = 80 / SANITIZED_SHARE(4) };
 
 static double place(const kind_of_scene *k, double x) {
     return (k->grid ? floor(x * k->grid) : x) * k->scale + k->shift;
