@@ -93,30 +93,30 @@ static void try_distance(fixture *f, fuzz_class kind) {
 
 static void meetings_in_the_plane(void **state) {
     memset(counts, 0, sizeof counts);
-    run_trials(*state, 2, 2000, try_meeting);
-    for (int i = 0; i < GEOM_CONTACTS; i++) assert_true(counts[i] > 100 / BODIES_SHARE);
+    run_trials(*state, 2, 800, try_meeting);
+    for (int i = 0; i < GEOM_CONTACTS; i++) assert_true(counts[i] > 20 / BODIES_SHARE);
 }
 
 static void meetings_in_space(void **state) {
     memset(counts, 0, sizeof counts);
     corners = 0;
-    run_trials(*state, 3, 1500, try_meeting);
-    for (int i = 0; i < GEOM_CONTACTS; i++) assert_true(counts[i] > 100 / BODIES_SHARE);
-    assert_true(corners > 100 / BODIES_SHARE);
+    run_trials(*state, 3, 600, try_meeting);
+    for (int i = 0; i < GEOM_CONTACTS; i++) assert_true(counts[i] > 20 / BODIES_SHARE);
+    assert_true(corners > 20 / BODIES_SHARE);
 }
 
 static void meetings_in_five_dimensions(void **state) {
     memset(counts, 0, sizeof counts);
-    run_trials(*state, 5, 2000, try_meeting);
-    assert_true(counts[GEOM_TOUCH] > 100 / BODIES_SHARE && counts[GEOM_OVERLAP] > 200 / BODIES_SHARE);
+    run_trials(*state, 5, 800, try_meeting);
+    assert_true(counts[GEOM_TOUCH] > 20 / BODIES_SHARE && counts[GEOM_OVERLAP] > 40 / BODIES_SHARE);
 }
 
 static void distances(void **state) {
     memset(counts, 0, sizeof counts);
-    run_trials(*state, 2, 1000, try_distance);
-    run_trials(*state, 3, 1000, try_distance);
-    run_trials(*state, 5, 1000, try_distance);
-    for (int i = 0; i < 3; i++) assert_true(counts[i] > 100 / BODIES_SHARE);
+    run_trials(*state, 2, 400, try_distance);
+    run_trials(*state, 3, 400, try_distance);
+    run_trials(*state, 5, 400, try_distance);
+    for (int i = 0; i < 3; i++) assert_true(counts[i] > 20 / BODIES_SHARE);
 }
 
 int main(void) {

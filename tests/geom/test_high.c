@@ -144,7 +144,7 @@ static void try_contact(fixture *f, fuzz_class kind) {
 
 static void polytopes_meet_as_they_do_in_rationals(void **state) {
     fixture *f = *state;
-    run_trials(f, 16, try_contact);
+    run_trials(f, 10, try_contact);
     if (SHARE > 1) return; /* too few pairs for every kind */
     for (int i = 0; i < 4; i++) assert_true(f->counts[i] > 3);
     assert_true(f->corner > 3);
@@ -160,8 +160,8 @@ static void try_radii(fixture *f, fuzz_class kind) {
     for (size_t i = 0; i < sizeof shares / sizeof *shares; i++) {
         p.radius = x.radius = i == 1 ? shares[1] : 0.25 * gap * shares[i];
         q.radius = y.radius = 0.75 * gap * shares[i];
-        if (!isfinite(p.radius + q.radius)) continue;
-        const bool expected = high_meet(&x, &y);
+        if (!isfinite(p.radius + q.radius) || (f->slow && f->dim > 4 && i % 3)) continue;
+        const bool expected = i ? high_reach(&x, &y, square) : high_hulls_meet(&x, &y);
         for (num_stage first = NUM_FILTER; first <= NUM_EXACT; first++) {
             f->context.first = first;
             if (geom_meet(&f->context, &p, &q) != expected)
@@ -175,8 +175,8 @@ static void try_radii(fixture *f, fuzz_class kind) {
 
 static void grown_by_radii_they_meet_as_in_rationals(void **state) {
     fixture *f = *state;
-    run_trials(f, 5, try_radii);
-    assert_true(f->meets > 100);
+    run_trials(f, 2, try_radii);
+    assert_true(f->meets > 60);
 }
 
 static void try_distance(fixture *f, fuzz_class kind) {
@@ -302,7 +302,7 @@ static void filters_are_right_at_small_gaps(void **state) {
     f->context.first = NUM_FILTER;
     f->r.state = 5;
     for (int dim = 4; dim <= FROE_MAX_DIM; dim++)
-        for (int i = 0; i < 60 / SHARE; i++) {
+        for (int i = 0; i < 30 / SHARE; i++) {
             double points[2 * (FROE_MAX_DIM + 1) * FROE_MAX_DIM];
             const int corners = dim + 1;
             const double gap = pow(10, -fuzz_int(&f->r, 12, 17)), far = fuzz_int(&f->r, 0, 1) ? 1000 : 0;

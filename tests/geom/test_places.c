@@ -472,9 +472,9 @@ static void run(fixture *f, int dim, int trials, bool rays) {
 }
 
 static void the_nearest_point_is_rounded_once(void **state) {
-    for (int dim = 2; dim <= 3; dim++) run(*state, dim, 600, false);
-    run(*state, 5, 100, false);
-    assert_true(outside > 1000 / BODIES_SHARE && inside > 300 / BODIES_SHARE && roots > 300 / BODIES_SHARE);
+    for (int dim = 2; dim <= 3; dim++) run(*state, dim, 240, false);
+    run(*state, 5, 60, false);
+    assert_true(outside > 400 / BODIES_SHARE && inside > 120 / BODIES_SHARE && roots > 120 / BODIES_SHARE);
 }
 
 static void the_nearest_point_of_hulls_above_dimension_3_is_rounded_once(void **state) {
@@ -492,10 +492,10 @@ static void the_nearest_point_of_hulls_above_dimension_3_is_rounded_once(void **
 }
 
 static void what_a_ray_hits_is_rounded_once(void **state) {
-    for (int dim = 2; dim <= 3; dim++) run(*state, dim, 1000, true);
-    run(*state, 5, 400, true);
-    assert_true(normals > 1000 / BODIES_SHARE && edges > 300 / BODIES_SHARE);
-    for (int i = 0; i < GEOM_BASIS; i++) assert_true(sources[i] > 100 / BODIES_SHARE);
+    for (int dim = 2; dim <= 3; dim++) run(*state, dim, 400, true);
+    run(*state, 5, 160, true);
+    assert_true(normals > 400 / BODIES_SHARE && edges > 120 / BODIES_SHARE);
+    for (int i = 0; i < GEOM_BASIS; i++) assert_true(sources[i] > 40 / BODIES_SHARE);
 }
 
 int main(void) {

@@ -111,21 +111,21 @@ static void try_ball(fixture *f, fuzz_class kind) {
 }
 
 static void sides_of_vertices_beside_walls(void **state) {
-    run_trials(*state, 2, 800, try_vertex);
-    run_trials(*state, 3, 500, try_vertex);
+    run_trials(*state, 2, 300, try_vertex);
+    run_trials(*state, 3, 200, try_vertex);
 }
 static void sides_of_crossings_with_walls_in_the_plane(void **state) {
-    run_trials(*state, 2, 600, try_crossing);
+    run_trials(*state, 2, 250, try_crossing);
 }
 static void sides_of_crossings_with_walls_in_space(void **state) {
-    run_trials(*state, 3, 600, try_crossing);
+    run_trials(*state, 3, 250, try_crossing);
 }
 static void sides_of_corners_with_walls(void **state) {
-    run_trials(*state, 3, 350, try_corner);
+    run_trials(*state, 3, 150, try_corner);
 }
 static void sides_of_balls_beside_walls(void **state) {
-    run_trials(*state, 2, 300, try_ball);
-    run_trials(*state, 3, 300, try_ball);
+    run_trials(*state, 2, 120, try_ball);
+    run_trials(*state, 3, 120, try_ball);
 }
 
 static void walls_need_lines_that_cross_as_they_must(void **state) {

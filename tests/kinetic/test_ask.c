@@ -80,7 +80,7 @@ static void test_against_all(void **state) {
             options.seed = seed;
             options.augmented = seed % 2;
             assert_int_equal(froe_kinetic_new(b.motion, &options, NULL, &b.kinetic, NULL), FROE_OK);
-            for (double time = 0; time < 12; time += 0.7) {
+            for (double time = 0; time < 12; time += 1.7) {
                 assert_int_equal(
                     froe_kinetic_advance(b.kinetic, fmax(time, froe_kinetic_time(b.kinetic)), NULL, NULL, NULL),
                     FROE_OK);
@@ -93,7 +93,7 @@ static void test_against_all(void **state) {
             froe_motion_free(b.motion);
         }
     assert_true(sum.hits > sum.rays / 4 && sum.hits < sum.rays);
-    assert_true(sum.pairs > 1000);
+    assert_true(sum.pairs > 400);
 }
 
 /* ------------------------------------------------------------------- instants -- */

@@ -8,6 +8,7 @@
 
 #include "support/memory.h"
 #include "support/patterns.h"
+#include "support/sanitized.h"
 
 static bool augmented; /* all tests run in both variants */
 
@@ -46,7 +47,7 @@ static void test_every_event(void **state) {
         for (uint64_t seed = 1; seed <= 3; seed++) {
             froe_motion *m = moving_new(moving_kinds + i, seed, NULL);
             froe_kinetic *k = start(m, seed);
-            run(k, moving_kinds[i].name, 240, &counter);
+            run(k, moving_kinds[i].name, SANITIZED ? 20 : 100, &counter);
             froe_kinetic_stats s = froe_kinetic_statistics(k);
             assert_int_equal(s.stuck, 0);
             for (int j = 0; j < FROE_EVENT_KINDS; j++) kind_events[j] += s.events[j];
@@ -56,10 +57,11 @@ static void test_every_event(void **state) {
         const bool still = moving_kinds[i].rigid && !moving_kinds[i].against; /* nothing moves past anything */
         if (still != (counter.events == before)) fail_msg("%s: no events, or some", moving_kinds[i].name);
     }
+    if (SANITIZED) return; /* too few events for every kind and pattern */
     for (int j = 0; j < FROE_EVENT_KINDS; j++)
         if (!kind_events[j] && j < FROE_EVENT_FLOP)
             fail_msg("no event of kind %s", froe_event_name((froe_event_kind)j));
-    assert_true(counter.events >= 10000);
+    assert_true(counter.events >= 4000);
     expect_all_patterns(&counter);
 }
 

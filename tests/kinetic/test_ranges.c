@@ -165,32 +165,32 @@ static void test_events_and_trees_do_not_depend_on_threads(void **state) {
     (void)state;
     sums all = {0};
     for (size_t i = 0; i < MOVING_KINDS; i++)
-        for (uint64_t seed = 1; seed <= 3; seed++)
+        for (uint64_t seed = 1; seed <= 1; seed++)
             if (!compare_runs(moving_kinds + i, seed, 2 + (unsigned)(i + seed) % 7, RANGES, &all))
                 fail_msg("%s, seed %u", moving_kinds[i].name, (unsigned)seed);
-    assert_true(all.events > 50000);
-    assert_true(all.windows - all.stopped > 300 && all.stopped > 100);
+    assert_true(all.events > 16000);
+    assert_true(all.windows - all.stopped > 100 && all.stopped > 30);
     for (int i = 0; i < FROE_EVENT_FLOP; i++) assert_true(all.kinds[i]);
 }
 
-/* How many of 60 runs are not what they should be. Sanitizers need not watch what is crippled. */
-static unsigned count_wrong(manner how) {
+/* How many of 60 runs are not what they should be, or at least enough. Sanitizers need not watch what is crippled. */
+static unsigned count_wrong(manner how, unsigned enough) {
     if (SANITIZED) skip();
     unsigned wrong = 0;
     sums all = {0};
-    for (size_t i = 0; i < MOVING_KINDS; i++)
+    for (size_t i = 0; i < MOVING_KINDS && wrong < enough; i++)
         for (uint64_t seed = 1; seed <= 2; seed++) wrong += !compare_runs(moving_kinds + i, seed, 4, how, &all);
     return wrong;
 }
 
 static void test_ranges_need_their_guards(void **state) {
     (void)state;
-    assert_true(count_wrong(UNGUARDED) > 10);
+    assert_true(count_wrong(UNGUARDED, 11) > 10);
 }
 
 static void test_ranges_need_to_stop_at_what_is_wide(void **state) {
     (void)state;
-    assert_true(count_wrong(WIDE) > 0);
+    assert_true(count_wrong(WIDE, 1) > 0);
 }
 
 /* -------------------------------------------------------------------- calls -- */
@@ -213,7 +213,7 @@ static void test_cancelled(void **state) {
     (void)state;
     froe_motion *m = moving_new(&many, 1, NULL);
     unsigned cancelled = 0;
-    for (unsigned most = 1; most < 400; most = most * 5 / 4 + 1) {
+    for (unsigned most = 1; most < 400; most = most * 2 + 1) {
         froe_kinetic *k = start(m, 3, 1, RANGES);
         asked a = {0, most};
         froe_kinetic_watch(k, go_on, &a);
@@ -225,7 +225,7 @@ static void test_cancelled(void **state) {
         assert_int_equal(froe_kinetic_audit(k, NULL), FROE_OK);
         froe_kinetic_free(k);
     }
-    assert_true(cancelled > 5);
+    assert_true(cancelled > 3);
     froe_motion_free(m);
 }
 
@@ -246,7 +246,7 @@ static froe_status with_memory(void *user, const froe_allocator *alloc) {
 static void test_memory_runs_out(void **state) {
     (void)state;
     moving_kind few = many;
-    few.count = 20, few.length = 3000;
+    few.count = SANITIZED ? 10 : 20, few.length = 3000;
     froe_motion *m = moving_new(&few, 1, NULL);
     test_memory_each(with_memory, m);
     froe_motion_free(m);

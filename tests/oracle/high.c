@@ -36,7 +36,8 @@ high_set high_object(const froe_scene *scene, uint32_t object) {
 
 /* ---------------------------------------------------------- linear programs -- */
 
-/* Rows of a table: `columns` numbers and the right side; the last row is the cost. */
+/* Rows of a table: `columns` numbers and the right side; the last row is the cost. Each row begins with an artificial
+ * column as its basis, columns + row, which is never written down: it does not come back. */
 typedef struct table {
     int rows, columns;
     mpq_t *at;
@@ -47,9 +48,8 @@ static mpq_t *at(const table *t, int i, int j) {
     return t->at + (size_t)i * (size_t)(t->columns + 1) + j;
 }
 
-/* With one artificial column a row, behind the others. */
 static table table_new(int rows, int columns) {
-    table t = {.rows = rows, .columns = columns + rows};
+    table t = {.rows = rows, .columns = columns};
     const size_t count = (size_t)(rows + 1) * (size_t)(t.columns + 1);
     t.at = malloc(count * sizeof *t.at);
     t.basis = malloc((size_t)rows * sizeof *t.basis);
@@ -68,6 +68,7 @@ static void subtract(table *t, int i, int r, mpq_t factor) {
     mpq_inits(x, f, NULL);
     mpq_set(f, factor);
     for (int j = 0; j <= t->columns && mpq_sgn(f); j++) {
+        if (!mpq_sgn(*at(t, r, j))) continue;
         mpq_mul(x, f, *at(t, r, j));
         mpq_sub(*at(t, i, j), *at(t, i, j), x);
     }
@@ -85,14 +86,14 @@ static void pivot(table *t, int r, int c) {
     mpq_clear(p);
 }
 
-/* Makes the cost least, by columns before `limit`. */
-static void descend(table *t, int limit) {
+/* Makes the cost least. */
+static void descend(table *t) {
     mpq_t share, least;
     mpq_inits(share, least, NULL);
     for (;;) {
         int c = 0, r = -1;
-        while (c < limit && mpq_sgn(*at(t, t->rows, c)) >= 0) c++;
-        if (c == limit) break;
+        while (c < t->columns && mpq_sgn(*at(t, t->rows, c)) >= 0) c++;
+        if (c == t->columns) break;
         for (int i = 0; i < t->rows; i++) {
             if (mpq_sgn(*at(t, i, c)) <= 0) continue;
             mpq_div(share, *at(t, i, t->columns), *at(t, i, c));
@@ -108,31 +109,27 @@ static void descend(table *t, int limit) {
 /* Solves the rows filled in the first columns and the right side. Artificial columns that have no weight leave the
  * basis, or their rows say nothing. False: there is no solution. */
 static bool find_start(table *t) {
-    const int own = t->columns - t->rows;
     for (int i = 0; i < t->rows; i++) {
         if (mpq_sgn(*at(t, i, t->columns)) < 0)
             for (int j = 0; j <= t->columns; j++) mpq_neg(*at(t, i, j), *at(t, i, j));
-        mpq_set_ui(*at(t, i, own + i), 1, 1);
-        t->basis[i] = own + i;
+        t->basis[i] = t->columns + i;
     }
     for (int j = 0; j <= t->columns; j++)
-        for (int i = 0; i < t->rows; i++)
-            if (j < own || j == t->columns) mpq_sub(*at(t, t->rows, j), *at(t, t->rows, j), *at(t, i, j));
-    descend(t, own);
+        for (int i = 0; i < t->rows; i++) mpq_sub(*at(t, t->rows, j), *at(t, t->rows, j), *at(t, i, j));
+    descend(t);
     if (mpq_sgn(*at(t, t->rows, t->columns)) != 0) return false;
     for (int i = 0; i < t->rows; i++)
-        for (int j = 0; j < own && t->basis[i] >= own; j++)
+        for (int j = 0; j < t->columns && t->basis[i] >= t->columns; j++)
             if (mpq_sgn(*at(t, i, j))) pivot(t, i, j);
     return true;
 }
 
 /* The greatest (-1) or least (1) value of a column, from a start. */
 static void best_value(table *t, int column, int sense, mpq_t out) {
-    const int own = t->columns - t->rows;
     for (int j = 0; j <= t->columns; j++) mpq_set_si(*at(t, t->rows, j), j == column ? sense : 0, 1);
     for (int i = 0; i < t->rows; i++)
         if (t->basis[i] == column) subtract(t, t->rows, i, *at(t, t->rows, column));
-    descend(t, own);
+    descend(t);
     mpq_set_ui(out, 0, 1);
     for (int i = 0; i < t->rows; i++)
         if (t->basis[i] == column) mpq_set(out, *at(t, i, t->columns));
@@ -439,16 +436,24 @@ void high_distance2(const high_set *a, const high_set *b, mpq_t out) {
     wolfe_each(&s, mpq_clear);
 }
 
-bool high_meet(const high_set *a, const high_set *b) {
-    if (a->radius == 0 && b->radius == 0) return high_hulls_meet(a, b);
-    mpq_t square, reach, more;
-    mpq_inits(square, reach, more, NULL);
-    high_distance2(a, b, square);
+bool high_reach(const high_set *a, const high_set *b, mpq_t square) {
+    mpq_t reach, more;
+    mpq_inits(reach, more, NULL);
     mpq_set_d(reach, a->radius), mpq_set_d(more, b->radius);
     mpq_add(reach, reach, more);
     mpq_mul(reach, reach, reach);
     const bool meet = mpq_cmp(square, reach) <= 0;
-    mpq_clears(square, reach, more, NULL);
+    mpq_clears(reach, more, NULL);
+    return meet;
+}
+
+bool high_meet(const high_set *a, const high_set *b) {
+    if (a->radius == 0 && b->radius == 0) return high_hulls_meet(a, b);
+    mpq_t square;
+    mpq_init(square);
+    high_distance2(a, b, square);
+    const bool meet = high_reach(a, b, square);
+    mpq_clear(square);
     return meet;
 }
 

@@ -28,6 +28,8 @@ high_set high_object(const froe_scene *scene, uint32_t object);
 bool high_hulls_meet(const high_set *a, const high_set *b);
 /** The squared distance of the hulls. */
 void high_distance2(const high_set *a, const high_set *b, mpq_t out);
+/** Do the radii reach over the squared distance of the hulls? */
+bool high_reach(const high_set *a, const high_set *b, mpq_t square);
 /** Do the sets, grown by their radii, meet? */
 bool high_meet(const high_set *a, const high_set *b);
 /** Of hulls. 0 apart, 1 cross, 2 touch, 3 overlap; *corner: they have one corner in common and nothing else. */

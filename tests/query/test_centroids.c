@@ -124,9 +124,9 @@ static void centroids_find_the_node_that_descent_finds(void **state) {
 
 /* Only places near the middle of nested squares lie deep. */
 static void ranges_in_deep_trees_meet_what_they_should(void **state) {
-    world w = world_begin("nested", world_generate("nested", 1500));
+    world w = world_begin("nested", world_generate("nested", 600));
     (void)state;
-    for (uint64_t seed = 0; seed < 120; seed++) {
+    for (uint64_t seed = 0; seed < 90; seed++) {
         w.scale = ldexp(1, -(int)(seed % 60));
         w.origin[0] = w.origin[1] = -0.5 * w.scale;
         ask(&w, (froe_range_shape)(seed % FROE_SHAPE_COUNT), seed);

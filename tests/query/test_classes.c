@@ -109,12 +109,12 @@ static void check_scene(const char *name, froe_scene *scene, uint64_t seeds, dou
 
 static void scenes_of_many_sizes(void **state) {
     (void)state;
-    check_scene("plane", mixed(2, SOME, 90, 9, false, 1), 120, 1);
-    check_scene("plane, lattice", mixed(2, SOME, 90, 9, true, 2), 120, 1);
-    check_scene("space", mixed(3, SOME, 50, 6, false, 3), 80, 1);
-    check_scene("space, lattice", mixed(3, SOME, 50, 6, true, 4), 80, 1);
-    check_scene("five dimensions", mixed(5, SOLID_KINDS, 40, 5, true, 5), 60, 1);
-    check_scene("nested", world_generate("nested", 300), 100, 1);
+    check_scene("plane", mixed(2, SOME, 90, 9, false, 1), 60, 1);
+    check_scene("plane, lattice", mixed(2, SOME, 90, 9, true, 2), 60, 1);
+    check_scene("space", mixed(3, SOME, 50, 6, false, 3), 40, 1);
+    check_scene("space, lattice", mixed(3, SOME, 50, 6, true, 4), 40, 1);
+    check_scene("five dimensions", mixed(5, SOLID_KINDS, 40, 5, true, 5), 30, 1);
+    check_scene("nested", world_generate("nested", 300), 50, 1);
 }
 
 static void one_small_object_among_large_ones(void **state) {
@@ -433,7 +433,7 @@ static void crowded_cells_refer_to_larger_ones(void **state) {
 
 /* ---------------------------------------------------------------- contexts -- */
 
-enum { MANY = 1500 };
+enum { MANY = 700 };
 
 static void make_ranges(froe_range *ranges, double *points) {
     for (uint32_t i = 0; i < MANY; i++) {

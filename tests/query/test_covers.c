@@ -5,7 +5,7 @@
 #include "query/covers.h"
 #include "query/range/centroids.h"
 
-enum { ROUNDS = 8, DEEP = 60 };
+enum { ROUNDS = 4, DEEP = 60 };
 
 typedef struct made {
     double coords[200 * 2 * FROE_MAX_DIM];

@@ -24,7 +24,7 @@ static void check_ranges(world w, int questions) {
 
 static void ranges_at_every_scale(void **state) {
     (void)state;
-    tour_extremes(check_ranges, 12, 6);
+    tour_extremes(check_ranges, 9, 3);
 }
 
 static void check_balls(world w, int questions) {
@@ -36,7 +36,7 @@ static void check_balls(world w, int questions) {
 
 static void balls_at_every_scale(void **state) {
     (void)state;
-    tour_extremes(check_balls, 40, 10);
+    tour_extremes(check_balls, 18, 10);
 }
 
 /* Segments of the unit square, the first so short that the square of its length underflows. */
@@ -83,7 +83,7 @@ static void check_everything(world w, int rounds) {
 
 static void every_query_at_every_scale(void **state) {
     (void)state;
-    tour_extremes(check_everything, 24, 3);
+    tour_extremes(check_everything, 18, 1);
 }
 
 int main(void) {

@@ -4,12 +4,9 @@
 #include "query/context.h"
 #include "support/fuzz.h"
 #include "support/memory.h"
-#include "support/sanitized.h"
 #include <stdio.h>
 
-enum { OBJECTS = 16, QUESTIONS = 4 };
-
-enum { SEEDS = SANITIZED ? 1 : 2 };
+enum { OBJECTS = 16, QUESTIONS = 2 };
 
 typedef struct trial {
     fuzz_source r;
@@ -246,11 +243,10 @@ static void ask_scene(trial *t) {
 
 static void questions_are_answered_as_in_rationals(void **state) {
     (void)state;
-    for (int dim = 4; dim <= FROE_MAX_DIM; dim++)
-        for (uint64_t seed = 0; seed < SEEDS; seed++) {
-            trial t = {.r = {seed * 100 + (uint64_t)dim}, .dim = dim, .lattice = seed % 2 == 0, .scale = 1};
-            ask_scene(&t);
-        }
+    for (int dim = 4; dim <= FROE_MAX_DIM; dim++) {
+        trial t = {.r = {(uint64_t)dim}, .dim = dim, .lattice = dim % 2 == 0, .scale = 1};
+        ask_scene(&t);
+    }
     for (int i = 1; i < 4; i++) assert_true(seen[i] > 2);
 }
 

@@ -79,17 +79,17 @@ static void points_are_found_at_the_limits(void **state) {
         locate_in("nothing", world_mixture(dim, 0, 0, 0, 0, 1), 10);
         for (int kind = 0; kind < FROE_KIND_COUNT; kind++)
             if (kinds >> kind & 1) decisions += locate_in("one", world_mixture(dim, 1u << kind, 1, 3, 1, 1), 60);
-        decisions += locate_in("around 1e300", world_scaled(unit, 1000), 40);
-        decisions += locate_in("around 1e-307", world_scaled(unit, -1020), 40);
-        decisions += locate_in("denormals", world_scaled(lattice, -1074), 40);
-        decisions += locate_in("a lattice around 1e307", world_scaled(lattice, 1019), 40);
+        decisions += locate_in("around 1e300", world_scaled(unit, 1000), 15);
+        decisions += locate_in("around 1e-307", world_scaled(unit, -1020), 15);
+        decisions += locate_in("denormals", world_scaled(lattice, -1074), 15);
+        decisions += locate_in("a lattice around 1e307", world_scaled(lattice, 1019), 15);
         froe_scene_free(unit);
         froe_scene_free(lattice);
     }
     decisions += locate_in("a map", world_read("states-albers-10m.json"), 1);
     decisions += locate_in("boxes of a house", world_read("fzk-haus-boxes.csv"), 60);
     print_message("%zu decisions at the limits, %zu held\n", decisions, held_at_limits);
-    assert_true(decisions > 200000 && held_at_limits > 1000);
+    assert_true(decisions > 80000 && held_at_limits > 500);
 }
 
 static void check_extremes(world w, int points) {
@@ -99,7 +99,7 @@ static void check_extremes(world w, int points) {
 
 static void points_are_found_at_every_scale(void **state) {
     (void)state;
-    tour_extremes(check_extremes, 60, 30);
+    tour_extremes(check_extremes, 27, 20);
 }
 
 static void points_outside_and_bad_points(void **state) {

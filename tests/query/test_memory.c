@@ -4,7 +4,7 @@
 #include "asked.h"
 #include "query/questions.h"
 
-enum { MANY = 24 }; /* arrays begin with room for 16 items */
+enum { MANY = 18 }; /* arrays begin with room for 16 items */
 
 /* Triangles that are groups, all with a corner in (0.5, 0.5), and as many balls around it. */
 static froe_scene *fan(bool balls) {

@@ -97,7 +97,7 @@ static void check_world(world w, int points) {
 
 static void neighbours_in_generated_scenes(void **state) {
     (void)state;
-    tour_generators(check_world, 60, 12);
+    tour_generators(check_world, 20, 8);
 }
 static void neighbours_among_all_kinds_on_lattices_and_off(void **state) {
     (void)state;
@@ -105,7 +105,7 @@ static void neighbours_among_all_kinds_on_lattices_and_off(void **state) {
 }
 static void neighbours_in_real_scenes(void **state) {
     (void)state;
-    tour_files(check_world, 16);
+    tour_files(check_world, 8);
 }
 static void neighbours_at_every_scale(void **state) {
     (void)state;
@@ -136,7 +136,7 @@ static void neighbours_among_points(void **state) {
     (void)state;
     for (int dim = 2; dim <= 5; dim++) {
         const uint64_t seed = (uint64_t)dim;
-        const int questions = 150 / EXACT_SHARE;
+        const int questions = 50 / EXACT_SHARE;
         check_world(world_begin("anywhere", cloud(dim, 200, 0, 1, 0, seed)), questions);
         check_world(world_begin("lattice, many at one place", cloud(dim, 200, 4, 1, 0, seed)), questions);
         check_world(world_begin("far away", cloud(dim, 150, 0, 0x1p-8, 0x1p40, seed)), questions);

@@ -374,7 +374,7 @@ static void pairs_do_not_depend_on_threads(void **state) {
         assert_int_equal(froe_query_pairs(reference, true, note_pair, &expected, NULL), FROE_OK);
         assert_true(expected.pairs.count > 10000);
         if (k) assert_true(expected.pairs.count > 16 * (uint64_t)scenes[k].count + (1 << 20));
-        for (unsigned threads = 1; threads <= 5; threads += 2) expect_pairs(q, threads, true, &expected, "threads");
+        for (unsigned threads = 1; threads <= 5; threads += 4) expect_pairs(q, threads, true, &expected, "threads");
         array_free(&alloc, &expected.pairs);
         froe_query_free(q), froe_query_free(reference);
         froe_tree_free(packed), froe_tree_free(general);

@@ -92,7 +92,7 @@ static void pairs_in_generated_scenes(void **state) {
         const char *name = froe_generator_at(g)->name;
         const bool slow = strstr(name, "huge") || strstr(name, "denormal") || strstr(name, "star");
         if (!tour_knows(froe_generator_at(g))) continue;
-        check_world(world_begin(name, world_generate(name, slow ? 20 : EXACT_SHARE > 1 ? 24 : 96)), 0);
+        check_world(world_begin(name, world_generate(name, slow ? 20 : EXACT_SHARE > 1 ? 24 : 56)), 0);
     }
 }
 

@@ -87,7 +87,8 @@ static void any_allocation_of_any_question_may_fail(void **state) {
     for (int kind = 0; kind < KINDS; kind++) {
         froe_tree *tree = tree_of(kind);
         for (int question = 0; question < QUESTIONS; question++)
-            assert_true(test_memory_each(ask_with, &(asking){tree, question, 0}) > 2);
+            if (question < QUESTIONS_PLAIN || question % 3 == kind % 3)
+                assert_true(test_memory_each(ask_with, &(asking){tree, question, 0}) > 2);
         froe_tree_free(tree);
     }
 }

@@ -114,8 +114,8 @@ static void check_extremes(world w, int rounds) {
 
 static void at_every_scale_they_keep_it_too(void **state) {
     (void)state;
-    tour_extremes(check_extremes, 10, 4);
-    assert_true(EXACT_SHARE > 1 || beyond > 10);
+    tour_extremes(check_extremes, 9, 2);
+    assert_true(EXACT_SHARE > 1 || beyond > 4);
 }
 
 /* With the name of a case as argument: that case alone. */

@@ -4,6 +4,7 @@
 #include "query/packed/space.h"
 #include "support/large.h"
 #include "support/memory.h"
+#include "support/sanitized.h"
 #include "tree/trees.h"
 #include "tree/validate.h"
 #include <stdlib.h>
@@ -28,7 +29,7 @@ static const kind_of_scene kinds[] = {
     {"one", 1, 0, 24, 0.2, 1, 0, false},
     {"triangles", 600, 0, 24, 0.2, 1, 0, true},
 };
-enum { KINDS = sizeof kinds / sizeof *kinds, QUERIES = 120 };
+enum { KINDS = sizeof kinds / sizeof *kinds, QUERIES = 80 / SANITIZED_SHARE(4) };
 
 static double place(const kind_of_scene *k, double x) {
     return (k->grid ? floor(x * k->grid) : x) * k->scale + k->shift;
@@ -224,7 +225,7 @@ static void every_kernel_gives_the_answers_of_general_trees(void **state) {
 
 /* -------------------------------------------------------------------- batches -- */
 
-enum { RAYS = 700 };
+enum { RAYS = 280 }; /* more than a thread takes at a time */
 
 typedef struct rays {
     double o[3 * RAYS], d[3 * RAYS];
@@ -287,13 +288,13 @@ static void batches_refuse_bad_rays(void **state) {
     (void)state;
     assert_int_equal(froe_query_new(tree, &q, NULL), FROE_OK);
     for (uint64_t draw = 0; draw < RAYS; draw++) odd_ray(tree, draw, r->o + 3 * draw, r->d + 3 * draw);
-    r->o[3 * 300 + 1] = NAN;
-    for (int k = 0; k < 3; k++) r->d[3 * 310 + k] = 0;
+    r->o[3 * 270 + 1] = NAN;
+    for (int k = 0; k < 3; k++) r->d[3 * 275 + k] = 0;
     assert_int_equal(froe_batch_ray(q, r->o, r->d, RAYS, INFINITY, NULL, r->hits, &why), FROE_E_INPUT);
-    assert_int_equal(why.object, 300);
+    assert_int_equal(why.object, 270);
     assert_int_equal(froe_batch_ray_any(q, r->o, r->d, 5, -1, NULL, r->any, &why), FROE_E_INPUT);
     assert_int_equal(why.object, 0);
-    assert_int_equal(froe_batch_ray(q, r->o, r->d, 300, INFINITY, NULL, r->hits, &why), FROE_OK);
+    assert_int_equal(froe_batch_ray(q, r->o, r->d, 270, INFINITY, NULL, r->hits, &why), FROE_OK);
     assert_int_equal(froe_batch_ray(q, r->o, r->d, 0, INFINITY, NULL, r->hits, &why), FROE_OK);
     froe_query_free(q);
     froe_tree_free(tree);

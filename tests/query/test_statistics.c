@@ -2,7 +2,7 @@
  * leaves may be empty, and cells be found without a cut); batches count the same on any number of threads. */
 #include "query/worlds.h"
 
-enum { MANY = 600 };
+enum { MANY = 300 };
 
 /* Queries in the unit cube. */
 typedef struct questions {
@@ -189,13 +189,13 @@ static void check_scene(froe_scene *scene, size_t kind_count) {
 
 static void every_query_says_what_it_visited(void **state) {
     (void)state;
-    check_scene(trees_scene(2, FROE_SEGMENT, 400, 0, 0.1, 1), KINDS);
-    check_scene(trees_scene(3, FROE_POLYGON, 300, 0, 0.3, 2), KINDS - PLANE_KINDS);
+    check_scene(trees_scene(2, FROE_SEGMENT, 250, 0, 0.1, 1), KINDS);
+    check_scene(trees_scene(3, FROE_POLYGON, 150, 0, 0.3, 2), KINDS - PLANE_KINDS);
 }
 
 static void deep_trees_say_how_they_were_searched(void **state) {
     (void)state;
-    check_scene(world_generate("nested", 1000), KINDS);
+    check_scene(world_generate("nested", 600), KINDS);
 }
 
 int main(void) {

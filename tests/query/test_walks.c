@@ -78,15 +78,15 @@ static void check_world(const char *name, froe_scene *scene, size_t seeds, bool 
 
 static void walks_agree_in_nested_scenes(void **state) {
     (void)state;
-    check_world("nested", world_generate("nested", 1000), 80, true);
-    check_world("wedge", world_generate("wedge", 300), 80, false);
+    check_world("nested", world_generate("nested", 500), 60, true);
+    check_world("wedge", world_generate("wedge", 200), 60, false);
 }
 
 static void walks_agree_among_all_kinds(void **state) {
     (void)state;
-    check_world("plane", world_mixture(2, 63 & ~(1u << FROE_POLYGON), 12, 0, 0.3, 3), 160, false);
-    check_world("plane, lattice", world_mixture(2, 63 & ~(1u << FROE_POLYGON), 12, 9, 0.3, 4), 160, false);
-    check_world("space", world_mixture(3, 63, 8, 0, 0.4, 5), 80, false);
+    check_world("plane", world_mixture(2, 63 & ~(1u << FROE_POLYGON), 12, 0, 0.3, 3), 80, false);
+    check_world("plane, lattice", world_mixture(2, 63 & ~(1u << FROE_POLYGON), 12, 9, 0.3, 4), 80, false);
+    check_world("space", world_mixture(3, 63, 8, 0, 0.4, 5), 40, false);
 }
 
 static void walks_agree_among_boxes(void **state) {

@@ -43,7 +43,8 @@ static inline void world_build(world *w, const char *method, uint32_t leaf) {
     w->trees[w->tree_count++] = tree;
 }
 
-/** Takes over the scene; all builders, each with leaves of one object and, by turns, with full or free ones. */
+/** Takes over the scene; all builders, each with leaves of one object and, by turns, with full or free ones; of a large
+ * scene one of both, by turns. */
 static inline world world_begin(const char *name, froe_scene *scene) {
     world w = {.name = name, .dim = froe_scene_dim(scene), .count = froe_scene_object_count(scene), .scene = scene};
     double lo[FROE_MAX_DIM] = {0}, hi[FROE_MAX_DIM] = {0};
@@ -52,8 +53,9 @@ static inline world world_begin(const char *name, froe_scene *scene) {
     w.trees = calloc(2 * methods, sizeof *w.trees);
     w.queries = calloc(2 * methods, sizeof *w.queries);
     for (size_t m = 0; m < methods; m++) {
-        world_build(&w, froe_method_at(m)->name, 1);
-        world_build(&w, froe_method_at(m)->name, w.dim == 2 && (w.count + m) % 2 ? 0 : 6);
+        const bool large = w.count > 500;
+        if (!large || m % 2) world_build(&w, froe_method_at(m)->name, 1);
+        if (!large || m % 2 == 0) world_build(&w, froe_method_at(m)->name, w.dim == 2 && (w.count + m / 2) % 2 ? 0 : 6);
     }
     assert_true(w.tree_count > 0);
     froe_scene_bounds(scene, lo, hi);

@@ -44,7 +44,7 @@ static double near_plane(double x, double y, uint64_t draw) {
 static void triangles_beside_a_plane_by_less_than_rounding_are_told_exactly(void **state) {
     double coords[NUMBERS];
     (void)state;
-    for (uint64_t round = 0; round < 6; round++) {
+    for (uint64_t round = 0; round < 2; round++) {
         for (uint32_t i = 0; i < NUMBERS; i += 3) {
             coords[i] = base_below(base_hash(round, 2, i), 30) * 0.1;
             coords[i + 1] = base_below(base_hash(round, 3, i), 30) * 0.1;

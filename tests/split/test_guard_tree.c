@@ -542,7 +542,7 @@ static void check_scene(const froe_scene *scene, split_guard_options options) {
 
 static void a_scene_has_the_tree_of_its_guards_and_lowest_nodes_in_it(void **state) {
     static const int dims[] = {2, 2, 3, 5, 8};
-    static const size_t counts[] = {300, 9000, 9000, 3000, 300};
+    static const size_t counts[] = {300, 9000, 3000, 1000, 300};
     static const uint32_t ks[] = {0, 3, 16, 256};
     (void)state;
     for (int scene = 0; scene < SCENE_COUNT; scene++)

@@ -78,10 +78,10 @@ static double pieces_each(froe_scene *scene, const char *settings) {
 /** Without the guards they would be 6.3 and 7.3, and 12 times as many nests 10. */
 static void nests_have_few_pieces_whatever_their_number(void **state) {
     (void)state;
-    const double few = pieces_each(mesh_shells(85), NULL), more = pieces_each(mesh_shells(340), NULL);
+    const double few = pieces_each(mesh_shells(85), NULL), more = pieces_each(mesh_shells(170), NULL);
     assert_true(few < 5.2 && more < 5.4);
-    assert_true(log(more / few) / log(4) < 0.06);
-    assert_true(pieces_each(new_squares(1000), NULL) < 2.6);
+    assert_true(log(more / few) / log(2) < 0.06);
+    assert_true(pieces_each(new_squares(500), NULL) < 2.6);
 }
 
 /** 6.3 each before edges too short for doubles were drawn again, and vertices amid others no longer named planes. */
@@ -119,7 +119,7 @@ static void the_audit_finds_a_builder_that_does_not_thin_out(void **state) {
 
 static void trees_do_not_depend_on_threads(void **state) {
     (void)state;
-    froe_scene *scene = mesh_shells(340);
+    froe_scene *scene = mesh_shells(170);
     froe_tree *one = build(scene, "effort=fast", 1), *three = build(scene, "effort=fast", 3);
     assert_true(one->node_count == three->node_count && one->piece_count == three->piece_count);
     assert_memory_equal(one->nodes, three->nodes, one->node_count * sizeof *one->nodes);

@@ -298,10 +298,10 @@ static void fails_to_keep(const char *kind, size_t n, const char *settings, cons
 /** Nothing is taken back; there are no guards besides; refinement is allowed next to no tests. */
 static void crippled_methods_fail_to_keep_their_promises(void **state) {
     (void)state;
-    fails_to_keep("nested-3d", 4000, "trials=0", "'fragments'");
-    fails_to_keep("nested", 3000, "trials=0", "'fragments'");
+    fails_to_keep("nested-3d", 2000, "trials=0", "'fragments'");
+    fails_to_keep("nested", 2000, "trials=0", "'fragments'");
     fails_to_keep("slats-3d", 200, "trials=0", "'fragments'");
-    fails_to_keep("nested-3d", 4000, "trials=0 stop=1000000000", "'fragments'");
+    fails_to_keep("nested-3d", 2000, "trials=0 stop=1000000000", "'fragments'");
     fails_to_keep("slats-3d", 200, "trials=1e-9", "'tests'");
 }
 

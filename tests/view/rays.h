@@ -14,7 +14,7 @@ static inline int rays_inside(const froe_scene *s, uint32_t object, rational_pla
     mpq_t a[3], b[3], cross[3], side;
     for (int k = 0; k < 3; k++) mpq_inits(a[k], b[k], cross[k], NULL);
     mpq_init(side);
-    for (uint32_t i = 0; i < n; i++) {
+    for (uint32_t i = 0; i < n && !(s->dim == 3 && left && right); i++) {
         const double *u = scene_point(s, object, i), *v = scene_point(s, object, i + 1 < n ? i + 1 : 0);
         for (int k = 0; k < s->dim; k++) {
             mpq_set_d(a[k], v[k]), mpq_set_d(b[k], u[k]);

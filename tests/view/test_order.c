@@ -145,15 +145,15 @@ static void check_scene(int dim, size_t count, uint32_t grid, double size, const
 
 static void random_triangles_are_in_order_along_every_ray(void **state) {
     (void)state;
-    check_scene(3, 60, 0, 1, "density", 1);
-    check_scene(3, 60, 0, 1, "autopartition", 0);
+    check_scene(3, 40, 0, 1, "density", 1);
+    check_scene(3, 40, 0, 1, "autopartition", 0);
 }
 
 static void triangles_of_a_lattice_are_in_order_and_ranks_decide_in_planes(void **state) {
     (void)state;
-    check_scene(3, 90, 3, 2, "density", 0);
-    check_scene(3, 90, 2, 2, "density", 1);
-    check_scene(3, 90, 2, 2, "autopartition", 1);
+    check_scene(3, 55, 3, 2, "density", 0);
+    check_scene(3, 55, 2, 2, "density", 1);
+    check_scene(3, 55, 2, 2, "autopartition", 1);
 }
 
 static void segments_in_the_plane_are_in_order(void **state) {

@@ -110,10 +110,10 @@ static void a_patch_may_lie_over_itself(void **state) {
 
 static void whole_patches_paint_each_other_over(void **state) {
     (void)state;
-    froe_picture_report r = check_tree(random_tree(), 8, 60, FROE_PAINT_WHOLE, false);
+    froe_picture_report r = check_tree(random_tree(), 5, 40, FROE_PAINT_WHOLE, false);
     assert_true(r.late > 0 && r.whole > r.late && r.whole + r.late == r.shapes);
-    check_tree(lattice_tree(), 8, 60, FROE_PAINT_WHOLE, false);
-    r = check_tree(landscape(), 8, 60, FROE_PAINT_WHOLE, false);
+    check_tree(lattice_tree(), 5, 40, FROE_PAINT_WHOLE, false);
+    r = check_tree(landscape(), 5, 40, FROE_PAINT_WHOLE, false);
     assert_int_equal(r.late, 0);
 }
 
@@ -154,10 +154,10 @@ static void regions_and_fragments_show_the_same(void **state) {
 
 static void layers_that_one_sees_through_come_in_their_order(void **state) {
     (void)state;
-    const froe_picture_report r = check_tree(random_tree(), 8, 50, FROE_PAINT_WHOLE, true);
+    const froe_picture_report r = check_tree(random_tree(), 5, 30, FROE_PAINT_WHOLE, true);
     assert_true(r.late > 0);
-    check_tree(lattice_tree(), 8, 50, FROE_PAINT_WHOLE, true);
-    check_tree(landscape(), 5, 50, FROE_PAINT_WHOLE, true);
+    check_tree(lattice_tree(), 5, 30, FROE_PAINT_WHOLE, true);
+    check_tree(landscape(), 5, 30, FROE_PAINT_WHOLE, true);
 }
 
 /* A tall wall beside two low ones, in one plane: they share no edge, for the middle of the tall one's is no corner. */
@@ -570,7 +570,7 @@ static void a_picture_can_be_cancelled_at_every_report(void **state) {
 
 static void every_allocation_may_fail(void **state) {
     (void)state;
-    froe_tree *tree = trees_grow(3, FROE_POLYGON, 25, 0, 1, "density", 1);
+    froe_tree *tree = trees_grow(3, FROE_POLYGON, 14, 0, 1, "density", 1);
     page p;
     open_page(&p, tree);
     uint8_t *clear = calloc(p.surface->patch_count, 1);

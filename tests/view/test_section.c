@@ -59,10 +59,10 @@ static void check(froe_tree *tree, const char *method, froe_paint paint, bool th
 
 static void what_is_left_is_seen(void **state) {
     (void)state;
-    check(trees_grow(3, FROE_POLYGON, 60, 0, 1, "density", 1), "grain", FROE_PAINT_WHOLE, false);
-    check(trees_grow(3, FROE_POLYGON, 60, 3, 2, "density", 1), "density", FROE_PAINT_WHOLE, false);
-    check(trees_grow(3, FROE_POLYGON, 60, 0, 3, "density", 1), "autopartition", FROE_PAINT_REGIONS, false);
-    check(trees_grow(3, FROE_POLYGON, 50, 3, 4, "density", 1), "grain", FROE_PAINT_FRAGMENTS, false);
+    check(trees_grow(3, FROE_POLYGON, 40, 0, 1, "density", 1), "grain", FROE_PAINT_WHOLE, false);
+    check(trees_grow(3, FROE_POLYGON, 40, 3, 2, "density", 1), "density", FROE_PAINT_WHOLE, false);
+    check(trees_grow(3, FROE_POLYGON, 40, 0, 3, "density", 1), "autopartition", FROE_PAINT_REGIONS, false);
+    check(trees_grow(3, FROE_POLYGON, 35, 3, 4, "density", 1), "grain", FROE_PAINT_FRAGMENTS, false);
 }
 
 static void one_sees_through_what_is_left(void **state) {

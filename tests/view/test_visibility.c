@@ -209,14 +209,14 @@ static void check_tree(froe_tree *tree, uint32_t eyes, uint32_t rays) {
 
 static void random_triangles(void **state) {
     (void)state;
-    check_tree(trees_grow(3, FROE_POLYGON, 40, 0, 1, "density", 1), 5, 40);
+    check_tree(trees_grow(3, FROE_POLYGON, 28, 0, 1, "density", 1), 5, 40);
     check_tree(trees_grow(3, FROE_POLYGON, 80, 0, 0.3, "autopartition", 0), 2, 40);
 }
 
 static void triangles_of_a_lattice_with_overlaps_in_planes(void **state) {
     (void)state;
-    check_tree(trees_grow(3, FROE_POLYGON, 90, 3, 2, "density", 1), 5, 50);
-    check_tree(trees_grow(3, FROE_POLYGON, 60, 2, 2, "autopartition", 0), 5, 50);
+    check_tree(trees_grow(3, FROE_POLYGON, 50, 3, 2, "density", 1), 5, 50);
+    check_tree(trees_grow(3, FROE_POLYGON, 40, 2, 2, "autopartition", 0), 5, 50);
 }
 
 /* Boxes of 6 quadrilaterals that overlap, on a lattice: coplanar faces, T-junctions, collinear edges. */

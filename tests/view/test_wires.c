@@ -5,6 +5,7 @@
  * points, where a corner touches the line of sight. So points of segments are asked for within intervals and gaps, at
  * places that no lattice has; points of the scene are asked for anywhere. */
 #include "rays.h"
+#include "support/sanitized.h"
 #include "view/visibility/visibility.h"
 #include <math.h>
 
@@ -172,15 +173,18 @@ static froe_tree *mixed(size_t faces, size_t wires, size_t dots, uint32_t grid, 
 
 static void random_scenes(void **state) {
     (void)state;
-    check_eyes(mixed(40, 40, 40, 0, 1, "density"), 5);
-    check_eyes(mixed(60, 40, 60, 0, 0.5, "grain"), 5);
+    check_eyes(mixed(30, 25, 30, 0, 1, "density"), 5);
+    check_eyes(mixed(40, 25, 40, 0, 0.5, "grain"), 5);
 }
+
+/* Each kind of eye, or under sanitizers each other one. */
+enum { EYES = 10 / SANITIZED_SHARE(2) };
 
 static void scenes_on_a_lattice(void **state) {
     (void)state;
-    check_eyes(mixed(60, 60, 60, 3, 2, "density"), 10);
-    check_eyes(mixed(40, 60, 60, 2, 2, "grain"), 10);
-    check_eyes(mixed(50, 50, 60, 4, 2, "autopartition"), 10);
+    check_eyes(mixed(40, 30, 40, 3, 2, "density"), EYES);
+    check_eyes(mixed(30, 30, 40, 2, 2, "grain"), EYES);
+    check_eyes(mixed(40, 30, 40, 4, 2, "autopartition"), EYES);
 }
 
 static void scenes_without_polygons_on_any_tree(void **state) {
@@ -336,7 +340,7 @@ static void an_eye_at_a_point_or_in_a_segment_does_not_see_it(void **state) {
     froe_tree *tree = mixed(40, 40, 40, 3, 2, "density");
     stage s;
     open_stage(&s, tree);
-    for (uint32_t i = 0; i < 20; i++) {
+    for (uint32_t i = 0; i < 10; i++) {
         const double *u = scene_point(tree->scene, i, 0), *v = scene_point(tree->scene, i, 1);
         froe_eye eye = {.parallel = false};
         for (int k = 0; k < 3; k++) eye.at[k] = i % 2 ? u[k] : 0.5 * (u[k] + v[k]); /* exact on the lattice */
@@ -344,7 +348,7 @@ static void an_eye_at_a_point_or_in_a_segment_does_not_see_it(void **state) {
         check_all(&s);
         froe_visibility_free(s.v);
     }
-    for (uint32_t i = 0; i < s.surface->point_count; i += 5) {
+    for (uint32_t i = 0; i < s.surface->point_count; i += 10) {
         const double *x = scene_point(tree->scene, s.surface->points[i], 0);
         look_from(&s, (froe_eye){.at = {x[0], x[1], x[2]}}, froe_visibility_defaults());
         assert_false(froe_visibility_of_point(s.v, i));
