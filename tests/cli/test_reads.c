@@ -1,4 +1,4 @@
-/* test_reads.c: every command, while calls that read fail, in turn one alone, or all from it on: open(), read(), mmap(),
+/* test_reads.c: every command, while calls that read fail, in turn one alone or all from it on: open(), read(), mmap(),
  * stat() and others of the program and its core. It names a file and the reason, with exit code 3 or 4, and what it was
  * to write is as before; or it found another way, and all is as without a fault. A read that
  * hands over one byte changes nothing. Where a file ends early, nothing crashes or waits.
