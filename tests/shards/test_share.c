@@ -9,7 +9,7 @@
 #include <pthread.h>
 #include <stdatomic.h>
 
-enum { COUNT = 400, MOST = 24, QUESTIONS = 48, RANKS = 4 };
+enum { COUNT = 400, MOST = 24, QUESTIONS = 120, RANKS = 4 };
 
 /* --------------------------------------------------------------- transport -- */
 
