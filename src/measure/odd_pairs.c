@@ -200,8 +200,8 @@ static froe_status search_sheets(sheet_search *s) {
     for (size_t i = 0; i < s->sheets.count; i++)
         if (s->sheets.data[i].boxes.ids) measure_hierarchy_free(&s->sheets.data[i].boxes);
     if (s->bounds.ids) measure_hierarchy_free(&s->bounds);
-    support_free(s->alloc, s->sheet_lo, (bounds ? bounds : 1) * sizeof *s->sheet_lo);
-    support_free(s->alloc, s->sheet_hi, (bounds ? bounds : 1) * sizeof *s->sheet_hi);
+    support_free(s->alloc, s->sheet_lo, bounds * sizeof *s->sheet_lo);
+    support_free(s->alloc, s->sheet_hi, bounds * sizeof *s->sheet_hi);
     array_free(s->alloc, &s->sheets);
     array_free(s->alloc, &s->touches);
     return status;

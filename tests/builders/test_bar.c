@@ -107,7 +107,7 @@ static const char *const settings_of[2][2] = {{"directions=3", "directions=4"},
                                               {"directions=7", "directions=7 aspect=8"}};
 
 static void points_end_low_and_alone(void **state) {
-    enum { COUNT = 2000 };
+    enum { COUNT = 900 };
     (void)state;
     for (int dim = 2; dim <= 3; dim++)
         for (int shape = 0; shape < SHAPES; shape++)
@@ -271,7 +271,7 @@ static bool is_inside(const split_directions *d, const bar_region *region, const
 
 /** Of many tiny segments that reach into fat cells, how many have no guard inside? */
 static size_t unguarded(int dim, int directions, bar_guard_kind kind) {
-    enum { TRIALS = 6000 };
+    enum { TRIALS = 2400 };
     size_t missed = 0;
     split_directions d;
     bar_guards guards;

@@ -108,7 +108,7 @@ static void a_tree_is_the_same_for_any_number_of_threads(void **state) {
  * they lie in its border; beside them some cross it. */
 static void segments_in_the_border_of_the_root_box_are_where_they_are(void **state) {
     static const double far[] = {1e15, -1e15, 0x1p60, -0x1p60, 1e300, -1e300, DBL_MAX, -DBL_MAX};
-    enum { COUNT = 300 };
+    enum { COUNT = 140 };
     double c[4 * COUNT];
     (void)state;
     for (size_t f = 0; f < sizeof far / sizeof *far; f++)
@@ -247,7 +247,7 @@ static void answers_do_not_depend_on_the_capacity(void **state) {
             pair_sum pairs[2] = {{0, 0}, {0, 0}};
             assert_int_equal(froe_tree_report(tree).leaf, leaves[l]);
             assert_int_equal(froe_query_new(tree, &b, NULL), FROE_OK);
-            for (uint64_t draw = 0; draw < 150; draw++) compare_answers(kinds + i, a, b, draw);
+            for (uint64_t draw = 0; draw < 60; draw++) compare_answers(kinds + i, a, b, draw);
             assert_int_equal(froe_query_pairs(a, true, add_pair, pairs, NULL), FROE_OK);
             assert_int_equal(froe_query_pairs(b, true, add_pair, pairs + 1, NULL), FROE_OK);
             assert_memory_equal(pairs, pairs + 1, sizeof *pairs);

@@ -12,7 +12,7 @@ static bool all;
 static const char *only = ""; /* command lines that begin with this */
 
 /* Calls that are tried of a kind, of most kinds half as many. */
-enum { SAMPLE = SANITIZED ? 4 : 12 };
+enum { SAMPLE = SANITIZED ? 2 : 6 };
 
 /* After memory that was refused. The file may be written and the report refused. */
 static const char *judge_memory(const outcome *o) {
@@ -44,7 +44,7 @@ static const char *judge(const run_case *c, const outcome *o, fault one) {
 
 /* The faults of one kind at `calls` calls, or at so many of these: the first and last ones, and some between. */
 static void try_calls(faulted *f, const char *variable, unsigned calls, unsigned sample, fault_kind kind) {
-    const unsigned ends = sample / 4, salt = (unsigned)(f->c - cases) * 7919 + (unsigned)kind * 104729;
+    const unsigned ends = sample / 3, salt = (unsigned)(f->c - cases) * 7919 + (unsigned)kind * 104729;
     if (all || calls <= sample) sample = calls;
     for (unsigned i = 0; i < sample; i++) {
         unsigned at = 1 + i;

@@ -19,12 +19,12 @@
 
 #define NAME "mutant.froe"
 enum {
-    SAMPLE = 2,             /* bits of a section, and ... */
-    SAMPLE_OF_TREE = 10,    /* ... of one that the audit is about */
-    SAMPLE_OF_BLOCKS = 200, /* which say the most */
-    PATIENCE = 60,          /* seconds for a mutant before it counts as one that hangs */
-    ROUNDS = 6,             /* of questions to a tree that passes the audit */
-    MOST_BYTES = 64 << 20,  /* that a tree may take */
+    SAMPLE = 1,            /* bits of a section, and ... */
+    SAMPLE_OF_TREE = 4,    /* ... of one that the audit is about */
+    SAMPLE_OF_BLOCKS = 80, /* which say the most */
+    PATIENCE = 60,         /* seconds for a mutant before it counts as one that hangs */
+    ROUNDS = 6,            /* of questions to a tree that passes the audit */
+    MOST_BYTES = 64 << 20, /* that a tree may take */
     MOST_COMPLAINTS = 20,
     MOST_METHODS = 20,
 };

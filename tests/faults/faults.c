@@ -94,13 +94,12 @@ ssize_t __wrap_write(int file, const void *bytes, size_t count) {
     return __real_write(file, bytes, cut ? 1 : count);
 }
 
-int __real_fsync(int file);
+/* What is on the disk is what power.h says, so the disk itself is not waited for. */
 int __wrap_fsync(int file);
 int __wrap_fsync(int file) {
     if (fails(folders & bit(file) ? "fsync folder" : "fsync")) return -1;
-    const int result = __real_fsync(file);
-    if (!result && is_power(&faults)) power_synced(file);
-    return result;
+    if (is_power(&faults)) power_synced(file);
+    return 0;
 }
 
 int __real_fchmod(int file, mode_t mode);

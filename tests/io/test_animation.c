@@ -133,7 +133,7 @@ static void the_deviation_that_is_told_holds_everywhere(void **state) {
     static animated_model m;
     double share = 0;
     uint64_t points = 0;
-    for (uint64_t seed = 1; seed <= 60; seed++) {
+    for (uint64_t seed = 1; seed <= 30; seed++) {
         make_random(&m, seed);
         animated_write(&m, "random.gltf");
         const compared c = compare(&m, "random.gltf", NULL);
@@ -143,7 +143,7 @@ static void the_deviation_that_is_told_holds_everywhere(void **state) {
         if (c.reported > 1e-9) share = fmax(share, c.most / c.reported);
         points += c.points;
     }
-    assert_true(points > 500000 && share > 0.8 && share < 1); /* and it is not told to be much more than it is */
+    assert_true(points > 250000 && share > 0.8 && share < 1); /* and it is not told to be much more than it is */
 }
 
 static void less_deviation_takes_more_pieces(void **state) {
@@ -453,7 +453,7 @@ static void changed_bytes_end_in_a_status(void **state) {
     animated_write(&m, "bytes.gltf");
     const size_t size = strlen(strcpy(bytes, read_text("bytes.gltf")));
     size_t read = 0;
-    for (int round = 0; round < 400; round++) {
+    for (int round = 0; round < 200; round++) {
         static char changed[1 << 16];
         froe_motion *motion = NULL;
         froe_diagnostic diag = {.message = ""};
@@ -465,7 +465,7 @@ static void changed_bytes_end_in_a_status(void **state) {
         read += !status;
         froe_motion_free(motion);
     }
-    assert_true(read > 20 && read < 380);
+    assert_true(read > 10 && read < 190);
 }
 
 static froe_status read_once(void *user, const froe_allocator *alloc) {

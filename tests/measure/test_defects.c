@@ -279,13 +279,13 @@ static void segments_of_lattices_at_every_scale(void **state) {
     (void)state;
     const double scales[] = {1, 0x1p1000, 0x1p-1074, 0.1};
     memset(totals, 0, sizeof totals);
-    for (uint32_t round = 0; round < 120; round++) {
+    for (uint32_t round = 0; round < 60; round++) {
         double xy[4 * 60];
         for (uint32_t i = 0; i < 240; i++)
             xy[i] = base_below(base_hash(11, round, i), 2 + round % 30) * scales[round % 4];
         check(scene_with(2, FROE_SEGMENT, 60, xy, NULL), 1 + round % 2);
     }
-    for (int i = 0; i < 5; i++) assert_true(totals[i] > 100);
+    for (int i = 0; i < 5; i++) assert_true(totals[i] > 50);
 }
 
 /** Triangles and parallelograms, some with corners in the middle of edges, on a small lattice. */
@@ -318,20 +318,20 @@ static void polygons_of_lattices_at_every_scale(void **state) {
     (void)state;
     const double scales[] = {1, 0x1p1000, 0x1p-1074};
     memset(totals, 0, sizeof totals);
-    for (uint32_t round = 0; round < 60; round++)
+    for (uint32_t round = 0; round < 30; round++)
         check(lattice_polygons(round, 40, 1 + round % 5, scales[round % 3]), 1 + round % 2);
-    for (int i = 0; i < 5; i++) assert_true(totals[i] > 50);
+    for (int i = 0; i < 5; i++) assert_true(totals[i] > 25);
 }
 
 static void polygons_in_general_position(void **state) {
     (void)state;
     memset(totals, 0, sizeof totals);
-    for (uint32_t round = 0; round < 10; round++) {
+    for (uint32_t round = 0; round < 4; round++) {
         double xyz[9 * 60];
         for (uint32_t i = 0; i < 540; i++) xyz[i] = (double)base_hash(7, round, i) * 0x1p-64;
         check(scene_with(3, FROE_POLYGON, 60, xyz, NULL), 2);
     }
-    assert_true(totals[0] > 1000 && totals[1] + totals[2] + totals[3] == 0);
+    assert_true(totals[0] > 400 && totals[1] + totals[2] + totals[3] == 0);
 }
 
 /** A fan of triangles around an axis, a wall on a floor, stacked walls: named cases. */
@@ -475,7 +475,7 @@ static void every_failing_allocation_is_survived(void **state) {
 
 /* ------------------------------------------------------------------ sheets -- */
 
-enum { SLIVERS = 240, FACE = 80 };
+enum { SLIVERS = 198, FACE = 66 };
 
 /** Long thin triangles side by side, askew, whose boxes all meet; three source polygons, the second beside the first
  * and the third on top of both. `odd` of 16 are something else: half as long, so that others have T-junctions with
@@ -513,7 +513,7 @@ static void long_thin_triangles_are_counted_without_looking_at_all_pairs(void **
     (void)state;
     const double scales[] = {1, 0x1p900, 0x1p-1060};
     memset(totals, 0, sizeof totals);
-    for (uint32_t round = 0; round < 4; round++) check(slivers(round, 2 * round, scales[round % 3]), 1 + round % 2);
+    for (uint32_t round = 0; round < 3; round++) check(slivers(round, 2 * round, scales[round % 3]), 1 + round % 2);
     for (int i = 0; i < 3; i++) assert_true(totals[i] > 5);
 }
 
@@ -616,8 +616,8 @@ static void triangles_side_by_side_are_straight(void **state) {
     froe_scene_free(s);
 }
 
+/* `user`: bool, each triangle is a face of its own, so that there is no sheet. */
 static froe_status examine_slivers(void *user, const froe_allocator *alloc) {
-    (void)user;
     froe_scene *from = slivers(3, 2, 1), *s;
     double xyz[9 * SLIVERS];
     uint32_t faces[SLIVERS];
@@ -625,7 +625,7 @@ static froe_status examine_slivers(void *user, const froe_allocator *alloc) {
     froe_objects b = froe_objects_defaults();
     b.count = SLIVERS, b.coords = xyz, b.faces = faces;
     for (uint32_t i = 0; i < 3 * SLIVERS; i++) memcpy(xyz + 3 * i, scene_point(from, i / 3, i % 3), 3 * sizeof *xyz);
-    memcpy(faces, from->faces, sizeof faces);
+    for (uint32_t i = 0; i < SLIVERS; i++) faces[i] = *(bool *)user ? i : from->faces[i];
     froe_scene_free(from);
     froe_status status = froe_scene_new(3, alloc, &s);
     if (status) return status;
@@ -637,7 +637,7 @@ static froe_status examine_slivers(void *user, const froe_allocator *alloc) {
 
 static void every_failing_allocation_of_a_sheet_is_survived(void **state) {
     (void)state;
-    assert_true(test_memory_each(examine_slivers, NULL) > 40);
+    for (int alone = 0; alone < 2; alone++) assert_true(test_memory_each(examine_slivers, &(bool){alone}) > 40);
 }
 
 /** Teeth of a comb, askew; every box meets hundreds of others. It would take minutes to look at all of these. */

@@ -20,7 +20,7 @@ int __wrap_flock(int file, int how) {
     return -1;
 }
 
-enum { PROGRAMS = 4, DRAFTS = 25, FILES = 20 };
+enum { PROGRAMS = 4, DRAFTS = 10, FILES = 20 };
 
 static bool put_file(const char *folder, int number) {
     char path[4096 + 64];

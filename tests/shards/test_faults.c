@@ -12,7 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { OLD_OBJECTS = 400, NEW_OBJECTS = 3000, SOME_OBJECTS = 500, SHARDS = 5 };
+enum { OLD_OBJECTS = 400, NEW_OBJECTS = 1000, SOME_OBJECTS = 500, SHARDS = 5 };
 
 /* The linker leads the calls of cmake/FroeTests.cmake here: at call number `ends_at`, from 1, the process is killed,
  * loses its power, or the call fails. */
@@ -63,7 +63,6 @@ COUNTED(ssize_t, pwrite, (int file, const void *bytes, size_t count, off_t place
         NOTHING, NOTHING)
 COUNTED(ssize_t, pread, (int file, void *bytes, size_t count, off_t place), (file, bytes, count, place), -1, NOTHING,
         NOTHING)
-COUNTED(int, fsync, (int file), (file), -1, NOTHING, power_synced(file))
 COUNTED(int, rename, (const char *from, const char *to), (from, to), -1, power_renames(to), power_renamed(from, to))
 COUNTED(int, renameat2, (int in, const char *from, int out, const char *to, unsigned how), (in, from, out, to, how), -1,
         NOTHING, power_exchanged(from, to))
@@ -74,6 +73,14 @@ COUNTED(int, openat, (int folder, const char *name, int flags), (folder, name, f
 COUNTED(int, mkstemp, (char *path), (path), -1, NOTHING, NOTHING)
 COUNTED(int, fstat, (int file, struct stat *about), (file, about), -1, NOTHING, NOTHING)
 COUNTED(int, fclose, (FILE * file), (file), EOF, NOTHING, NOTHING)
+
+/* What is on the disk is what power.h says, so the disk itself is not waited for. */
+int __wrap_fsync(int file);
+int __wrap_fsync(int file) {
+    if (meets_end("fsync")) return -1;
+    if (is_told()) power_synced(file);
+    return 0;
+}
 
 static froe_status build(const char *path, size_t count, froe_diagnostic *why) {
     one_object *list = lattice_objects(2, FROE_SEGMENT, count, 50, count);

@@ -4,7 +4,7 @@
 #include "support/memory.h"
 #include <math.h>
 
-enum { OBJECTS = 40, QUESTIONS = 3 };
+enum { OBJECTS = 20, QUESTIONS = 3 };
 
 static const double points[2 * QUESTIONS] = {1, 1, 4, 6, 7, 2}, ways[2 * QUESTIONS] = {1, 2, -1, 0, 0, -3};
 static const double boxes[4 * QUESTIONS] = {0, 0, 3, 3, 2, 5, 9, 8, 6, 6, 6, 6};

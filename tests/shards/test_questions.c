@@ -8,7 +8,7 @@
 #include <froe/shard_parts.h>
 #include <math.h>
 
-enum { USUAL = 400, QUESTIONS = 200, EDGES = 6, CLOSE = 10000 };
+enum { USUAL = 240, QUESTIONS = 100, EDGES = 6, CLOSE = 10000 };
 static size_t object_count = USUAL;
 static bool thorough;
 static const char *only; /* a kind, or NULL: all of them */

@@ -465,21 +465,18 @@ static void every_truncation_is_noticed(void **state) {
 static void forged_files_are_refused_or_harmless(void **state) {
     (void)state;
     for (int layout = PLANE; layout < LAYOUTS; layout++) {
-        const size_t each = layout == SPACE || SANITIZED ? 1 : 3; /* ways to change a byte, in turn where it is one */
         size_t size, opened_count = 0;
         froe_diagnostic why;
         uint8_t *bytes = small_file(layout, &size), *copy = malloc(size);
         assert_non_null(copy);
         for (size_t i = 0; i < size; i++) {
             static const uint8_t flips[] = {0x01, 0x80, 0xff};
-            for (size_t f = 0; f < each; f++) {
-                memcpy(copy, bytes, size);
-                copy[i] ^= flips[each > 1 ? f : i % 3];
-                forge_checksums(copy, size);
-                opened_count += try_bytes(copy, size, &why) == FROE_OK;
-            }
+            memcpy(copy, bytes, size);
+            copy[i] ^= flips[i % 3];
+            forge_checksums(copy, size);
+            opened_count += try_bytes(copy, size, &why) == FROE_OK;
         }
-        assert_true(opened_count > 0 && opened_count < size * each);
+        assert_true(opened_count > 0 && opened_count < size);
         free(copy);
         free(bytes);
     }
@@ -490,7 +487,7 @@ static void forged_files_are_refused_or_harmless(void **state) {
 static void forge_words(const uint8_t *bytes, size_t size, file_id id) {
     static const uint32_t values[] = {0,  1,          2,           3,           5,           8,
                                       13, 0x7fffffff, 0x80000000u, 0x80000001u, 0x80000002u, 0xffffffffu};
-    const size_t step = SANITIZED_SHARE(4);
+    const size_t step = SANITIZED ? 6 : 3; /* each word becomes some of them */
     froe_diagnostic why;
     file_section s;
     uint8_t *copy = malloc(size);
