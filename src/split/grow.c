@@ -37,7 +37,7 @@ static froe_status refine_cell(grow *g, split_work *work, split_cell *cell) {
     bool done = false;
     if (!status) status = cover_find(&work->set, cell);
     const size_t pending = work->cells.count;
-    if (g->method->finish && !status && !cell->covers) status = g->method->finish(g->method->config, work, cell, &done);
+    if (g->method->finish && !status) status = g->method->finish(g->method->config, work, cell, &done);
     if (done && !status) status = step_empty_rooms(g->method, work, pending);
     return status || done ? status : split_step(g->method, work, cell);
 }

@@ -142,7 +142,8 @@ typedef struct split_method {
     const void *config;
     /** Names the cut of a cell whose fragments are set->items[first ..]. Deterministic. */
     split_verdict (*choose)(const void *config, split_work *work, const split_cell *cell, froe_cut *cut);
-    /** Grows the whole subtree of a cell at once; *done false: the cell is to be cut. NULL: never done. */
+    /** Grows the whole subtree of a cell at once; *done false: the cell is to be cut. Called of every cell below the
+     * guard tree, before `choose`. NULL: never done. */
     froe_status (*finish)(const void *config, split_work *work, const split_cell *cell, bool *done);
     /** Does `choose` read nothing but the fragments of the cell and the cuts above it, and take long? Then it is called
      * for many large cells at once, before any of them is cut. REQUIRES: no guard stage, no boxes. */

@@ -8,15 +8,17 @@
 #include "tree/tree.h"
 #include <froe/io.h>
 #include <locale.h>
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
 
 enum {
-    OBJECTS = 64,
+    OBJECTS = 60,
     MANY = 1100, /* beyond what is built in one task */
     BUDGET = 10000
 };
@@ -123,6 +125,32 @@ static void check_audit(froe_scene *scene, const froe_method_info *method, const
             froe_tree_free(tree);
         }
     }
+}
+
+/* What axis-parallel cuts leave of a cell. */
+typedef struct cell_bounds {
+    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+} cell_bounds;
+
+/** An axis-parallel cut beside its cell would leave an empty one, and boxes are listed there. */
+static void check_cuts(froe_scene *scene, const froe_method_info *method, const char *name) {
+    froe_build_options o = options(method->name, 5);
+    froe_tree *tree = build(scene, &o);
+    cell_bounds *cells = calloc(tree->node_count, sizeof *cells);
+    assert_non_null(cells);
+    for (int k = 0; k < FROE_MAX_DIM; k++) cells[0].lo[k] = -(double)INFINITY, cells[0].hi[k] = (double)INFINITY;
+    for (uint32_t i = 0; i < tree->node_count && !tree_is_packed(tree); i++) {
+        if (tree_is_leaf(tree->nodes + i)) continue;
+        const froe_cut cut = tree_cut_at(tree, i);
+        cell_bounds *below = cells + tree->nodes[i].child, *above = below + 1;
+        *below = *above = cells[i];
+        if (cut.kind != FROE_CUT_AXIS) continue;
+        if (!(cut.value > cells[i].lo[cut.axis] && cut.value < cells[i].hi[cut.axis]))
+            fail_msg("%s on %s: node %u is cut beside its cell", method->name, name, i);
+        below->hi[cut.axis] = above->lo[cut.axis] = cut.value;
+    }
+    free(cells);
+    froe_tree_free(tree);
 }
 
 /** With the ways to find k, and without a limit to growth. */
@@ -348,6 +376,11 @@ static void every_tree_passes_the_exact_audit(void **state) {
     for_all(OBJECTS, 1, check_audit);
 }
 
+static void every_cut_is_inside_its_cell(void **state) {
+    (void)state;
+    for_all(420, SANITIZED_SHARE(4), check_cuts);
+}
+
 static void a_tree_does_not_depend_on_filters(void **state) {
     (void)state;
     for_all(OBJECTS, 1, check_stages);
@@ -452,6 +485,7 @@ int main(int argc, char **argv) {
     const struct CMUnitTest each[] = {
         cmocka_unit_test(every_tree_passes_the_exact_audit),
         cmocka_unit_test(every_way_to_find_k_passes_the_exact_audit),
+        cmocka_unit_test(every_cut_is_inside_its_cell),
         cmocka_unit_test(a_tree_does_not_depend_on_filters),
         cmocka_unit_test(a_tree_does_not_depend_on_threads),
         cmocka_unit_test(a_budget_is_kept_to_the_piece),

@@ -293,7 +293,7 @@ static froe_status do_part(finish *f, const table_part *p, bool *full) {
 
 static bool fits_table(const split_refine *config, const split_set *set, const split_cell *cell) {
     const int dim = set->scene->dim;
-    if (dim > 3 || cell->count > config->small || !cell->count) return false;
+    if (dim > 3 || cell->covers || cell->count > config->small || !cell->count) return false;
     if (dim == 3 && (cell->plain || cell->attempt || cell->count <= config->leaf)) return false;
     for (uint32_t i = 0; i < cell->count; i++) {
         const split_fragment *piece = set->items.data + cell->first + i;
