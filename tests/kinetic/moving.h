@@ -244,4 +244,11 @@ static const moving_kind moving_kinds[] = {
      .upright = true},
 };
 enum { MOVING_KINDS = sizeof moving_kinds / sizeof *moving_kinds };
+
+/** The kind of that name, which is in the list. */
+static inline const moving_kind *moving_kind_named(const char *name) {
+    const moving_kind *kind = moving_kinds;
+    while (strcmp(kind->name, name) != 0) kind++;
+    return kind;
+}
 #endif
