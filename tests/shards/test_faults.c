@@ -3,6 +3,7 @@
 #include "faults/power.h"
 #include "shards/folder.h"
 #include "shards/folders.h"
+#include "support/sanitized.h"
 #include <dirent.h>
 #include <errno.h>
 #include <signal.h>
@@ -12,7 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-enum { OLD_OBJECTS = 400, NEW_OBJECTS = 1000, SOME_OBJECTS = 500, SHARDS = 5 };
+enum { OLD_OBJECTS = 400, NEW_OBJECTS = 1000, SOME_OBJECTS = 500, SHARDS = 5, SHARE = SANITIZED_SHARE(3) };
 
 /* The linker leads the calls of cmake/FroeTests.cmake here: at call number `ends_at`, from 1, the process is killed,
  * loses its power, or the call fails. */
@@ -104,7 +105,7 @@ static uint64_t objects_of(const char *path) {
 /* The program ends at each call. */
 static void end_everywhere(end_kind kind) {
     int old = 0, new = 0, ended;
-    for (unsigned at = 1;; at++) {
+    for (unsigned at = 1;; at += SHARE) {
         assert_int_equal(build("killed.froes", OLD_OBJECTS, NULL), FROE_OK); /* which tidies up */
         assert_int_equal(access(".killed.froes.building", F_OK), -1);
         assert_int_equal(access(".killed.froes.building.old", F_OK), -1);
@@ -124,7 +125,7 @@ static void end_everywhere(end_kind kind) {
     }
     assert_true(WIFEXITED(ended) && !WEXITSTATUS(ended));
     assert_int_equal(objects_of("killed.froes"), NEW_OBJECTS);
-    if (!(old > 10 && new > 5)) fail_msg("%d left the old folder, %d the new one", old, new);
+    if (!(old > 10 / SHARE && new > 5 / SHARE)) fail_msg("%d left the old folder, %d the new one", old, new);
 }
 
 static void a_killed_program_leaves_the_old_folder_or_the_new_one(void **state) {
@@ -155,7 +156,7 @@ static void each_call_may_fail(void **state) {
         assert_int_equal(build("failed.froes", OLD_OBJECTS, NULL), FROE_OK); /* where there is none yet */
         calls = 0;
         assert_int_equal(build("failed.froes", OLD_OBJECTS, NULL), FROE_OK);
-        for (unsigned at = 1; at <= calls; at++) {
+        for (unsigned at = 1; at <= calls; at += SHARE) {
             if (!is_answered(names[at], failures[i])) continue;
             calls = 0, ends_at = at, how_ends = FAILED, failure = failures[i], why = (froe_diagnostic){0};
             const froe_status status = build("failed.froes", SOME_OBJECTS, &why);
@@ -172,7 +173,7 @@ static void each_call_may_fail(void **state) {
             assert_int_equal(build("failed.froes", OLD_OBJECTS, NULL), FROE_OK);
         }
     }
-    if (ended[0] < 30 || ended[1] < 10) fail_msg("%d failed, %d did not", ended[0], ended[1]);
+    if (ended[0] < 30 / SHARE || ended[1] < 10 / SHARE) fail_msg("%d failed, %d did not", ended[0], ended[1]);
 }
 
 static void a_full_disk_leaves_the_old_folder_and_nothing_beside_it(void **state) {
