@@ -4,7 +4,7 @@
  * ends in its first and last point and rounds the corners between (tangent to
  * their edges at the middles), `o` the closed one. So `o0,0 0,24 21,24 21,0` is an O. */
 #include "lettering.h"
-#include "page.h"
+#include "palette.h"
 #include <stdlib.h>
 #include <string.h>
 

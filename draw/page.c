@@ -39,10 +39,6 @@ uint32_t draw_cell_color(const draw_page *page, int tone) {
     return draw_mix(draw_tone(tone), paper == FROE_DRAW_CLEAR ? DRAW_PAPER : paper, page->faint);
 }
 
-void draw_set_color(cairo_t *cr, uint32_t rgb, double alpha) {
-    cairo_set_source_rgba(cr, (rgb >> 16 & 255) / 255.0, (rgb >> 8 & 255) / 255.0, (rgb & 255) / 255.0, alpha);
-}
-
 void draw_ellipse(cairo_t *cr, draw_point c, draw_point r) {
     const double share = 0.5522847498307936; /* 4/3 (sqrt 2 - 1): four cubics, 0.03 % off a circle */
     const double kx = share * r.x, ky = share * r.y;

@@ -38,7 +38,6 @@ void draw_page_close(const draw_page *page, cairo_t *cr, const draw_legend *lege
 
 /** The colour of a cell of a tone. */
 uint32_t draw_cell_color(const draw_page *page, int tone);
-void draw_set_color(cairo_t *cr, uint32_t rgb, double alpha);
 /** An ellipse of these half axes as a path; four cubics. */
 void draw_ellipse(cairo_t *cr, draw_point centre, draw_point half);
 void draw_circle(cairo_t *cr, draw_point centre, double radius);

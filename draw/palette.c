@@ -28,3 +28,7 @@ int draw_tone_of(double depth, double lo, double hi) {
     t = t < 0 ? 0 : t > 1 ? 1 : t;
     return (int)(t * (DRAW_TONES - 1) + 0.5);
 }
+
+void draw_set_color(cairo_t *cr, uint32_t rgb, double alpha) {
+    cairo_set_source_rgba(cr, (rgb >> 16 & 255) / 255.0, (rgb >> 8 & 255) / 255.0, (rgb & 255) / 255.0, alpha);
+}

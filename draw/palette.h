@@ -1,6 +1,7 @@
 /* palette.h: the colours of froe's pictures. */
 #ifndef FROE_DRAW_PALETTE_H
 #define FROE_DRAW_PALETTE_H
+#include <cairo.h>
 #include <stdint.h>
 
 #define DRAW_PAPER 0xFDFCF8u  /**< page */
@@ -18,4 +19,6 @@ uint32_t draw_tone(int tone);
 int draw_tone_of(double depth, double lo, double hi);
 /** From a (t = 0) to b (t = 1). */
 uint32_t draw_mix(uint32_t a, uint32_t b, double t);
+/** What is painted next has this colour. */
+void draw_set_color(cairo_t *cr, uint32_t rgb, double alpha);
 #endif

@@ -1,6 +1,6 @@
 /* corner_index.c: ranks, the curve, boxes from the leaves up; and the search. */
 #include "formats/input/corner_index.h"
-#include "formats/input/triangulate.h"
+#include "formats/input/orient.h"
 #include <math.h>
 #include <stdlib.h>
 

@@ -1,49 +1,14 @@
-/* triangulate.c: exact orientation in the plane and ear clipping (Meisters,
- * "Polygons have ears", 1975) for the polygons that cannot stay whole.
+/* triangulate.c: ear clipping (Meisters, "Polygons have ears", 1975) for the polygons that cannot stay whole.
  *
  * Every choice is by exact signs. Where exponents leave the range of doubles the
  * sign may be wrong; then the triangles are less fair but still the same number,
  * with the same corners and the same outline. */
 #include "formats/input/triangulate.h"
 #include "formats/input/corner_index.h"
+#include "formats/input/orient.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* Adds x to an expansion of *n nonoverlapping doubles (Shewchuk 1997, GROW-EXPANSION). */
-static void grow(double *e, int *n, double x) {
-    double q = x;
-    for (int i = 0; i < *n; ++i) {
-        double sum = q + e[i], tail = sum - q, error = (q - (sum - tail)) + (e[i] - tail);
-        e[i] = error;
-        q = sum;
-    }
-    e[(*n)++] = q;
-}
-
-static void grow_product(double *e, int *n, double x, double y) {
-    double product = x * y;
-    grow(e, n, fma(x, y, -product));
-    grow(e, n, product);
-}
-
-int formats_orient(const double *a, const double *b, const double *c) {
-    double left = (b[0] - a[0]) * (c[1] - a[1]), right = (b[1] - a[1]) * (c[0] - a[0]);
-    double det = left - right, bound = FORMATS_ORIENT_BOUND * (fabs(left) + fabs(right));
-    if (det > bound) return 1;
-    if (-det > bound) return -1;
-    double e[12];
-    int n = 0;
-    grow_product(e, &n, a[0], b[1]);
-    grow_product(e, &n, -a[1], b[0]);
-    grow_product(e, &n, b[0], c[1]);
-    grow_product(e, &n, -b[1], c[0]);
-    grow_product(e, &n, c[0], a[1]);
-    grow_product(e, &n, -c[1], a[0]);
-    for (int i = n - 1; i >= 0; --i)
-        if (e[i] != 0) return e[i] > 0 ? 1 : -1;
-    return 0;
-}
 
 static bool same_corner(const double *a, const double *b) {
     return a[0] == b[0] && a[1] == b[1];

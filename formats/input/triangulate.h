@@ -1,14 +1,8 @@
-/* triangulate.h: the signs and the ears that readers need. */
+/* triangulate.h: the sides and the ears of rings that readers need. */
 #ifndef FROE_FORMATS_TRIANGULATE_H
 #define FROE_FORMATS_TRIANGULATE_H
 
 #include "support/array.h"
-
-#define FORMATS_ORIENT_BOUND 4e-16 /**< Shewchuk's bound on the error of the ccw filter, rounded up */
-
-/** The side of c seen along the line from a to b: 1 left, -1 right, 0 on it. Exact unless a product
- * overflows or underflows. */
-int formats_orient(const double *a, const double *b, const double *c);
 
 /** 1: the ring of points xy turns left (its interior is on its left), -1: right, 0: it cannot be told,
  * as of a ring without area. `count` points, the last not repeating the first. O(count). */
