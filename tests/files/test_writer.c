@@ -272,6 +272,7 @@ static void names_in_the_folder_of_descriptors_may_be_none(void **state) {
         froe_diagnostic why = {0};
         assert_int_equal(write_content(names[i], &why), FROE_E_IO);
         assert_int_equal(strncmp(why.message, names[i], strlen(names[i])), 0);
+        assert_null(strstr(why.message, "descriptor"));
     }
 }
 
