@@ -293,7 +293,7 @@ static froe_motion *make_passing(void) {
 
 /* From some calls for memory on there is none. */
 static void run_short_of_memory(filming *f) {
-    enum { TRIES = 50 };
+    enum { TRIES = 24 };
     test_memory m;
     const froe_allocator alloc = test_memory_begin(&m);
     assert_int_equal(film_once(f, &alloc), FROE_OK);
