@@ -23,12 +23,12 @@ void froe_render_defaults_into(froe_render_options *out, size_t size) {
 
 const char *froe_shading_name(froe_shading shading) {
     static const char *const names[FROE_SHADING_COUNT] = {"flat", "cel", "plain", "white", "none"};
-    return shading >= 0 && shading < FROE_SHADING_COUNT ? names[shading] : NULL;
+    return (unsigned)shading < FROE_SHADING_COUNT ? names[shading] : NULL;
 }
 
 const char *froe_seams_name(froe_seams seams) {
     static const char *const names[FROE_SEAMS_COUNT] = {"underlap", "none", "twice", "stroke"};
-    return seams >= 0 && seams < FROE_SEAMS_COUNT ? names[seams] : NULL;
+    return (unsigned)seams < FROE_SEAMS_COUNT ? names[seams] : NULL;
 }
 
 typedef struct render_range {

@@ -165,7 +165,7 @@ froe_status froe_render_write(const froe_tree *tree, froe_render_format format, 
     const froe_render_options standard = froe_render_defaults();
     vector_output output = {.fn = fn, .user = user};
     if (!tree || !fn) return support_fail_null(diag, __func__);
-    if (format < 0 || format >= FROE_RENDER_FORMAT_COUNT)
+    if ((unsigned)format >= FROE_RENDER_FORMAT_COUNT)
         return support_fail(diag, FROE_E_OPTIONS, "There is no format %d.", (int)format);
     vector_render r = {.tree = tree, .scene = froe_tree_scene(tree), .options = options ? options : &standard};
     froe_status status = vector_check_format(r.scene, r.options, format, diag);

@@ -1,6 +1,7 @@
 /* test_memory.c: an allocator is told the size that it gave, of empty arrays, too; arrays of any size keep what is in
  * them when they grow and shrink. */
 #include "support/alloc.h"
+#include "support/array.h"
 #include "support/memory.h"
 #include "support/pages.h"
 
@@ -13,6 +14,23 @@ static void empty_arrays_go_back_as_they_came(void **state) {
     support_free(&alloc, none, 0 * sizeof *none); /* test_memory_fn() compares */
     support_free(&alloc, some, 3 * sizeof *some);
     support_free(&alloc, NULL, 0);
+    test_memory_end(&m);
+}
+
+/* Nothing is nothing, and sizes beyond all memory are refused before anybody is asked. */
+static void sizes_that_overflow_are_refused(void **state) {
+    (void)state;
+    test_memory m;
+    const froe_allocator alloc = test_memory_begin(&m);
+    uint64_t *data = NULL;
+    size_t room = 0;
+    assert_null(support_realloc(&alloc, NULL, 0, 0));
+    assert_null(support_calloc(&alloc, SIZE_MAX / 2, 3));
+    assert_false(support_array_grow(&alloc, (void **)(void *)&data, &room, 5, SIZE_MAX - 4, sizeof *data));
+    assert_false(support_array_grow(&alloc, (void **)(void *)&data, &room, 5, SIZE_MAX / 4, sizeof *data));
+    assert_int_equal(m.calls, 0);
+    assert_int_equal(room, 0);
+    assert_null(data);
     test_memory_end(&m);
 }
 
@@ -75,7 +93,8 @@ static void sizes_beyond_all_memory_are_refused_and_the_array_stays(void **state
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(empty_arrays_go_back_as_they_came),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(sizes_that_overflow_are_refused),
+                                       cmocka_unit_test(empty_arrays_go_back_as_they_came),
                                        cmocka_unit_test(arrays_that_grow_and_shrink_keep_what_they_hold),
                                        cmocka_unit_test(arrays_beside_each_other_do_not_disturb_each_other),
                                        cmocka_unit_test(sizes_beyond_all_memory_are_refused_and_the_array_stays)};

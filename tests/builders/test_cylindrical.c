@@ -10,6 +10,7 @@
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 #include <cmocka.h>
@@ -530,6 +531,41 @@ static void polygons_that_cross_are_named(void **state) {
     froe_scene_free(scene);
 }
 
+/* Far from one another, so that different threads meet them: those of the first refused part of the tree are named. */
+static void of_many_polygons_that_cross_the_same_are_named_by_all_threads(void **state) {
+    enum { SIDE = 56, COUNT = SIDE * SIDE };
+    static double xyz[9 * (COUNT + 4)];
+    static const int crossed[4] = {0, SIDE - 1, COUNT - SIDE, COUNT - 1};
+    (void)state;
+    for (int i = 0; i < COUNT; i++) {
+        const double x = 4 * (i % SIDE), y = 4.0 * (double)(i / SIDE), z = i * 7 % 11;
+        const double flat[9] = {x, y, z, x + 2, y, z, x, y + 2, z};
+        memcpy(xyz + 9 * (size_t)i, flat, sizeof flat);
+        for (int c = 0; c < 4; c++) {
+            const double through[9] = {x + 0.5, y + 0.5, z - 1, x + 0.5, y + 0.5, z + 1, x + 1, y + 0.25, z + 1};
+            if (crossed[c] == i) memcpy(xyz + 9 * (size_t)(COUNT + c), through, sizeof through);
+        }
+    }
+    froe_scene *scene = triangles(xyz, COUNT + 4);
+    for (uint64_t seed = 1; seed < 4; seed++) {
+        froe_diagnostic why[2] = {{0}};
+        for (unsigned i = 0; i < 2; i++) {
+            froe_build_options o = options(0);
+            froe_tree *tree = NULL;
+            o.threads = 1 + 2 * i, o.seed = seed;
+            assert_int_equal(froe_build(scene, &o, &tree, why + i), FROE_E_INPUT);
+            assert_null(tree);
+        }
+        assert_string_equal(why[0].message, why[1].message);
+        unsigned pair[2];
+        assert_int_equal(sscanf(why[0].message, "object %u: It crosses object %u.", pair, pair + 1), 2);
+        const unsigned flat = pair[0] < COUNT ? pair[0] : pair[1], upright = pair[0] + pair[1] - flat;
+        assert_in_range(upright, COUNT, COUNT + 3);
+        assert_int_equal(flat, crossed[upright - COUNT]);
+    }
+    froe_scene_free(scene);
+}
+
 static void polygons_that_touch_are_welcome(void **state) {
     static const double xyz[] = {-4, -4, 0, 4, -4, 0, 0, 4,  0,  /* flat */
                                  0,  0,  0, 0, 1,  2, 1, 0,  2,  /* stands on it with a corner */
@@ -600,6 +636,7 @@ int main(void) {
         cmocka_unit_test(large_orders_are_drawn_again),
         cmocka_unit_test(predicates_are_counted_once_for_any_number_of_threads),
         cmocka_unit_test(polygons_that_cross_are_named),
+        cmocka_unit_test(of_many_polygons_that_cross_the_same_are_named_by_all_threads),
         cmocka_unit_test(polygons_that_touch_are_welcome),
         cmocka_unit_test(polygons_that_cross_everywhere_come_to_an_end),
         cmocka_unit_test(shared_ends_share_their_walls),

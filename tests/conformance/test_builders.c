@@ -252,7 +252,7 @@ static void check_cancel(froe_scene *scene, const froe_method_info *method, cons
 }
 
 typedef struct fault {
-    const char *kind, *method;
+    const char *kind, *method, *settings;
 } fault;
 
 /** Makes a scene and a tree in memory that runs out at some moment. */
@@ -261,7 +261,7 @@ static froe_status build_in(void *user, const froe_allocator *alloc) {
     froe_scene *scene = NULL;
     froe_tree *tree = NULL;
     froe_build_options o = options(f->method, 1);
-    if (!strcmp(f->method, "density")) o.settings = "k=4 stop=1";
+    o.settings = f->settings;
     froe_status status = froe_generate(f->kind, 24, 7, alloc, &scene, NULL);
     if (!status) status = build_tuned(scene, &o, &tree, NULL);
     froe_tree_free(tree);
@@ -270,9 +270,18 @@ static froe_status build_in(void *user, const froe_allocator *alloc) {
 }
 
 static void a_build_survives_every_failing_allocation(void **state) {
-    static const fault faults[] = {{"segments", "autopartition"},  {"segments", "density"},     {"balls", "density"},
-                                   {"triangles", "autopartition"}, {"triangles", "density"},    {"triangles", "grain"},
-                                   {"segments", "cylindrical"},    {"triangles", "cylindrical"}};
+    static const fault faults[] = {{"segments", "autopartition", NULL},
+                                   {"segments", "density", "k=4 stop=1"},
+                                   {"balls", "density", "k=4 stop=1"},
+                                   {"triangles", "autopartition", NULL},
+                                   {"triangles", "density", "k=4 stop=1"},
+                                   {"triangles", "grain", NULL},
+                                   {"segments", "grain", "effort=min"},
+                                   {"segments", "paterson_yao", "rule=slabs"},
+                                   {"segments", "paterson_yao", "rule=orthogonal"},
+                                   {"debris-3d", "directional", "structure=trees"},
+                                   {"segments", "cylindrical", NULL},
+                                   {"triangles", "cylindrical", NULL}};
     (void)state;
     for (size_t i = 0; i < sizeof faults / sizeof *faults; i++) test_memory_each(build_in, (void *)&faults[i]);
 }

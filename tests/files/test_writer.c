@@ -264,6 +264,18 @@ static void loops_folders_and_absent_places_are_refused(void **state) {
     clear();
 }
 
+/* Neither words, nor more digits than descriptors have, nor digits before something else. */
+static void names_in_the_folder_of_descriptors_may_be_none(void **state) {
+    (void)state;
+    static const char *const names[] = {"/dev/fd/", "/dev/fd/one", "/dev/fd/1234567890", "/proc/self/fd/1x"};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        froe_diagnostic why = {0};
+        assert_int_equal(write_content(names[i], &why), FROE_E_IO);
+        assert_int_equal(strncmp(why.message, names[i], strlen(names[i])), 0);
+        assert_null(strstr(why.message, "descriptor"));
+    }
+}
+
 static void a_caller_that_failed_leaves_the_old_file(void **state) {
     (void)state;
     support_writer w;
@@ -323,24 +335,23 @@ static void a_group_that_cannot_be_kept_gets_no_more_than_all(void **state) {
 
 /* -------------------------------------------------- what is no regular file -- */
 
-/* Reads to the end what a child writes to its descriptor `file` by the name `path`. */
+/* Writes to the descriptor `file` by the name `path` what a child reads to the end, at first byte by byte. */
 static void assert_arrives(int ends[2], const char *path) {
     pid_t child = fork();
     if (!child) {
-        close(ends[0]);
-        _exit(write_content(path, NULL));
+        static unsigned char bytes[SIZE + 1];
+        size_t count = 0;
+        close(ends[1]);
+        for (ssize_t got; (got = read(ends[0], bytes + count, count > SIZE / 2 ? sizeof bytes - count : 1)) > 0;)
+            count += (size_t)got;
+        _exit(count != SIZE || memcmp(bytes, content(), SIZE) != 0);
     }
-    close(ends[1]);
-    static unsigned char bytes[SIZE + 1];
-    size_t count = 0;
-    for (ssize_t got; (got = read(ends[0], bytes + count, count > SIZE / 2 ? sizeof bytes - count : 1)) > 0;)
-        count += (size_t)got;
     close(ends[0]);
+    assert_int_equal(write_content(path, NULL), FROE_OK);
+    close(ends[1]);
     int ended;
     assert_int_equal(waitpid(child, &ended, 0), child);
     assert_true(WIFEXITED(ended) && WEXITSTATUS(ended) == 0);
-    assert_int_equal(count, SIZE);
-    assert_memory_equal(bytes, content(), SIZE);
 }
 
 static void descriptors_are_written_as_they_are(void **state) {
@@ -418,6 +429,7 @@ int main(void) {
         cmocka_unit_test(the_bytes_and_the_name_reach_the_disk_in_order),
         cmocka_unit_test(a_name_that_is_taken_is_neither_followed_nor_lost),
         cmocka_unit_test(loops_folders_and_absent_places_are_refused),
+        cmocka_unit_test(names_in_the_folder_of_descriptors_may_be_none),
         cmocka_unit_test(a_caller_that_failed_leaves_the_old_file),
         cmocka_unit_test(modes_and_owners_are_kept),
         cmocka_unit_test(a_group_that_cannot_be_kept_gets_no_more_than_all),

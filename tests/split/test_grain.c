@@ -514,6 +514,41 @@ static void least_effort_never_makes_more_pieces_than_log(void **state) {
     assert_true(report[1].fragments <= report[0].fragments);
 }
 
+/** Is least effort grown within so many pieces? With how many? */
+static size_t least_within(froe_scene *scene, const char *settings, size_t most) {
+    froe_build_options o = froe_build_defaults();
+    froe_tree *tree = NULL;
+    o.method = "grain", o.settings = settings, o.leaf = 1, o.threads = 1, o.max_fragments = most;
+    const froe_status status = froe_build(scene, &o, &tree, NULL);
+    const size_t pieces = status ? 0 : froe_tree_piece_count(tree);
+    assert_int_equal(status, pieces ? FROE_OK : FROE_E_BUDGET);
+    assert_int_equal(status == FROE_OK, tree != NULL);
+    froe_tree_free(tree);
+    return pieces;
+}
+
+/** The taller tree is grown where the low one is not within the limit, and not where that splits nothing. */
+static void least_effort_keeps_limits_of_pieces(void **state) {
+    static const double apart[] = {0, 0, 1, 1, 0, 2, 1, 3, 0, 4, 1, 5, 0, 6, 1, 7};
+    (void)state;
+    for (int free = 0; free < 2; free++) {
+        const char *settings = free ? "effort=min height=0" : "effort=min";
+        froe_scene *scene = mesh_new(MESH_HILLS, 200);
+        const size_t low = least_within(scene, "effort=log", 0), least = least_within(scene, settings, 0);
+        assert_true(least < low && least > 200);
+        assert_int_equal(least_within(scene, settings, low), least);
+        assert_int_equal(least_within(scene, settings, low - 1), least);
+        assert_int_equal(least_within(scene, settings, least), least);
+        assert_int_equal(least_within(scene, settings, least - 1), 0);
+        froe_scene_free(scene);
+        scene = mesh_of(2, apart, 4);
+        assert_int_equal(least_within(scene, settings, 0), 4);
+        assert_int_equal(least_within(scene, settings, 4), 4);
+        assert_int_equal(least_within(scene, settings, 3), 0);
+        froe_scene_free(scene);
+    }
+}
+
 static double pieces_of(const froe_scene *from, double factor, bool turn) {
     froe_scene *scene = changed(from, factor, turn, !turn);
     froe_tree *tree = build(scene, NULL, 1);
@@ -550,6 +585,7 @@ int main(void) {
         cmocka_unit_test(subtrees_too_high_are_grown_again),
         cmocka_unit_test(more_height_and_more_effort_mean_fewer_pieces),
         cmocka_unit_test(least_effort_never_makes_more_pieces_than_log),
+        cmocka_unit_test(least_effort_keeps_limits_of_pieces),
         cmocka_unit_test(scale_changes_nothing_and_quarter_turns_hardly_anything),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -5,6 +5,7 @@
 #include "split/guard/guards.h"
 #include "split/guard/lowest_nodes.h"
 #include "support/sanitized.h"
+#include <float.h>
 #include <pthread.h>
 
 enum { WAYS = 4, SHARE = SANITIZED_SHARE(5) }; /* odd: seeds choose by their last bits */
@@ -576,8 +577,23 @@ static void every_allocation_for_a_scene_may_fail(void **state) {
     }
 }
 
+/* Also of a box whose sides have no halves, of a point, and of one as wide as doubles go. */
+static void the_root_is_around_its_box(void **state) {
+    static const guard_cube boxes[] = {{{0, 0}, {0x1p-1074, 0}}, {{3, 3}, {3, 3}}, {{-1, 2}, {0x1p-1074, 2}}};
+    const guard_cube widest = {{-DBL_MAX, 0}, {DBL_MAX, 0}};
+    guard_cube root;
+    (void)state;
+    for (size_t i = 0; i < sizeof boxes / sizeof *boxes; i++) {
+        guard_root(boxes + i, 2, &root);
+        for (int k = 0; k < 2; k++) assert_true(root.lo[k] < boxes[i].lo[k] && root.hi[k] > boxes[i].hi[k]);
+    }
+    guard_root(&widest, 2, &root);
+    for (int k = 0; k < 2; k++) assert_true(root.lo[k] == -DBL_MAX && root.hi[k] == DBL_MAX);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_root_is_around_its_box),
         cmocka_unit_test(all_ways_follow_the_rule_in_the_plane),
         cmocka_unit_test(all_ways_follow_the_rule_in_space),
         cmocka_unit_test(all_ways_follow_the_rule_in_four_to_eight_dimensions),

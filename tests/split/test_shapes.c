@@ -119,6 +119,25 @@ static void bounds_of_the_guard_stage_count_shapes(void **state) {
     assert_true(last >= 160);
 }
 
+/* Without groups each object is a shape of its own, and has the guards of its own box. */
+static void objects_without_groups_are_shapes_of_their_own(void **state) {
+    static const double coords[] = {0, 0, 1, 2, 3, 0, 4, 1, 0, 5, 6, 5, 2, 3, 5, 4};
+    const froe_allocator alloc = support_allocator(NULL);
+    (void)state;
+    froe_scene *scene = NULL;
+    froe_objects lines = froe_objects_defaults();
+    split_shapes shapes;
+    lines.kind = FROE_SEGMENT, lines.count = 4, lines.coords = coords;
+    assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+    assert_int_equal(froe_scene_add(scene, &lines, NULL), FROE_OK);
+    assert_int_equal(split_shapes_make(&alloc, scene, &shapes), FROE_OK);
+    assert_int_equal(shapes.count, 4);
+    for (uint32_t i = 0; i < 4; i++) assert_int_equal(shapes.of[i], i);
+    split_shapes_free(&alloc, &shapes);
+    assert_true(promised(scene, "k=2 guards=shape", "guard_leaves") == promised(scene, "k=2", "guard_leaves"));
+    froe_scene_free(scene);
+}
+
 static froe_status build_shapes(void *user, const froe_allocator *alloc) {
     froe_build_options o = froe_build_defaults();
     froe_tree *tree = NULL;
@@ -142,6 +161,7 @@ int main(void) {
         cmocka_unit_test(shapes_are_groups_and_objects_without_one),
         cmocka_unit_test(each_shape_is_counted_once),
         cmocka_unit_test(bounds_of_the_guard_stage_count_shapes),
+        cmocka_unit_test(objects_without_groups_are_shapes_of_their_own),
         cmocka_unit_test(shapes_survive_every_failing_allocation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

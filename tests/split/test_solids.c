@@ -1,5 +1,6 @@
 /* test_solids.c: boxes, balls and hulls that overlap or touch: what is told apart, at what cost, and that the exact
  * audit agrees. */
+#include "build/options.h"
 #include "split/grow.h"
 #include <froe/froe.h>
 #include <math.h>
@@ -315,6 +316,33 @@ static void what_only_touches_is_always_told_apart(void **state) {
     froe_tree_free(tree);
 }
 
+/* However few or many candidates a cell has, the audit agrees. */
+static void candidates_may_be_few_or_many(void **state) {
+    static const char *const settings[] = {"supports=1 quantiles=40 small=0", "supports=1 quantiles=0 small=0 free=no",
+                                           "supports=0 quantiles=40 edges=0", "quantiles=12 k=2 stop=1"};
+    (void)state;
+    for (size_t i = 0; i < sizeof settings / sizeof *settings; i++)
+        for (int kind = 0; kind < 3; kind++) {
+            solids s = begin(3);
+            const froe_kind kinds[] = {FROE_BALL, FROE_POLYGON, FROE_BOX};
+            for (int j = 0; j < 9; j++) {
+                double at[9], radius = 1;
+                for (int c = 0; c < 9; c++) at[c] = fuzz_int(&s.random, 0, 9);
+                for (int c = 0; c < 3 && kinds[kind] == FROE_BOX; c++) at[3 + c] = at[c] + 3;
+                add(&s, kinds[kind], 1, at, kinds[kind] == FROE_BALL ? &radius : NULL, NULL);
+            }
+            froe_build_options o = froe_build_defaults();
+            froe_diagnostic diag = {0};
+            froe_tree *tree = NULL;
+            o.method = "density", o.settings = settings[i], o.leaf = 1, o.threads = 1;
+            if (build_tuned(s.scene, &o, &tree, &diag)) fail_msg("%s: %s", settings[i], diag.message);
+            if (froe_tree_audit(tree, NULL, &diag)) fail_msg("%s: %s", settings[i], diag.message);
+            assert_true(froe_tree_report(tree).nodes > 9);
+            froe_tree_free(tree);
+            froe_scene_free(s.scene);
+        }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(overlapping_balls_cost_no_more_than_they_overlap),
@@ -326,6 +354,7 @@ int main(void) {
         cmocka_unit_test(a_flat_hull_on_another_ends_in_the_cut),
         cmocka_unit_test(hulls_in_one_plane_are_told_apart),
         cmocka_unit_test(disjoint_solids_of_any_kinds_are_told_apart),
+        cmocka_unit_test(candidates_may_be_few_or_many),
         cmocka_unit_test(pairs_of_every_two_kinds_are_told_apart_in_all_dimensions),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -144,7 +144,14 @@ typedef struct thinning {
     const char *kind; /**< NULL: nested */
     split_thin_notes notes;
     double fragments; /**< charged_fragments of the tree */
+    int *patience;    /**< calls of progress that are left; NULL: it is not asked for */
 } thinning;
+
+/* Says no when it is asked for the last time. */
+static bool go_on(void *user, double done) {
+    (void)done;
+    return --*(int *)user != 0;
+}
 
 /** A tree of cuts along any object, with cells of that rule thinned out. */
 static froe_status grow_thinned(void *user, const froe_allocator *alloc) {
@@ -156,7 +163,7 @@ static froe_status grow_thinned(void *user, const froe_allocator *alloc) {
     const split_method method = {.choose = cut_along_any, .thin = t->rule};
     froe_status status = froe_generate(t->kind ? t->kind : "nested", COUNT, 1, alloc, &scene, NULL);
     if (status) return status;
-    base_task_init(&task, 1, NULL, NULL);
+    base_task_init(&task, 1, t->patience ? go_on : NULL, t->patience);
     memset(&t->notes, 0, sizeof t->notes);
     const split_job job = {.scene = scene, .alloc = scene->alloc, .task = &task, .meta = &meta, .thinned = &t->notes};
     status = split_grow(&job, &method, &tree);
@@ -187,6 +194,26 @@ static void what_crosses_is_not_thinned_out(void **state) {
     assert_true(t.notes.before == 0);
 }
 
+static void growth_can_be_cancelled_at_every_call(void **state) {
+    (void)state;
+    int all = 0;
+    const thinning usual = {.rule = {1.2, 16, 16}};
+    const froe_allocator own = support_allocator(NULL);
+    thinning t = usual;
+    t.patience = &all;
+    assert_int_equal(grow_thinned(&t, &own), FROE_OK);
+    assert_true(all < -9);
+    for (int last = 1, most = -all; last <= most; last++) {
+        test_memory m;
+        const froe_allocator alloc = test_memory_begin(&m);
+        int left = last;
+        t = usual, t.patience = &left;
+        assert_int_equal(grow_thinned(&t, &alloc), FROE_E_CANCELLED);
+        assert_true(left <= 0);
+        test_memory_end(&m);
+    }
+}
+
 static void thinning_survives_every_failing_allocation(void **state) {
     (void)state;
     thinning t = {.rule = {1.2, 16, 16}};
@@ -203,6 +230,7 @@ int main(void) {
         cmocka_unit_test(trees_do_not_depend_on_threads),
         cmocka_unit_test(growth_ends_where_the_rule_says),
         cmocka_unit_test(what_crosses_is_not_thinned_out),
+        cmocka_unit_test(growth_can_be_cancelled_at_every_call),
         cmocka_unit_test(thinning_survives_every_failing_allocation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -255,18 +255,81 @@ static void a_list_shows_each_picture_in_its_order(void **state) {
     vector_film_free(&list, &alloc);
 }
 
+typedef struct filming {
+    const froe_motion *motion;
+    bool exact, turn, lines, culled, large;
+    froe_film_report report;
+} filming;
+
 static froe_status film_once(void *user, const froe_allocator *alloc) {
+    filming *f = user;
     froe_render_options o = froe_render_defaults();
     froe_film_options film = froe_film_defaults();
-    o.alloc = alloc, film.frames = 2, film.halvings = 1;
-    return froe_film(user, "memory.svg", &o, &film, NULL, NULL);
+    o.camera.parallel = f->exact, o.camera.eye[0] = 0.125, o.camera.eye[1] = -9, o.camera.eye[2] = 0.25;
+    o.alloc = alloc, film.frames = 2, film.halvings = 1, film.exact = f->exact, film.turn = f->turn;
+    if (f->lines) o.shading = FROE_SHADE_NONE;
+    o.cull_back = f->culled, o.min_area = f->large ? 1 : 0;
+    return froe_film(f->motion, "memory.svg", &o, &film, &f->report, NULL);
+}
+
+/* A triangle flies past before two that rest and have an edge in common; a fourth is there for a while. */
+static froe_motion *make_passing(void) {
+    static const size_t starts[] = {0, 2, 4, 6, 7, 8, 9, 10, 11};
+    static const double times[11] = {0, 1, 0, 1, 0, 1};
+    static const double at[] = {-4,  -2,   -0.5, 2, -2,  -0.5, -2, -2, -0.5, 4,   -2, -0.5, -3,   -2, 2.5, 3, -2,
+                                2.5, -0.2, 0,    0, 0.2, 0,    0,  0,  0,    0.5, 0,  0.5,  -0.3, 3,  0,   3};
+    static const uint32_t vertices[] = {0, 1, 2, 3, 4, 5, 3, 4, 6, 4, 5, 7};
+    static const double births[] = {0, 0, 0, 0.25}, deaths[] = {1, 1, 1, 0.5};
+    froe_motion_options w = froe_motion_defaults();
+    froe_moving b = froe_moving_defaults();
+    froe_motion *motion = NULL;
+    w.dim = 3, w.begin = 0, w.end = 1;
+    b.vertex_count = 8, b.count = 4, b.starts = starts, b.times = times, b.coords = at, b.vertices = vertices;
+    b.births = births, b.deaths = deaths;
+    assert_int_equal(froe_motion_new(&w, NULL, &motion, NULL), FROE_OK);
+    assert_int_equal(froe_motion_add(motion, &b, NULL), FROE_OK);
+    return motion;
+}
+
+/* From some calls for memory on there is none. */
+static void run_short_of_memory(filming *f) {
+    enum { TRIES = 24 };
+    test_memory m;
+    const froe_allocator alloc = test_memory_begin(&m);
+    assert_int_equal(film_once(f, &alloc), FROE_OK);
+    const size_t calls = m.calls;
+    for (size_t i = 0; i < TRIES; i++) {
+        test_memory_begin(&m);
+        m.fail_at = 1 + i * calls / TRIES, m.fail_on = true;
+        assert_int_equal(film_once(f, &alloc), FROE_E_MEMORY);
+        test_memory_end(&m);
+    }
+}
+
+/* What vanishes and comes into sight again is found in each way to make a film. */
+static void every_way_to_film_finds_the_changes(void **state) {
+    (void)state;
+    froe_motion *motion = make_passing();
+    for (int way = 0; way < 6; way++) {
+        filming f = {.motion = motion, .exact = way % 3 > 0, .turn = way % 3 > 1, .lines = way > 2};
+        assert_int_equal(film_once(&f, NULL), FROE_OK);
+        assert_true(way == 1 ? f.report.changes == 2 : way == 2 || f.report.changes > 1); /* 2: seen from behind */
+        assert_true(f.exact ? f.report.late < 1e-9 : f.report.late == 0.25);
+        if (f.exact) run_short_of_memory(&f);
+    }
+    for (int culled = 0; culled < 2; culled++) { /* then all that happens is looked at */
+        filming f = {.motion = motion, .exact = true, .culled = culled, .large = !culled};
+        assert_int_equal(film_once(&f, NULL), FROE_OK);
+        assert_int_equal(f.report.changes, 2);
+    }
+    froe_motion_free(motion);
 }
 
 static void allocations_may_fail(void **state) {
     (void)state;
     froe_motion *motion = NULL;
     assert_int_equal(froe_generate_motion("moving-boxes", 2, 1, NULL, &motion, NULL), FROE_OK);
-    assert_true(test_memory_each(film_once, motion) > 100);
+    assert_true(test_memory_each(film_once, &(filming){.motion = motion}) > 100);
     froe_motion_free(motion);
 }
 
@@ -302,6 +365,7 @@ int main(void) {
         cmocka_unit_test(lives_of_any_length_are_shown),
         cmocka_unit_test(what_is_seen_for_less_than_a_frame_is_seen),
         cmocka_unit_test(a_list_shows_each_picture_in_its_order),
+        cmocka_unit_test(every_way_to_film_finds_the_changes),
         cmocka_unit_test(allocations_may_fail),
         cmocka_unit_test(what_no_film_can_be_is_refused),
     };

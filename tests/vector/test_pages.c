@@ -28,7 +28,7 @@ static void every_object_of_a_pdf_is_where_its_table_says(void **state) {
     froe_tree *tree = triangles();
     froe_render_options o = rich_options();
     o.title = "St\xC3\xA4lle (\xF0\x9F\x8F\xA0)\\";
-    o.description = "(";
+    o.description = "(\xE2\x82\xAC";
     page_bytes p = page_of(tree, FROE_RENDER_PDF, &o, NULL);
     const char *start = strstr(p.text, "startxref\n");
     assert_memory_equal(p.text, "%PDF-1.4\n", 9);
@@ -54,7 +54,12 @@ static void every_object_of_a_pdf_is_where_its_table_says(void **state) {
     assert_int_equal(strtoul(strstr(p.text, "5 0 obj\n") + 8, NULL, 10), end - content);
     assert_non_null(strstr(p.text, "/MediaBox[0 0 944.7874016 710.6456693]"));
     assert_non_null(strstr(p.text, "/Title<FEFF0053007400E4006C006C006500200028D83CDFE00029005C>"));
-    assert_non_null(strstr(p.text, "/Subject<FEFF0028>"));
+    assert_non_null(strstr(p.text, "/Subject<FEFF002820AC>"));
+    free(p.text);
+    o.title = NULL, o.description = "";
+    p = page_of(tree, FROE_RENDER_PDF, &o, NULL);
+    assert_null(strstr(p.text, "/Title"));
+    assert_null(strstr(p.text, "/Subject"));
     free(p.text);
     froe_tree_free(tree);
 }

@@ -103,10 +103,43 @@ static void pictures_are_checked(void **state) {
     froe_tree_free(tree), froe_scene_free(scene);
 }
 
+static void names_are_those_of_options(void **state) {
+    (void)state;
+    assert_string_equal(froe_shading_name(FROE_SHADE_NONE), "none");
+    assert_string_equal(froe_seams_name(FROE_SEAMS_TWICE), "twice");
+    assert_null(froe_shading_name(FROE_SHADING_COUNT));
+    assert_null(froe_shading_name((froe_shading)-1));
+    assert_null(froe_seams_name(FROE_SEAMS_COUNT));
+    assert_null(froe_seams_name((froe_seams)-1));
+}
+
+/* Of a scene with a group: opacities that are none, and lines with options that are none. */
+static void opacities_are_shares(void **state) {
+    (void)state;
+    static const double coords[] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, bad[] = {-0.5, 1.5, INFINITY};
+    froe_scene *scene = NULL;
+    froe_tree *tree = NULL;
+    froe_objects batch = froe_objects_defaults();
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    assert_int_equal(froe_scene_add_group(scene, &(froe_group){.name = "wall"}, &batch.group), FROE_OK);
+    batch.count = 1, batch.coords = coords;
+    assert_int_equal(froe_scene_add(scene, &batch, NULL), FROE_OK);
+    assert_int_equal(froe_build(scene, NULL, &tree, NULL), FROE_OK);
+    froe_render_options o = froe_render_defaults();
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        o.opacity = bad + i;
+        REFUSED(froe_render(tree, "picture.svg", &o, NULL, &why), "group 0: Its opacity is");
+        REFUSED(froe_render_lines(tree, take_line, NULL, &o, NULL, &why), "group 0: Its opacity is");
+    }
+    froe_tree_free(tree), froe_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(films_are_checked),
         cmocka_unit_test(pictures_are_checked),
+        cmocka_unit_test(names_are_those_of_options),
+        cmocka_unit_test(opacities_are_shares),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

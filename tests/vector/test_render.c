@@ -227,6 +227,82 @@ static void coordinates_do_not_drift(void **state) {
     froe_tree_free(tree);
 }
 
+/* Two squares in one place: the one of the group with higher priority is seen. */
+static void the_group_of_higher_priority_is_seen(void **state) {
+    (void)state;
+    static const double square[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+    const size_t starts[2] = {0, 4};
+    froe_scene *scene = scene_of(3);
+    for (int i = 0; i < 2; i++) {
+        froe_objects one = froe_objects_defaults();
+        assert_int_equal(froe_scene_add_group(scene, &(froe_group){.name = i ? "upper" : "lower"}, &one.group),
+                         FROE_OK);
+        one.count = 1, one.coords = square, one.starts = starts;
+        assert_int_equal(froe_scene_add(scene, &one, NULL), FROE_OK);
+    }
+    froe_tree *tree = tree_of(scene, "density", 1);
+    for (int32_t first = -1; first <= 1; first += 2) {
+        const int32_t priorities[2] = {first, 0};
+        froe_render_options o = froe_render_defaults();
+        froe_render_report report;
+        size_t count;
+        o.priorities = priorities, o.ids = FROE_IDS_OBJECT, o.lines = 0;
+        char *svg = render(tree, "priority.svg", &o, &report, &count);
+        assert_int_equal(report.picture.shapes, 1);
+        assert_int_equal(occurrences(svg, first > 0 ? "data-group=\"lower\"" : "data-group=\"upper\""), 1);
+        free(svg);
+    }
+    froe_tree_free(tree);
+}
+
+/* Each layer is scaled by itself, and none where a step of the page is 1. */
+static void layers_are_scaled_by_decimals(void **state) {
+    (void)state;
+    froe_tree *tree = cube();
+    for (int decimals = 0; decimals < 3; decimals++) {
+        froe_render_options o = froe_render_defaults();
+        froe_render_report report;
+        size_t count;
+        o.layers = FROE_LAYERS_OBJECT, o.decimals = decimals;
+        char *svg = render(tree, "layers.svg", &o, &report, &count);
+        const size_t layers = occurrences(svg, "inkscape:groupmode=\"layer\"");
+        assert_true(layers > 1);
+        assert_int_equal(occurrences(svg, decimals == 1 ? "scale(0.1)" : "scale(0.01)"), decimals ? layers : 0);
+        free(svg);
+    }
+    froe_tree_free(tree);
+}
+
+static bool count_line(void *user, const froe_stroke *line) {
+    (void)line;
+    ++*(int *)user;
+    return true;
+}
+
+/* Where all ends of a line come to the same step of the page it is left out, of files and of what is told. */
+static void lines_shorter_than_a_step_are_left_out(void **state) {
+    (void)state;
+    static const double grain[] = {0.25, 0.25, 0.01, 0.25 + 1e-9, 0.25, 0.01, 0.25, 0.25 + 1e-9, 0.01},
+                        whole[] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    froe_scene *scene = scene_of(3);
+    froe_objects one = froe_objects_defaults();
+    froe_render_options o = froe_render_defaults();
+    froe_render_report report;
+    size_t count;
+    int told = 0;
+    one.count = 1, one.coords = whole;
+    assert_int_equal(froe_scene_add(scene, &one, NULL), FROE_OK);
+    one.coords = grain;
+    assert_int_equal(froe_scene_add(scene, &one, NULL), FROE_OK);
+    froe_tree *tree = tree_of(scene, "density", 1);
+    o.decimals = 0, o.shading = FROE_SHADE_NONE, o.hidden = true;
+    assert_int_equal(froe_render_lines(tree, count_line, &told, &o, &report, NULL), FROE_OK);
+    assert_true(report.picture.strokes > 1 && (uint64_t)told < report.picture.strokes && told > 0);
+    free(render(tree, "grain.csv", &o, &report, &count));
+    assert_int_equal(report.paths, told);
+    froe_tree_free(tree);
+}
+
 static void bad_options_are_refused_and_leave_no_file(void **state) {
     (void)state;
     froe_tree *tree = cube(), *flat = tree_of(random_segments(10, 0.1, 1, 0), "density", 1);
@@ -254,6 +330,15 @@ static void bad_options_are_refused_and_leave_no_file(void **state) {
 static froe_status render_with(void *user, const froe_allocator *alloc) {
     froe_render_options o = froe_render_defaults();
     o.alloc = alloc;
+    return froe_render(user, "memory.svg", &o, NULL, NULL);
+}
+
+/* With what is given for each group: one is glass, and has priority. */
+static froe_status render_groups_with(void *user, const froe_allocator *alloc) {
+    static const double opacity[2] = {1, 0.5};
+    static const int32_t priorities[2] = {0, 1};
+    froe_render_options o = froe_render_defaults();
+    o.alloc = alloc, o.opacity = opacity, o.priorities = priorities;
     return froe_render(user, "memory.svg", &o, NULL, NULL);
 }
 
@@ -294,6 +379,7 @@ static void every_allocation_may_fail(void **state) {
     (void)state;
     froe_tree *tree = cube();
     assert_true(test_memory_each(render_with, tree) > 30);
+    assert_true(test_memory_each(render_groups_with, tree) > 30);
     assert_true(test_memory_each(animate_with, tree) > 60);
     froe_tree_free(tree);
 }
@@ -306,6 +392,9 @@ int main(void) {
         cmocka_unit_test(through_glass_one_sees_what_is_behind),
         cmocka_unit_test(a_scene_brings_its_colours),
         cmocka_unit_test(coordinates_do_not_drift),
+        cmocka_unit_test(the_group_of_higher_priority_is_seen),
+        cmocka_unit_test(lines_shorter_than_a_step_are_left_out),
+        cmocka_unit_test(layers_are_scaled_by_decimals),
         cmocka_unit_test(bad_options_are_refused_and_leave_no_file),
         cmocka_unit_test(an_animation_shows_each_picture_for_its_time),
         cmocka_unit_test(every_allocation_may_fail),

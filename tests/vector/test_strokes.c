@@ -1,6 +1,7 @@
 /* test_strokes.c: width, colour and dashes of lines by kind: what a style does not say stays, the last one counts, and
  * every format shows it. */
 #include "support/small_scenes.h"
+#include "vector/render.h"
 #include <froe/render.h>
 #include <math.h>
 
@@ -134,19 +135,35 @@ static void wide_styles_are_interleaved_as_wide_lines_are(void **state) {
     froe_tree_free(tree);
 }
 
+/* Lines of a section count where there is one, and points never. */
+static void reach_is_that_of_the_widest_line_drawn(void **state) {
+    (void)state;
+    froe_line_style wide = froe_line_style_defaults();
+    froe_render_options o = froe_render_defaults();
+    wide.visible = FROE_LINE_SECTION | FROE_LINE_POINT, wide.width = 9;
+    const double usual = vector_line_reach(&o);
+    o.line_styles = &wide, o.line_style_count = 1;
+    assert_true(usual > 0 && usual < 4.5 && vector_line_reach(&o) == usual);
+    o.section = 1;
+    assert_true(vector_line_reach(&o) == 4.5);
+    o.lines &= ~(uint32_t)FROE_LINE_SECTION;
+    assert_true(vector_line_reach(&o) == usual);
+}
+
 static void bad_styles_are_refused(void **state) {
     (void)state;
     froe_tree *tree = cube();
-    froe_line_style s[6];
-    for (int i = 0; i < 6; i++) s[i] = froe_line_style_defaults();
+    froe_line_style s[7];
+    for (int i = 0; i < 7; i++) s[i] = froe_line_style_defaults();
     s[0].width = 0;
     s[1].width = INFINITY;
     s[2].colour = 0x1000000;
     s[3].dash = 1;
     s[4].dash = 1, s[4].gap = 0;
     s[5].dash = s[5].gap = -1;
+    s[6].dash = 1, s[6].gap = -1;
     froe_render_options o = froe_render_defaults();
-    for (int i = 0; i < 6; i++) {
+    for (int i = 0; i < 7; i++) {
         froe_diagnostic why = {.message = ""};
         o.line_styles = s + i, o.line_style_count = 1;
         assert_int_equal(froe_render(tree, "bad.svg", &o, NULL, &why), FROE_E_OPTIONS);
@@ -164,6 +181,7 @@ int main(void) {
         cmocka_unit_test(the_last_style_of_a_kind_counts),
         cmocka_unit_test(svg_and_pdf_and_eps_show_styles),
         cmocka_unit_test(wide_styles_are_interleaved_as_wide_lines_are),
+        cmocka_unit_test(reach_is_that_of_the_widest_line_drawn),
         cmocka_unit_test(bad_styles_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
