@@ -462,6 +462,14 @@ static void geometries_that_are_none_are_refused(void **state) {
     }
 }
 
+static void a_byte_order_mark_is_passed_over(void **state) {
+    (void)state;
+    froe_motion *m = read_text("\xEF\xBB\xBF" LINE("[0,1]", "[[[0,0],[1,1]],[[0,0],[1,1]]]", ""), NULL);
+    assert_int_equal(froe_motion_object_count(m), 1);
+    froe_motion_free(m);
+    assert_refused("\xEF\xBB\xBF", FROE_E_FORMAT, "bad.mfjson: line 1: JSON needs a value near the end of the file.");
+}
+
 static void a_window_has_to_reach_into_the_file(void **state) {
     (void)state;
     static const struct {
@@ -705,6 +713,7 @@ int main(void) {
         cmocka_unit_test(what_is_wrong_is_said_with_the_feature),
         cmocka_unit_test(a_feature_has_the_name_that_says_most),
         cmocka_unit_test(geometries_that_are_none_are_refused),
+        cmocka_unit_test(a_byte_order_mark_is_passed_over),
         cmocka_unit_test(a_window_has_to_reach_into_the_file),
         cmocka_unit_test(every_kind_of_motion_survives_a_file),
         cmocka_unit_test(bodies_of_the_plane_survive_a_file),
