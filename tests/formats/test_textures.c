@@ -190,7 +190,7 @@ static void lines_of_a_material_decide_the_colour(void **state) {
         {"Kd", 0},
         {"Kdx 0.2 0.4 0.6", 0},
         {"Kd 0.2 0.4 0.6\nd 0.5\nd", 0x33669980},
-        {"Kd 0.2 0.4 0.6\nTr 0.5\nTr x\nd x", 0x33669980},
+        {"Kd 0.2 0.4 0.6\nTr 0.75\nTr x\nd x", 0x33669940},
         {"map_Kd F four.png", 0x9e9e9ebe},
         {"map_Kd F four.png \t\r", 0x9e9e9ebe},
         {"Kd 0 1 0\nmap_Kd F four.png", 0x009e00be},
