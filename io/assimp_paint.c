@@ -105,11 +105,14 @@ static froe_status find_image(formats_sink *sink, const char *path, const struct
     if (!inside->mHeight) return formats_image_find(sink, path, name, inside->pcData, inside->mWidth, images, out);
     for (size_t i = 0; i < images->count; i++)
         if (!strcmp(images->data[i].name, name)) return *out = images->data[i].image, FROE_OK;
-    formats_image found = {.image = raw_image(inside, &sink->alloc)};
+    formats_image found = {.image = {.pixels = NULL}};
     snprintf(found.name, sizeof found.name, "%.250s", name);
+    if (array_reserve(&sink->alloc, images, 1)) found.image = raw_image(inside, &sink->alloc);
+    if (!found.image.pixels) return support_fail_memory(sink->diag);
+    images->data[images->count++] = found;
     *out = found.image;
     sink->report.textures++;
-    return found.image.pixels && array_push(&sink->alloc, images, found) ? FROE_OK : support_fail_memory(sink->diag);
+    return FROE_OK;
 }
 
 froe_status assimp_paint_read(formats_sink *sink, const char *path, const struct aiScene *scene, unsigned index,

@@ -159,11 +159,10 @@ static void numbers(archive *a, const char *given, double *to, int count) {
 }
 
 static uint32_t colour_of(archive *a, const char *given) { /* #RRGGBB or #RRGGBBAA */
-    char *end;
-    const size_t length = given ? strlen(given) : 0;
-    const unsigned long value = length ? strtoul(given + 1, &end, 16) : 0;
-    if ((length != 7 && length != 9) || *given != '#' || *end) return fail(a, "A colour is not like #RRGGBB."), 0;
-    return (uint32_t)(length == 7 ? value << 8 | 0xff : value);
+    const size_t digits = given && *given == '#' ? strspn(given + 1, "0123456789abcdefABCDEF") : 0;
+    if ((digits != 6 && digits != 8) || given[1 + digits]) return fail(a, "A colour is not like #RRGGBB."), 0;
+    const unsigned long value = strtoul(given + 1, NULL, 16);
+    return (uint32_t)(digits == 6 ? value << 8 | 0xff : value);
 }
 
 /* -------------------------------------------------------------- elements -- */

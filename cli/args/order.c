@@ -7,6 +7,14 @@
 #include <stdio.h>
 #include <string.h>
 
+/* To the end of a line of which only the beginning was read. */
+static void pass_line(FILE *file, bool whole) {
+    while (!whole) {
+        const int c = fgetc(file);
+        whole = c == '\n' || c == EOF;
+    }
+}
+
 int cli_read_order(const char *path, cli_order *out) {
     const froe_allocator alloc = support_allocator(NULL);
     ARRAY(uint32_t) ids = {0};
@@ -17,13 +25,16 @@ int cli_read_order(const char *path, cli_order *out) {
     if (!file) return cli_fail_file(CLI_INPUT, path, "read");
     for (size_t number = 1; !code && fgets(line, sizeof line, file); number++) {
         const bool whole = strchr(line, '\n') || feof(file);
-        line[strcspn(line, " \t\r\n")] = 0;
-        if (whole && (!line[0] || line[0] == '#')) continue;
-        /* A whole number below 2^32 - 1 and nothing else. */
+        const char *word = line + strspn(line, " \t"), *behind = word + strcspn(word, " \t\r\n");
+        const char *rest = behind + strspn(behind, " \t\r\n");
+        if (*word == '#' || *rest == '#') pass_line(file, whole);
+        if (*word == '#' || (word == behind && whole)) continue;
+        /* A whole number below 2^32 - 1, and nothing else but a comment. */
         char *end;
         errno = 0;
-        const uintmax_t id = strtoumax(line, &end, 10);
-        if (!whole || line[0] < '0' || line[0] > '9' || *end || errno || id >= UINT32_MAX)
+        const uintmax_t id = strtoumax(word, &end, 10);
+        const bool alone = *rest == '#' || (!*rest && whole);
+        if (!alone || *word < '0' || *word > '9' || end != behind || errno || id >= UINT32_MAX)
             code = cli_fail(CLI_INPUT, path, "line %zu: It is not one object id.", number);
         else if (!array_push(&alloc, &ids, (uint32_t)id))
             code = cli_fail_memory();

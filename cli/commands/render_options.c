@@ -75,16 +75,17 @@ static int set_scale(const render_args *args, froe_render_options *o) {
     char *end;
     if (!args->scale) return 0;
     double scale = strtod(args->scale, &end);
-    if (end != args->scale && *end == ':') {
+    bool known = end != args->scale;
+    if (known && *end == ':') {
         const char *second = end + 1;
         const double to = strtod(second, &end);
-        if (end == second || !o->millimetres)
+        known = end != second;
+        if (known && !o->millimetres)
             return cli_fail(CLI_USE, NULL, "--scale: '%s' needs a page in millimetres, such as --size 160x120mm.",
                             args->scale);
         scale = scale / to * 1000 * (isnan(args->unit) ? 1 : args->unit);
     }
-    if (end == args->scale || *end)
-        return cli_fail(CLI_USE, NULL, "--scale: '%s' is not like 2.5 or 1:50.", args->scale);
+    if (!known || *end) return cli_fail(CLI_USE, NULL, "--scale: '%s' is not like 2.5 or 1:50.", args->scale);
     if (!(scale > 0) || isinf(scale))
         return cli_fail(CLI_USE, NULL, "--scale: '%s' is not a number above 0.", args->scale);
     if (!o->camera.parallel)
@@ -98,9 +99,10 @@ static int set_style(const char *text, froe_render_options *o) {
     char *end;
     if (strncmp(text, "cel:", 4) == 0) {
         o->shading = FROE_SHADE_CEL;
-        o->cel_levels = (unsigned)strtoul(text + 4, &end, 10);
+        const long levels = strtol(text + 4, &end, 10);
         if (end == text + 4 || *end) return cli_fail(CLI_USE, NULL, "--style: '%s' is not like cel:4.", text);
-        if (o->cel_levels >= 2 && o->cel_levels <= 64) return 0;
+        o->cel_levels = (unsigned)levels;
+        if (levels >= 2 && levels <= 64) return 0;
         return cli_fail(CLI_USE, NULL, "--style: '%s' names no number of steps from 2 to 64.", text);
     }
     for (int s = 0; s < FROE_SHADING_COUNT; s++)
@@ -134,7 +136,7 @@ int render_set_groups(const char *option, const char *list, const froe_scene *sc
         char *end = NULL;
         const double value = equals ? strtod(equals + 1, &end) : 0;
         bool any = false;
-        if (!equals || end != list + length || end == equals + 1)
+        if (!equals || end != list + length || end == equals + 1 || !isfinite(value))
             return cli_fail(CLI_USE, NULL, "--%s: '%.*s' is not like NAME=1.", option, (int)length, list);
         const size_t name = (size_t)(equals - list);
         for (uint32_t g = 0; g < groups; g++) {
@@ -262,8 +264,9 @@ int render_prepare(const render_args *args, const froe_scene *scene, render_prep
     if (!code) code = render_set_groups("priority", args->priority, scene, out->values + groups);
     for (size_t g = 0; !code && g < groups; g++) {
         const double priority = out->values[groups + g];
-        if (fabs(priority) > 1e9) code = cli_fail(CLI_USE, NULL, "--priority: '%g' is too large.", priority);
-        out->priorities[g] = (int32_t)priority;
+        if (fabs(priority) > 1e9 || priority != floor(priority))
+            code = cli_fail(CLI_USE, NULL, "--priority: '%g' is not a whole number from -1e9 to 1e9.", priority);
+        if (!code) out->priorities[g] = (int32_t)priority;
     }
     if (args->opacity) out->options.opacity = out->values;
     if (args->priority) out->options.priorities = out->priorities;

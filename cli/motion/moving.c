@@ -34,7 +34,7 @@ static bool holds_features(const char *path) {
         if (!strcmp(extension.text, endings[i])) return true;
     FILE *file = strcmp(extension.text, "gltf") != 0 ? fopen(path, "rb") : NULL;
     int c = file ? fgetc(file) : 0;
-    while (c == ' ' || c == '\t' || c == '\r' || c == '\n') c = fgetc(file);
+    while (c > 0 && strchr(" \t\r\n\xEF\xBB\xBF", c)) c = fgetc(file); /* a byte order mark, too */
     if (file) fclose(file);
     return c == '{' || c == '[' || (c == EOF && !*extension.text);
 }

@@ -48,7 +48,7 @@ static bool take_clock(const char **at, int *seconds, char digits[18]) {
             if (count < 17) digits[count++] = **at;
     digits[count] = '\0';
     *seconds = (hour * 60 + minute) * 60 + second;
-    return hour < 24 || *seconds == 24 * 3600;
+    return hour < 24 || (*seconds == 24 * 3600 && !digits[strspn(digits, "0")]);
 }
 
 static bool take_zone(const char **at, int *minutes) {
@@ -57,8 +57,7 @@ static bool take_zone(const char **at, int *minutes) {
     if (!**at || take_character(at, 'Z') || take_character(at, 'z')) return true;
     int sign = take_character(at, '+') ? 1 : take_character(at, '-') ? -1 : 0;
     if (!sign || !take_number(at, 2, 23, &hours)) return false;
-    take_character(at, ':');
-    if (**at && !take_number(at, 2, 59, &rest)) return false;
+    if ((take_character(at, ':') || **at) && !take_number(at, 2, 59, &rest)) return false;
     *minutes = sign * (60 * hours + rest);
     return true;
 }

@@ -150,12 +150,12 @@ static froe_status take_all(reading *r, form kind, const formats_json *array, co
     for (size_t i = 0; i < count; i++, geometry = formats_json_next(geometry)) {
         const froe_status status = take_geometry(r, kind, geometry, i, to);
         if (status) return status;
-        const size_t points = to->count / (size_t)r->dim / (i + 1), lines = r->here.count;
+        const size_t lines = r->here.count;
         if (first && i == 0) {
-            r->points = points;
+            r->points = to->count / (size_t)r->dim;
             r->rings.count = 0;
             if (!array_append(&r->alloc, &r->rings, r->here.data, lines)) return no_memory(r);
-        } else if (lines != r->rings.count || points != r->points ||
+        } else if (lines != r->rings.count ||
                    (lines && memcmp(r->here.data, r->rings.data, lines * sizeof *r->here.data) != 0)) {
             return fail_feature(r, FROE_E_INPUT, "At instant %zu it has not as many points as at instant 0.", i);
         }
@@ -426,14 +426,14 @@ static froe_status take_moving(reading *r, const formats_json *geometry) {
         return fail_feature(r, FROE_E_FORMAT, "Its base has coordinates, but neither triangles nor segments.");
     if (dim == 2 && !carried && formats_json_get(geometry, "turns"))
         return fail_feature(r, FROE_E_FORMAT, "It has turns, but no base with triangles or segments.");
+    if (!type) return fail_feature(r, FROE_E_FORMAT, "Its moving geometry has no type.");
     r->dim = dim;
     int which = 0;
-    while (which < FORMS && type && strcmp(type, forms[dim - 2][which]) != 0) which++;
+    while (which < FORMS && strcmp(type, forms[dim - 2][which]) != 0) which++;
     if (carried && which != POINT && which != FORMS)
         return fail_feature(r, FROE_E_FORMAT, "It has a base with segments, and is no MovingPoint.");
-    if (!type || which == FORMS)
-        return fail_feature(r, type ? FROE_E_UNSUPPORTED : FROE_E_FORMAT,
-                            "There is no moving geometry of type '%.40s'.", type ? type : "");
+    if (which == FORMS)
+        return fail_feature(r, FROE_E_UNSUPPORTED, "There is no moving geometry of type '%.40s'.", type);
     froe_status status = take_instants(r, geometry);
     return status || !r->motion ? status : add_geometry(r, (form)which, geometry);
 }
@@ -534,6 +534,7 @@ froe_status formats_load_motion(const char *path, const froe_allocator *alloc, f
     if (error) return support_fail_file(diag, "read", path, error);
     if (got == PART || !array_reserve(alloc, text, BEHIND)) return support_fail_memory(diag);
     memset(text->data + text->count, 0, BEHIND);
+    if (!strncmp(text->data, "\xEF\xBB\xBF", 3)) memset(text->data, ' ', 3); /* a byte order mark is no part of it */
     return FROE_OK;
 }
 

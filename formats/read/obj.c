@@ -141,7 +141,7 @@ static int64_t read_index(const char *at, char **end) {
 static froe_status read_place(obj *o, const char *at) {
     const int64_t places = (int64_t)(o->places.count / 2);
     char *end;
-    if (*at != '/' || at[1] == '/') return FROE_OK;
+    if (*at != '/' || at[1] == '/' || is_blank(at[1])) return FROE_OK;
     int64_t index = read_index(at + 1, &end);
     if (index < 0) index += places + 1;
     if (end == at + 1 || index < 1 || index > places) return FROE_OK; /* no geometry: it has no colour by that */

@@ -77,10 +77,10 @@ static uint32_t rest_colour(off *o) {
         char *end;
         while (*o->at == ' ' || *o->at == '\t' || *o->at == '\r') o->at++;
         if (!*o->at || !strchr("+-.0123456789", *o->at)) break;
-        shares[count] = support_decimal_ahead(o->at, &end);
+        const double share = support_decimal_ahead(o->at, &end);
         if (end == o->at) break;
+        shares[count++] = share;
         for (; o->at < end; o->at++) whole_numbers = whole_numbers && *o->at != '.' && (*o->at | 0x20) != 'e';
-        count++;
     }
     if (count < 3) return 0;
     for (int k = 0; whole_numbers && k < count; k++) shares[k] /= 255;

@@ -9,6 +9,7 @@
 #include "formats/input/texture.h"
 #include "formats/read/readers.h"
 #include "support/decimal/decimal.h"
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -190,7 +191,8 @@ static froe_status read_item(ply *p, const element *e, double *by_role) {
         const property *to = &e->property[i];
         double count = 1, value;
         if (to->count && !read_number(p, to->count, &count)) return broken(p, "The data end too early.");
-        if (!(count >= 0) || count > (double)(p->end - p->at)) return broken(p, "A list is longer than the file.");
+        if (!(count >= 0 && count == floor(count))) return broken(p, "The length of a list is no whole number.");
+        if (count > (double)(p->end - p->at)) return broken(p, "A list is longer than the file.");
         for (double k = 0; k < count; ++k) {
             if (!read_number(p, to->type, &value)) return broken(p, "The data end too early, or hold no number.");
             by_role[to->role] = value;

@@ -54,8 +54,9 @@ static void assert_refused(const char *text, froe_status status, const char *mes
     froe_motion *m = NULL;
     froe_diagnostic diag;
     put("bad.mfjson", text);
-    assert_int_equal(froe_read_motion("bad.mfjson", NULL, &m, NULL, &diag), status);
-    assert_string_equal(diag.message, message);
+    const froe_status found = froe_read_motion("bad.mfjson", NULL, &m, NULL, &diag);
+    assert_string_equal(found ? diag.message : "read", message);
+    assert_int_equal(found, status);
     assert_null(m);
 }
 
@@ -76,11 +77,21 @@ static void instants_are_milliseconds_since_1970(void **state) {
         {"1969-12-31T23:59:59.5Z", -500},
         {"2020-01-01T00:00:00.1234", 1577836800123.4},
         {"0001-01-01T00:00:00Z", -62135596800000},
+        {"1970-01-01t01", 3600000}, /* minutes, seconds and zone may be missing */
+        {"1970-01-01 00:02z", 120000},
+        {"1970-01-01T02+01", 3600000},
+        {"1970-01-01T02+0130", 1800000},
+        {"1970-01-01T00:00:00,25", 250},
+        {"1970-01-01T00:00:00.00012345678901234567890", 0.12345678901234}, /* 17 digits */
+        {"1998-12-31T23:59:60Z", 915148800000},
+        {"1970-12-31T24:00:00.00Z", 31536000000},
+        {"1900-03-01", -2203891200000}, /* no leap year, as 2000 was */
+        {"2004-02-29", 1078012800000},
     };
     for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
         double value = NAN;
         assert_true(formats_datetime(good[i].text, &value));
-        assert_true(value == good[i].value);
+        if (value != good[i].value) fail_msg("%s is %.17g", good[i].text, value);
     }
     static const char *const bad[] = {"",
                                       "2000",
@@ -91,7 +102,31 @@ static void instants_are_milliseconds_since_1970(void **state) {
                                       "2000-01-01T25:00:00Z",
                                       "2000-01-01T00:61:00Z",
                                       "2000-01-01T00:00:00Zx",
-                                      "2000-01-01 00:00:00+x"};
+                                      "2000-01-01 00:00:00+x",
+                                      "2000/01/01",
+                                      "2000-01",
+                                      "2000-01-1",
+                                      "2000-01-32",
+                                      "2000-01-00",
+                                      "0000-01-01",
+                                      "2000-04-31",
+                                      "1900-02-29",
+                                      "2000-01-01x00:00",
+                                      "2000-01-01T1",
+                                      "2000-01-01T12:",
+                                      "2000-01-01T12:0",
+                                      "2000-01-01T12:00:",
+                                      "2000-01-01T12:00:61",
+                                      "2000-01-01T24:00:01",
+                                      "2000-01-01T24:00:00.5",
+                                      "2000-01-01T24:01",
+                                      "2000-01-01T12!",
+                                      "2000-01-01T12+",
+                                      "2000-01-01T12+24",
+                                      "2000-01-01T12+05:",
+                                      "2000-01-01T12+05:6",
+                                      "2000-01-01T12+05:60",
+                                      "2000-01-01T12+05001"};
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
         double value;
         assert_false(formats_datetime(bad[i], &value));
@@ -346,14 +381,124 @@ static void what_is_wrong_is_said_with_the_feature(void **state) {
     assert_refused("{\"type\":\"Feature\",\"temporalGeometry\":{\"type\":\"MovingSolid\"}}", FROE_E_UNSUPPORTED,
                    "bad.mfjson: feature 0: There is no moving geometry of type 'MovingSolid'.");
     froe_motion *m = NULL;
-    froe_diagnostic diag;
-    assert_int_equal(froe_read_motion("missing.mfjson", NULL, &m, NULL, &diag), FROE_E_IO);
-    froe_motion_read_options o = froe_motion_read_defaults();
+    assert_int_equal(froe_read_motion("missing.mfjson", NULL, &m, NULL, NULL), FROE_E_IO);
+}
+
+/* What a feature is called: by its properties, its id, or its first property that is a string. */
+static void a_feature_has_the_name_that_says_most(void **state) {
+    (void)state;
+    static const char *const cases[][2] = {
+        {"\"id\":\"i\",\"properties\":{\"label\":\"l\",\"title\":\"t\"}", "t"},
+        {"\"id\":\"i\",\"properties\":{\"label\":7}", "i"},
+        {"\"id\":7,\"properties\":{\"a\":[1,2],\"b\":\"b\",\"c\":\"c\"}", "b"},
+        {"\"id\":7,\"properties\":{\"id\":\"8\"}", "8"},
+        {"\"id\":-7,\"properties\":{\"a\":{\"b\":\"c\"}}", "-7"},
+        {"\"id\":7.5,\"properties\":null", "0"},
+        {"\"id\":7e3", "0"},
+        {"\"id\":100000000000000000000000000000000000000", "0"},
+        {"\"properties\":[\"a\"]", "0"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[400];
+        snprintf(text, sizeof text,
+                 "{\"type\":\"Feature\",%s,\"temporalGeometry\":{\"type\":\"MovingPoint\",\"datetimes\":[0,1],"
+                 "\"interpolations\":[\"Linear\"],\"coordinates\":[[0,0],[1,1]]}}",
+                 cases[i][0]);
+        froe_motion *m = read_text(text, NULL);
+        assert_string_equal(froe_motion_group(m, froe_motion_object(m, 0).group).name, cases[i][1]);
+        froe_motion_free(m);
+    }
+}
+
+#define GEOMETRY(type, more)                                                                                           \
+    "{\"type\":\"Feature\",\"temporalGeometry\":{\"type\":\"Moving" type                                               \
+    "\",\"datetimes\":[0,1],\"coordinates\":" more "}}"
+
+static void geometries_that_are_none_are_refused(void **state) {
+    (void)state;
+    static const struct {
+        const char *text;
+        froe_status status;
+        const char *message;
+    } cases[] = {
+        {GEOMETRY("LineString", "[[],[]]"), FROE_E_INPUT, "feature 0: At instant 0 there is no geometry."},
+        {GEOMETRY("Polygon", "[[[[0,0],[1,0],[1,1],[0,1]]],[]]"), FROE_E_INPUT,
+         "feature 0: At instant 0 a ring is not closed, or has less than three corners."},
+        {GEOMETRY("Polygon", "[[[[0,0],[1,0],[1,1],[0,0,0]]],[]]"), FROE_E_INPUT,
+         "feature 0: At instant 0 a ring is not closed, or has less than three corners."},
+        {GEOMETRY("Polygon", "[[[[0,0],[1,0],[1,1],[0,[0]]]],[]]"), FROE_E_INPUT,
+         "feature 0: At instant 0 a ring is not closed, or has less than three corners."},
+        {GEOMETRY("Polygon", "[[[[0,0],[1,0],[1,1],[0,null]]],[]]"), FROE_E_INPUT,
+         "feature 0: At instant 0 a ring is not closed, or has less than three corners."},
+        {GEOMETRY("Polygon", "[[[1,2,3,1]],[]]"), FROE_E_FORMAT,
+         "feature 0: At instant 0 a position is no array of two numbers."},
+        {GEOMETRY("Polygon", "[[[[0,0],[1,0],[1,1],[0,0]]],[[[0,0],[1,0],[1,1],[0,0]],[[0,0],[1,0],[1,1],[0,0]]]]"),
+         FROE_E_INPUT, "feature 0: At instant 1 it has not as many points as at instant 0."},
+        {GEOMETRY("LineString", "[[[0,0],[1,1]],[[0,0],[1,1],[2,2],[3,3],[4,4]]]"), FROE_E_INPUT,
+         "feature 0: At instant 1 it has not as many points as at instant 0."},
+        {GEOMETRY("PointCloud", "[[[0,0]],[[0,0]]],\"triangles\":[[0,0,0]]"), FROE_E_FORMAT,
+         "feature 0: At instant 0 a position is no array of three numbers."},
+        {CLOUD("[[0,1,-1]]") "]}", FROE_E_INPUT, "feature 0: Triangle 0 has a corner -1 of 4 points."},
+        {CLOUD("[[0,1,2],[0,1,0.5]]") "]}", FROE_E_INPUT, "feature 0: Triangle 1 has a corner 0.5 of 4 points."},
+        {CLOUD("[[0,1,\"2\"]]") "]}", FROE_E_FORMAT, "feature 0: Triangle 0 is no array of three numbers."},
+        {HEAD BODY("[[0,0,0,1],[0,0,\"0\",1]]", "[[0,1,2]]") "]}", FROE_E_FORMAT,
+         "feature 0: Turn 1 is no array of four numbers."},
+        {"{\"type\":\"Feature\",\"temporalGeometry\":{\"type\":\"MovingPoint\",\"datetimes\":[0,1],\"coordinates\":"
+         "[[0,0],[1,1]],\"base\":{\"coordinates\":[[0,0],[1]],\"segments\":[[0,1]]}}}",
+         FROE_E_FORMAT, "feature 0: At instant 0 a position is no array of two numbers."},
+        {HEAD LINE("[0,1]", "[[[0,0],[1,1]],[[0,0],[1,1]]]", "") "," BODY("[[0,0,0,1],[0,0,0,1]]", "[[0,1,2]]") "]}",
+         FROE_E_INPUT, "feature 1: It moves in space, and those before it do not."},
+        {"{\"type\":\"Feature\",\"temporalGeometry\":{\"datetimes\":[0,1]}}", FROE_E_FORMAT,
+         "feature 0: Its moving geometry has no type."},
+        {"{\"type\":\"Feature\",\"temporalGeometry\":{\"prisms\":[{\"type\":\"MovingPoint\",\"datetimes\":[0,1],"
+         "\"coordinates\":[[0,0],[1,1]]},{\"type\":\"MovingPoint\"},{\"type\":\"MovingPoint\",\"datetimes\":[\"x\"]}]}"
+         "}",
+         FROE_E_FORMAT, "feature 0: Datetimes are missing."},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char message[200];
+        snprintf(message, sizeof message, "bad.mfjson: %s", cases[i].message);
+        assert_refused(cases[i].text, cases[i].status, message);
+    }
+}
+
+static void a_byte_order_mark_is_passed_over(void **state) {
+    (void)state;
+    froe_motion *m = read_text("\xEF\xBB\xBF" LINE("[0,1]", "[[[0,0],[1,1]],[[0,0],[1,1]]]", ""), NULL);
+    assert_int_equal(froe_motion_object_count(m), 1);
+    froe_motion_free(m);
+    assert_refused("\xEF\xBB\xBF", FROE_E_FORMAT, "bad.mfjson: line 1: JSON needs a value near the end of the file.");
+}
+
+static void a_window_has_to_reach_into_the_file(void **state) {
+    (void)state;
+    static const struct {
+        double from, to;
+        froe_status status;
+        const char *message;
+    } cases[] = {
+        {5, 6, FROE_E_INPUT, "late.mfjson: Nothing is there from 5 to 6, for all is from 0 to 1."},
+        {-6, -5, FROE_E_INPUT, "late.mfjson: Nothing is there from -6 to -5, for all is from 0 to 1."},
+        {0.75, 0.25, FROE_E_INPUT, "late.mfjson: The window 0.75 .. 0.25 is empty"},
+        {1, INFINITY, FROE_E_INPUT, "late.mfjson: The window 1 .. inf is empty"},
+    };
     put("late.mfjson", LINE("[0,1]", "[[[0,0],[1,1]],[[0,0],[1,1]]]", ""));
-    o.from = 5;
-    o.to = 6;
-    assert_int_equal(froe_read_motion("late.mfjson", &o, &m, NULL, &diag), FROE_E_INPUT);
-    assert_string_equal(diag.message, "late.mfjson: Nothing is there from 5 to 6, for all is from 0 to 1.");
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        froe_motion *m = NULL;
+        froe_diagnostic diag;
+        froe_motion_read_options o = froe_motion_read_defaults();
+        o.from = cases[i].from, o.to = cases[i].to;
+        const froe_status status = froe_read_motion("late.mfjson", &o, &m, NULL, &diag);
+        if (status != cases[i].status || strncmp(diag.message, cases[i].message, strlen(cases[i].message)))
+            fail_msg("%d: %s", status, diag.message);
+    }
+    froe_motion *m = NULL;
+    froe_motion_read_options o = froe_motion_read_defaults();
+    assert_int_equal(froe_read_motion(NULL, NULL, &m, NULL, NULL), FROE_E_ARG);
+    assert_int_equal(froe_read_motion("late.mfjson", NULL, NULL, NULL, NULL), FROE_E_ARG);
+    o.size--;
+    assert_int_equal(froe_read_motion("late.mfjson", &o, &m, NULL, NULL), FROE_E_OPTIONS);
+    assert_null(m);
 }
 
 /* -------------------------------------------------------------------- writing -- */
@@ -538,6 +683,20 @@ static void every_allocation_may_fail(void **state) {
     assert_int_equal(froe_write_motion(m, "few.mfjson", NULL), FROE_OK);
     froe_motion_free(m);
     assert_true(test_memory_each(read_motion_with, (char[]){"few.mfjson"}) > 10);
+    static const char *const texts[] = {
+        HEAD GEOMETRY("Polygon",
+                      "[[[[0,0],[1,0],[1,1],[0,0]]],[[[0,0],[1,0],[1,1],[0,0]]]],\"interpolation\":"
+                      "\"Cubic\",\"controls\":[[[[0,0],[1,0],[1,1],[0,0]]]],"
+                      "\"secondControls\":[[[[0,0],[1,0],[1,1],[0,0]]]]") "," GEOMETRY("Point", "[[0,0],[1,1]]") "]}",
+        HAND("MovingPoint\",\"interpolation\":\"Quadratic\",\"controls\":[[1,1]],\"x\":\"", "[[0,1],[0.6,0.8]]",
+             "[[2,0]]"),
+        CLOUD("[[0,1,2],[2,1,3]]") "," BODY("[[0,0,0,1],[0.6,0,0,0.8]]", "[[0,1,2]]") "]}",
+        LINE("[0,1,2]", "[[[0,0],[1,1]],[[0,0],[1,1]],[[1,0],[1,1]]]", ",\"interpolation\":\"Quadratic\""),
+    };
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        put("few.mfjson", texts[i]);
+        assert_true(test_memory_each(read_motion_with, (char[]){"few.mfjson"}) > 10);
+    }
 }
 
 int main(void) {
@@ -552,6 +711,10 @@ int main(void) {
         cmocka_unit_test(bodies_of_the_plane_turn_on_circles),
         cmocka_unit_test(a_base_without_triangles_is_no_point),
         cmocka_unit_test(what_is_wrong_is_said_with_the_feature),
+        cmocka_unit_test(a_feature_has_the_name_that_says_most),
+        cmocka_unit_test(geometries_that_are_none_are_refused),
+        cmocka_unit_test(a_byte_order_mark_is_passed_over),
+        cmocka_unit_test(a_window_has_to_reach_into_the_file),
         cmocka_unit_test(every_kind_of_motion_survives_a_file),
         cmocka_unit_test(bodies_of_the_plane_survive_a_file),
         cmocka_unit_test(motions_that_the_format_cannot_say_are_refused),

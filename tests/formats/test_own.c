@@ -143,6 +143,204 @@ static void each_colour_is_one_group(void **state) {
     froe_scene_free(scene);
 }
 
+#define PLY_VERTICES "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+#define PLY_FACE "element face 1\nproperty list uchar int vertex_indices\n"
+#define PLY_CORNERS "end_header\n0 0 0\n1 0 0\n0 1 0\n"
+#define PLY_ELEMENT "ply\nformat ascii 1.0\nelement vertex "
+
+static void broken_ply_is_refused_with_its_reason(void **state) {
+    (void)state;
+    static const char *const files[][2] = {
+        {"no ply\n", "broken.ply: The file does not begin like PLY."},
+        {"ply\nformat ascii 1.0\nproperty float x\nend_header\n", "A property belongs to no element."},
+        {PLY_ELEMENT "\nend_header\n", "An element has no count."},
+        {PLY_ELEMENT "-1\nend_header\n", "An element has no count."},
+        {PLY_ELEMENT "many\nend_header\n", "An element has no count."},
+        {PLY_ELEMENT "3e0\nend_header\n", "An element has no count."},
+        {PLY_ELEMENT "3\nproperty half x\nend_header\n", "A property is of unknown type."},
+        {PLY_ELEMENT "3\nproperty list uchar half x\nend_header\n", "A property is of unknown type."},
+        {PLY_ELEMENT "3\nproperty list half uchar x\nend_header\n", "A property is of unknown type."},
+        {PLY_ELEMENT "3\nproperty list float uchar x\nend_header\n", "A property is of unknown type."},
+        {PLY_ELEMENT "3\nproperty an_utterly_long_word_that_is_no_type_of_numbers x\nend_header\n",
+         "A property is of unknown type."},
+        {PLY_VERTICES PLY_FACE PLY_CORNERS, "The data end too early."},
+        {PLY_VERTICES PLY_FACE PLY_CORNERS "3 0 1\n", "The data end too early, or hold no number."},
+        {PLY_VERTICES PLY_FACE PLY_CORNERS "3 0 1 two\n", "The data end too early, or hold no number."},
+        {PLY_VERTICES PLY_FACE PLY_CORNERS "-3 0 1 2\n", "The length of a list is no whole number."},
+        {PLY_VERTICES PLY_FACE PLY_CORNERS "2.5 0 1 2\n", "The length of a list is no whole number."},
+        {PLY_VERTICES PLY_FACE PLY_CORNERS "nan 0 1 2\n", "The length of a list is no whole number."},
+        {PLY_VERTICES PLY_FACE PLY_CORNERS "300 0 1 2\n", "A list is longer than the file."},
+        {PLY_VERTICES PLY_FACE PLY_CORNERS "3 0 1 3\n", "A face or edge names a vertex that does not exist"},
+        {PLY_VERTICES PLY_FACE PLY_CORNERS "3 0 1 -1\n", "A face or edge names a vertex that does not exist"},
+        {PLY_VERTICES PLY_FACE PLY_CORNERS "3 0 1 1.5\n", "A face or edge names a vertex that does not exist"},
+        {PLY_VERTICES "element edge 1\nproperty int vertex1\nproperty int vertex2\n" PLY_CORNERS "7 1\n",
+         "A face or edge names a vertex that does not exist"},
+    };
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        write_text("broken.ply", files[i][0]);
+        refuse("broken.ply", FROE_E_FORMAT, files[i][1]);
+    }
+    FILE *file = fopen("broken.ply", "w");
+    assert_non_null(file);
+    fputs(PLY_ELEMENT "1\n", file);
+    for (int i = 0; i < 65; i++) fprintf(file, "property float x%d\n", i);
+    assert_int_equal(fclose(file), 0);
+    refuse("broken.ply", FROE_E_FORMAT, "An element has more than 64 properties.");
+}
+
+/* Lines that end like old ones of the Mac; elements, lists and properties that are of other names or sorts. */
+static void what_ply_has_beside_faces_is_passed_over(void **state) {
+    (void)state;
+    static const char *const files[] = {
+        "ply\rformat ascii 1.0\relement vertex 3\rproperty float x\rproperty float y\rproperty float z\relement face "
+        "1\r"
+        "property list uchar int vertex_index\rend_header\r0 0 0\r1 0 2\r0 1 0\r3 0 1 2\r",
+        "ply\r\nformat ascii 1.0\r\ncomment two\r\nelement rows 2\r\nproperty list uint8 int16 of\r\nproperty float "
+        "x\r\n"
+        "element vertex 3\r\nproperty list uchar float x\r\nproperty double x\r\nproperty double xy\r\n"
+        "property float y\r\nproperty float w\r\nproperty float z\r\nproperty list char char red\r\n"
+        "element face 2\r\nproperty int vertex_index\r\nproperty list char uint neighbours\r\n"
+        "property list char uint vertex_index\r\nelement edge 1\r\nproperty list uchar int vertex1\r\n"
+        "property int vertex1\r\nproperty list uchar int vertex2\r\nproperty int vertex2\r\nproperty int x\r\n"
+        "end_header\r\n2 1 2 7\r\n0 7\r\n1 9 0 9 0 9 0 0\r\n0 1 9 0 9 2 0\r\n0 0 9 1 9 0 1 5\r\n9 1 9 3 0 1 2\r\n"
+        "9 0 0\r\n1 9 2 1 9 0 9\r\n",
+    };
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        froe_read_report report;
+        double lo[3], hi[3];
+        write_text("beside.ply", files[i]);
+        froe_scene *scene = read_scene("beside.ply", &report);
+        assert_int_equal(froe_scene_object_count(scene), 1 + i);
+        assert_int_equal(froe_scene_object(scene, 0).corners, 3);
+        assert_int_equal(report.skipped, i); /* a face without corners */
+        assert_true(froe_scene_bounds(scene, lo, hi));
+        assert_true(lo[0] == 0 && lo[1] == 0 && lo[2] == 0 && hi[0] == 1 && hi[1] == 1 && hi[2] == 2);
+        if (i) assert_int_equal(froe_scene_object(scene, 1).form, FROE_SEGMENT);
+        froe_scene_free(scene);
+    }
+}
+
+/* Every type of numbers in binary, in both orders of bytes: the coordinates of a point. */
+static void numbers_of_ply_have_eight_types(void **state) {
+    (void)state;
+    static const struct {
+        const char *type, *bytes; /* the most significant first */
+        int size;
+        double value;
+    } types[] = {
+        {"char", "\x80", 1, -128},
+        {"int8", "\x7f", 1, 127},
+        {"uchar", "\xff", 1, 255},
+        {"uint8", "\x80", 1, 128},
+        {"short", "\x80\x01", 2, -32767},
+        {"int16", "\x01\x02", 2, 258},
+        {"ushort", "\x80\x01", 2, 32769},
+        {"uint16", "\x01\x02", 2, 258},
+        {"int", "\xff\xff\xff\xfe", 4, -2},
+        {"int32", "\x7f\xff\xff\xff", 4, 2147483647},
+        {"uint", "\xff\xff\xff\xfe", 4, 4294967294},
+        {"uint32", "\x01\x02\x03\x04", 4, 16909060},
+        {"float", "\xbf\xc0\x00\x00", 4, -1.5},
+        {"float32", "\x40\x20\x00\x00", 4, 2.5},
+        {"double", "\xbf\xb9\x99\x99\x99\x99\x99\x9a", 8, -0.1},
+        {"float64", "\x40\x09\x21\xfb\x54\x44\x2d\x18", 8, 3.141592653589793},
+    };
+    for (size_t i = 0; i < 2 * sizeof types / sizeof *types; i++) {
+        const bool big = i % 2;
+        double lo[3], hi[3];
+        FILE *file = fopen("types.ply", "wb");
+        assert_non_null(file);
+        fprintf(file,
+                "ply\nformat binary_%s_endian 1.0\nelement vertex 1\nproperty uchar x\nproperty %s y\n"
+                "property uchar z\nend_header\n",
+                big ? "big" : "little", types[i / 2].type);
+        fputc(7, file);
+        for (int k = 0, n = types[i / 2].size; k < n; k++) fputc(types[i / 2].bytes[big ? k : n - 1 - k], file);
+        fputc(9, file);
+        assert_int_equal(fclose(file), 0);
+        froe_scene *scene = read_scene("types.ply", NULL);
+        assert_true(froe_scene_bounds(scene, lo, hi));
+        assert_true(lo[0] == 7 && lo[1] == types[i / 2].value && lo[2] == 9);
+        froe_scene_free(scene);
+    }
+}
+
+static void broken_off_is_refused_with_its_line(void **state) {
+    (void)state;
+    static const struct {
+        const char *text;
+        froe_status status;
+        const char *words;
+    } files[] = {
+        {"4OFF\n1 0 0\n0 0 0 0\n", FROE_E_UNSUPPORTED, "Vertices with more than 3 coordinates are not read."},
+        {"nOFF\n4\n1 0 0\n", FROE_E_UNSUPPORTED, "Vertices with more than 3 coordinates are not read."},
+        {"OFF BINARY\n", FROE_E_UNSUPPORTED, "Binary OFF is not read."},
+        {"nobody\n", FROE_E_FORMAT, "line 1: The counts of vertices and faces are missing."},
+        {"OFF\n3\n", FROE_E_FORMAT, "line 3: The counts of vertices and faces are missing."},
+        {"OFF\n99 1 0\n0 0 0\n", FROE_E_FORMAT, "line 2: The file is shorter than its counts say."},
+        {"OFF\n1 99999999999999999999 0\n0 0 0\n", FROE_E_FORMAT, "line 2: The file is shorter than its counts say."},
+        {"OFF\n2 0 0\n0 0 0\n", FROE_E_FORMAT, "line 4: Vertices are missing."},
+        {"OFF\n2 0 0\n0 0 0\n0 one 0\n", FROE_E_FORMAT, "line 4: A coordinate is not a number."},
+        {"NOFF\n1 0 0\n0 0 0 0 1\n", FROE_E_FORMAT, "line 4: A normal is not a number."},
+        {"OFF\n1 1 0\n0 0 0\n", FROE_E_FORMAT, "line 4: Faces are missing."},
+        {"OFF\n1 1 0\n0 0 0\none 0\n", FROE_E_FORMAT, "line 4: A count of corners is not a number."},
+        {"OFF\n1 1 0\n0 0 0\n2 0\n", FROE_E_FORMAT, "line 5: Faces are missing."},
+        {"OFF\n1 1 0\n0 0 0\n2 0 x\n", FROE_E_FORMAT, "line 4: An index is not a number."},
+        {"OFF\n1 1 0\n0 0 0\n2 0 1\n", FROE_E_FORMAT, "line 4: A face names a vertex that does not exist."},
+    };
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        write_text("broken.off", files[i].text);
+        refuse("broken.off", files[i].status, files[i].words);
+    }
+}
+
+/* Tabs and carriage returns between numbers; faces without corners; colours that end in no number. */
+static void blanks_and_rests_of_off_are_passed_over(void **state) {
+    (void)state;
+    froe_read_report report;
+    write_text("blanks.off", "OFF\r\n3\t3\t0\r\n0\t0 0\r\n1 0 0\r\n\t0 1 0\r\n0\r\n3 0 1 2\t1e0\t0.0\t0 . end\r\n"
+                             "3 0 1 2 -\r\n");
+    froe_scene *scene = read_scene("blanks.off", &report);
+    assert_int_equal(froe_scene_object_count(scene), 2);
+    assert_int_equal(report.skipped, 1);
+    assert_int_equal(colour_of(scene, 0), 0xff0000ff);
+    assert_int_equal(colour_of(scene, 1), 0);
+    froe_scene_free(scene);
+}
+
+static void broken_obj_is_refused_with_its_line(void **state) {
+    (void)state;
+    static const char *const files[][2] = {
+        {"v 0 0\n", "line 1: A vertex needs three coordinates."},
+        {"v 0 0 0\n# \\\n\nf 1 -\n", "line 4: An index is not a number."},
+        {"v 0 0 0\nf 1 1 2\n", "line 2: An index names a vertex that does not exist."},
+        {"v 0 0 0\nf 1 1 -2\n", "line 2: An index names a vertex that does not exist."},
+        {"v 0 0 0\nf 1 1 99999999999999999999\n", "line 2: An index names a vertex that does not exist."},
+        {"v 0 0 0\nf 1 1 -99999999999999999999\n", "line 2: An index names a vertex that does not exist."},
+        {"v 0 0 0\nf 1 1 18446744073709551617\n", "line 2: An index names a vertex that does not exist."},
+        {"vt 0 0\n", "The file has no vertices, and is not OBJ."},
+    };
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        write_text("broken.obj", files[i][0]);
+        refuse("broken.obj", FROE_E_FORMAT, files[i][1]);
+    }
+}
+
+/* Elements without enough corners, free forms, and words that only begin like others. */
+static void what_obj_has_beside_elements_is_passed_over(void **state) {
+    (void)state;
+    froe_read_report report;
+    write_text("beside.obj", "v\t0 0 0\r\nv\t1 0 0 \r\nv 0 1 0\nvertex 5 5 5\nvn 0 0 1\nf\nl 2\np\nsurf 1\ncurv 1\n"
+                             "curv2 1\ncurvature\ng a\t\r\nf\t1\t2 \\\r\n 000000000000000000003\nl 1 2 3\np 1 2\n");
+    froe_scene *scene = read_scene("beside.obj", &report);
+    assert_int_equal(report.skipped, 6);
+    assert_int_equal(froe_scene_object_count(scene), 5);
+    static const froe_kind forms[] = {FROE_POLYGON, FROE_SEGMENT, FROE_SEGMENT, FROE_POINT, FROE_POINT};
+    for (uint32_t i = 0; i < 5; i++) assert_int_equal(froe_scene_object(scene, i).form, forms[i]);
+    assert_string_equal(froe_scene_group(scene, froe_scene_object(scene, 0).group).name, "a");
+    froe_scene_free(scene);
+}
+
 #define OTHERS "is neither CSV, OFF, OBJ or PLY nor a collection of features in GeoJSON"
 static void other_formats_are_refused(void **state) {
     (void)state;
@@ -189,6 +387,13 @@ int main(void) {
         cmocka_unit_test(faces_of_off_have_their_colours),
         cmocka_unit_test(faces_of_ply_have_their_colours),
         cmocka_unit_test(each_colour_is_one_group),
+        cmocka_unit_test(broken_ply_is_refused_with_its_reason),
+        cmocka_unit_test(what_ply_has_beside_faces_is_passed_over),
+        cmocka_unit_test(numbers_of_ply_have_eight_types),
+        cmocka_unit_test(broken_off_is_refused_with_its_line),
+        cmocka_unit_test(blanks_and_rests_of_off_are_passed_over),
+        cmocka_unit_test(broken_obj_is_refused_with_its_line),
+        cmocka_unit_test(what_obj_has_beside_elements_is_passed_over),
         cmocka_unit_test(other_formats_are_refused),
         cmocka_unit_test(what_cannot_be_read_is_refused),
     };

@@ -4,6 +4,7 @@
 #include "support/scatter.h"
 #include "support/scenes.h"
 #include <math.h>
+#include <sys/stat.h>
 
 /* Two rows of two: red, green; blue, and white that is clear. */
 static const uint8_t four[16] = {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 0};
@@ -173,6 +174,99 @@ static void faces_of_an_obj_have_the_means_of_their_textures(void **state) {
     froe_scene_free(scene);
 }
 
+/* A material by its lines, for a face of the whole image, and what colour the face gets. */
+static void lines_of_a_material_decide_the_colour(void **state) {
+    (void)state;
+    static const struct {
+        const char *lines;
+        uint32_t colour;
+    } cases[] = {
+        {"", 0},
+        {"Kd 0.2 0.4 0.6", 0x336699ff},
+        {" \tKd\t0.2 0.4 0.6\t\r", 0x336699ff},
+        {"Kd 0.2", 0x333333ff}, /* one number stands for three */
+        {"Kd 0.2 0.4", 0x336666ff},
+        {"Kd spectral file.rfl", 0},
+        {"Kd", 0},
+        {"Kdx 0.2 0.4 0.6", 0},
+        {"Kd 0.2 0.4 0.6\nd 0.5\nd", 0x33669980},
+        {"Kd 0.2 0.4 0.6\nTr 0.75\nTr x\nd x", 0x33669940},
+        {"map_Kd F four.png", 0x9e9e9ebe},
+        {"map_Kd F four.png \t\r", 0x9e9e9ebe},
+        {"Kd 0 1 0\nmap_Kd F four.png", 0x009e00be},
+        {"Kd 0 0 1\nmap_Kd F four.png", 0x00009ebe},
+        {"Kd 0 0 0\nmap_Kd F four.png", 0x9e9e9ebe}, /* black is no tint */
+        {"Kd 0 0 0\nmap_Kd gone.png", 0},
+        {"Kd 1 0 0\nmap_Kd gone.png", 0xff0000ff},
+        {"map_Kd -s 0 0 1 F four.png", 0x0000ffff}, /* all of it is the first texel of the lowest row */
+        {"map_Kd -s 0 0 -o 0.5 0.5 F four.png", 0x00ff00ff},
+        {"map_Kd -s 0 0 -o 0.5 0.5 -t 1 1 1 -mm 0 1 F four.png", 0x00ff00ff},
+        {"map_Kd -s 0 0 -o 1.25 0.25 -clamp on F four.png", 0x00000001}, /* the clear one */
+        {"map_Kd -s 0 0 -o 1.25 0.25 -clamp off F four.png", 0x0000ffff},
+        {"map_Kd -s nan nan F four.png", 0x0000ffff},
+        {"map_Kd -s", 0},
+        {"map_Kd -clamp", 0},
+    };
+    write_text("F four.png", "F");
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[200];
+        int images = 0;
+        snprintf(text, sizeof text, "Kd 9 9 9\nnewmtl\nnewmtl one \t\n%s", cases[i].lines);
+        write_text("one.mtl", text);
+        write_text("one.obj", "mtllib one.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+                              "usemtl one\nf 1/1 2/2 3/3 4/4\n");
+        froe_scene *scene = read_textured("one.obj", NULL, &images);
+        if (colour_of(scene, 0) != cases[i].colour)
+            fail_msg("%s: %08x instead of %08x", cases[i].lines, colour_of(scene, 0), cases[i].colour);
+        froe_scene_free(scene);
+    }
+}
+
+/* Faces without an area have the mean over their places in the image; lines and points have none. So have faces with a
+ * corner that names no place, although the next word is a number. */
+static void odd_elements_have_colours_of_textures_or_none(void **state) {
+    (void)state;
+    int images = 0;
+    write_text("F four.png", "F");
+    write_text("one.mtl", "newmtl one\nmap_Kd F four.png");
+    write_text("odd.obj", "mtllib one.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv -1e200 0 0\nv 1e200 -1e200 0\nv 1e200 1e200 1\n"
+                          "vt 0.1 0.6\nvt 0.4 0.6\nvt 0.4 0.9\nusemtl one\nf 1/1 1/2 1/3\nf 4/1 5/2 6/3\nl 1/1 2/2\n"
+                          "p 1/1\nf 1/ 2/2 3/3\nf 1/ 2/ 3/1\nf 1/x 2/1 3/1\nf 1/-4 2/1 3/1\nf 1/1 2/1 3/\n");
+    froe_scene *scene = read_textured("odd.obj", NULL, &images);
+    assert_int_equal(froe_scene_object_count(scene), 9);
+    for (uint32_t i = 0; i < 9; i++) assert_int_equal(colour_of(scene, i), i < 2 ? 0xff0000ff : 0);
+    froe_scene_free(scene);
+}
+
+/* A library lies at or below the folder of the model; one that cannot be read is told. */
+static void libraries_lie_with_their_model(void **state) {
+    (void)state;
+    char name[5000];
+    memset(name, 'm', sizeof name - 1);
+    name[sizeof name - 1] = '\0';
+    const struct {
+        const char *name;
+        bool read;
+    } cases[] = {{"red.mtl", true}, {"in/red.mtl", true}, {"in/../red.mtl", false}, {"../sub/red.mtl", false},
+                 {"..", false},     {"in", false},        {"/etc/red.mtl", false},  {name, false}};
+    (void)mkdir("sub", 0777);
+    (void)mkdir("sub/in", 0777);
+    write_text("sub/red.mtl", "newmtl red\nKd 1 0 0\n");
+    write_text("sub/in/red.mtl", "newmtl red\nKd 1 0 0\n");
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[6000];
+        int images = 0;
+        froe_read_report report;
+        snprintf(text, sizeof text, "mtllib %s\nv 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl red\nf 1 2 3\n", cases[i].name);
+        write_text("sub/model.obj", text);
+        froe_scene *scene = read_textured("sub/model.obj", &report, &images);
+        assert_int_equal(colour_of(scene, 0), cases[i].read ? 0xff0000ff : 0);
+        assert_int_equal(strncmp(report.unread_library, cases[i].read ? "" : cases[i].name, 63), 0);
+        assert_int_equal(!*report.unread_library, cases[i].read);
+        froe_scene_free(scene);
+    }
+}
+
 static void without_an_image_function_textures_are_counted(void **state) {
     (void)state;
     froe_read_report report;
@@ -199,8 +293,9 @@ static void images_lie_with_their_model(void **state) {
     static const struct {
         const char *name;
         uint64_t unread;
-    } cases[] = {{"F.png", 0},       {"../F.png", 0},         {"/etc/F.png", 0},
-                 {"/etc/passwd", 1}, {"../../passwd.png", 1}, {"C:\\art\\F.png", 0}};
+    } cases[] = {{"F.png", 0},          {"../F.png", 0}, {"/etc/F.png", 0}, {"/etc/passwd", 1}, {"../../passwd.png", 1},
+                 {"C:\\art\\F.png", 0}, {"..", 1},       {"a/../F.png", 0}, {"F.folder", 1},    {"folder/", 1}};
+    (void)mkdir("F.folder", 0777);
     write_text("F.png", "F");
     write_text("quads.obj", quads);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -282,6 +377,9 @@ int main(void) {
         cmocka_unit_test(what_is_beyond_an_image),
         cmocka_unit_test(clear_texels_count_as_the_material_says),
         cmocka_unit_test(faces_of_an_obj_have_the_means_of_their_textures),
+        cmocka_unit_test(lines_of_a_material_decide_the_colour),
+        cmocka_unit_test(odd_elements_have_colours_of_textures_or_none),
+        cmocka_unit_test(libraries_lie_with_their_model),
         cmocka_unit_test(without_an_image_function_textures_are_counted),
         cmocka_unit_test(images_lie_with_their_model),
         cmocka_unit_test(faces_of_an_obj_have_the_means_of_their_corners),

@@ -153,6 +153,166 @@ static void each_byte_of_the_chunks_may_be_another(void **state) {
     if (read < 1 || refused < 20) fail_msg("%zu read, %zu refused", read, refused);
 }
 
+/* A triangle that is moved by keys of a component type, in a buffer beside the model. */
+#define TYPED(kind, more)                                                                                              \
+    "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]},{\"nodes\":[1]}],\"nodes\":[{\"mesh\":"  \
+    "0,"                                                                                                               \
+    "\"name\":\"n\"},{\"name\":\"m\"}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"buffers\":" \
+    "[{\"byteLength\":84,\"uri\":\"typed.bin\"}],\"bufferViews\":[{\"buffer\":0,\"byteLength\":36},{\"buffer\":0,"     \
+    "\"byteOffset\":36,\"byteLength\":8},{\"buffer\":0,\"byteOffset\":44,\"byteLength\":40}],\"accessors\":["          \
+    "{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"},{\"bufferView\":1,\"componentType\":"     \
+    "5126,"                                                                                                            \
+    "\"count\":2,\"type\":\"SCALAR\"},{\"bufferView\":2,\"componentType\":" kind ",\"count\":2,\"type\":\"VEC3\"" more \
+    "}],\"animations\":[{\"name\":\"go\",\"channels\":[{\"sampler\":0,\"target\":{\"node\":0,\"path\":"                \
+    "\"translation\"}"                                                                                                 \
+    "}],\"samplers\":[{\"input\":1,\"output\":2}]}]}"
+
+/* Three corners, two times, and the bytes of keys: at 0 at the origin, then `last`. */
+static void write_typed(const void *last, size_t size) {
+    const float head[11] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1};
+    unsigned char bytes[sizeof head + 40] = {0};
+    memcpy(bytes, head, sizeof head);
+    memcpy(bytes + sizeof head + size, last, size);
+    write_bytes("typed.bin", bytes, sizeof bytes);
+}
+
+static void keys_have_every_component_type(void **state) {
+    (void)state;
+    static const signed char bytes[3] = {-128, 127, 1};
+    static const unsigned char unsigned_bytes[3] = {255, 128, 0};
+    static const short shorts[3] = {-32768, 32767, -1};
+    static const unsigned short unsigned_shorts[3] = {65535, 32768, 0};
+    static const float floats[3] = {0.5f, -2, 1e30f};
+    static const struct {
+        const char *text;
+        const void *last;
+        size_t size;
+        double at[3];
+    } cases[] = {
+        {TYPED("5120", ""), bytes, 3, {-128, 127, 1}},
+        {TYPED("5120", ",\"normalized\":true"), bytes, 3, {-1, 1, 1 / 127.0}},
+        {TYPED("5121", ""), unsigned_bytes, 3, {255, 128, 0}},
+        {TYPED("5121", ",\"normalized\":true"), unsigned_bytes, 3, {1, 128 / 255.0, 0}},
+        {TYPED("5122", ",\"normalized\":false"), shorts, 6, {-32768, 32767, -1}},
+        {TYPED("5122", ",\"normalized\":true"), shorts, 6, {-1, 1, -1 / 32767.0}},
+        {TYPED("5123", ",\"normalized\":1"), unsigned_shorts, 6, {65535, 32768, 0}},
+        {TYPED("5123", ",\"normalized\":true"), unsigned_shorts, 6, {1, 32768 / 65535.0, 0}},
+        {TYPED("5126", ",\"normalized\":true"), floats, 12, {0.5, -2, 1e30f}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        froe_motion *motion = NULL;
+        froe_diagnostic why = {.message = ""};
+        double at[3];
+        write_typed(cases[i].last, cases[i].size);
+        write_text("typed.gltf", cases[i].text);
+        if (froe_read_animation("typed.gltf", NULL, &motion, NULL, &why)) fail_msg("case %zu: %s", i, why.message);
+        assert_true(froe_motion_position(motion, froe_motion_object(motion, 0).vertices[0], 1, at));
+        for (int k = 0; k < 3; k++)
+            if (at[k] != cases[i].at[k]) fail_msg("case %zu, axis %d: %.17g", i, k, at[k]);
+        froe_motion_free(motion);
+    }
+}
+
+/* What is wrong with a file that assimp takes: words of it, others instead, and what is said. */
+static void what_is_wrong_with_an_animation_is_said(void **state) {
+    (void)state;
+    static const struct {
+        const char *from, *to;
+        froe_status status;
+        const char *message;
+    } cases[] = {
+        {"\"count\":2,\"type\":\"VEC3\"",
+         "\"count\":2,\"type\":\"VEC3\",\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":1,\"componentType\":5121},"
+         "\"values\":{\"bufferView\":2}}",
+         FROE_E_UNSUPPORTED, "The keys of an animation are sparse or compressed."},
+        {"\"byteLength\":40", "\"byteLength\":40,\"extensions\":{}", FROE_E_UNSUPPORTED,
+         "The keys of an animation are sparse or compressed."},
+        {"\"output\":2", "\"output\":1", FROE_E_FORMAT, "An accessor of an animation is broken."},
+        {"\"componentType\":5126,\"count\":2,\"type\":\"VEC3\"", "\"componentType\":5125,\"count\":2,\"type\":\"VEC3\"",
+         FROE_E_FORMAT, "An accessor of an animation is broken."},
+        {"\"byteLength\":40", "\"byteLength\":40,\"byteStride\":8", FROE_E_FORMAT,
+         "An accessor of an animation goes beyond its buffer."},
+        {"\"count\":2,\"type\":\"SCALAR\"", "\"count\":1,\"type\":\"SCALAR\"", FROE_E_FORMAT,
+         "animation 'go': node 'n': There are 2 values for 1 times."},
+        {"\"output\":2", "\"output\":2,\"interpolation\":\"CUBICSPLINE\"", FROE_E_FORMAT,
+         "animation 'go': node 'n': There are 2 values for 2 times."},
+        {"\"output\":2", "\"output\":2,\"interpolation\":\"SMOOTH\"", FROE_E_UNSUPPORTED,
+         "animation 'go': node 'n': There is no interpolation 'SMOOTH'."},
+        {"\"translation\"", "\"pointer\"", FROE_E_UNSUPPORTED,
+         "animation 'go': node 'n': It has no property 'pointer'."},
+        {"\"name\":\"n\"", "\"name\":\"n\",\"matrix\":[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]", FROE_E_FORMAT,
+         "animation 'go': node 'n': It moves, and so it may not have a matrix."},
+        {"\"name\":\"n\"", "\"name\":\"n\",\"rotation\":[0,0,0,2]", FROE_E_INPUT,
+         "animation 'go': node 'n': The quaternion of its rotation does not have the length 1."},
+        {"}],\"samplers\"", "},{\"sampler\":0,\"target\":{\"node\":0,\"path\":\"translation\"}}],\"samplers\"",
+         FROE_E_FORMAT, "animation 'go': node 'n': Two channels are about its translation."},
+        {"\"target\":{\"node\":0", "\"target\":{\"node\":1", FROE_E_INPUT,
+         "animation 'go': It has no two keys at different times."}, /* the node is in another scene */
+        {"\"target\":{\"node\":0,", "\"target\":{", FROE_E_INPUT,
+         "animation 'go': It has no two keys at different times."}, /* the target is one of an extension */
+        {"\"animations\":[", "\"animations\":[{\"name\":\"on\",\"channels\":[],\"samplers\":[]},", FROE_E_OPTIONS,
+         "There are several animations, and one has to be named: 'on', 'go'."},
+        {"\"animations\":[", "\"others\":[", FROE_E_INPUT, "The model has no animation."},
+    };
+    static const float last[3] = {1, 2, 3};
+    write_typed(last, sizeof last);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        static const char text[] = TYPED("5126", "");
+        char changed[2 * sizeof text], message[300];
+        froe_diagnostic why;
+        const char *from = strstr(text, cases[i].from);
+        assert_non_null(from);
+        snprintf(changed, sizeof changed, "%.*s%s%s", (int)(from - text), text, cases[i].to,
+                 from + strlen(cases[i].from));
+        write_text("typed.gltf", changed);
+        const froe_status status = follow("typed.gltf", NULL, &why);
+        snprintf(message, sizeof message, "typed.gltf: %s", cases[i].message);
+        if (status != cases[i].status || strcmp(message, why.message))
+            fail_msg("case %zu: %s: '%s'", i, froe_status_name(status), why.message);
+    }
+}
+
+/* By its name, or else by its number. */
+static void animations_are_chosen_by_name_and_number(void **state) {
+    (void)state;
+#define THESE "There are: '8', 'a long name of an animation, a', '', '', '', '', '', '', '', '', '', 'go'."
+    static const char text[] = TYPED("5126", "");
+    static const struct {
+        const char *asked, *message;
+    } cases[] = {{"go", ""}, /* the last */
+                 {"8", ""},  /* the first, by its name */
+                 {"11", ""}, /* the last, by its number */
+                 {"1", "animation 'a long name of an animation, and more': It has no two keys at different times."},
+                 {"", "animation '': It has no two keys at different times."},
+                 {"12", "There is no animation '12'. " THESE},
+                 {"1x", "There is no animation '1x'. " THESE},
+                 {"-1", "There is no animation '-1'. " THESE}};
+    char changed[2 * sizeof text];
+    static const float last[3] = {1, 2, 3};
+    const char *name = strstr(text, "\"go\"");
+    assert_non_null(name);
+    write_typed(last, sizeof last);
+    const size_t rest = strlen(name) - 2; /* without the ends of the array and of the file */
+    int used = snprintf(changed, sizeof changed, "%.*s\"8\"%.*s,{\"name\":\"a long name of an animation, and more\"}",
+                        (int)(name - text), text, (int)rest - 4, name + 4);
+    for (int i = 2; i < 11; i++) used += snprintf(changed + used, sizeof changed - (size_t)used, ",{}");
+    snprintf(changed + used, sizeof changed - (size_t)used, ",{\"name\":%s", name);
+    write_text("named.gltf", changed);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        froe_motion *motion = NULL;
+        froe_diagnostic why = {.message = ""};
+        froe_motion_read_options o = froe_motion_read_defaults();
+        o.animation = cases[i].asked;
+        const froe_status status = froe_read_animation("named.gltf", &o, &motion, NULL, &why);
+        char message[300];
+        snprintf(message, sizeof message, "%s%s", *cases[i].message ? "named.gltf: " : "", cases[i].message);
+        if (!status != !*message || strcmp(why.message, message))
+            fail_msg("%s: %s: '%s'", cases[i].asked, froe_status_name(status), why.message);
+        assert_int_equal(!motion, *message != '\0');
+        froe_motion_free(motion);
+    }
+}
+
 /* A length that became -1 is 4 GB, which assimp would fill with zeros. */
 static void limit_memory(void) {
     const struct rlimit most = {(rlim_t)1 << 30, (rlim_t)1 << 30};
@@ -163,6 +323,9 @@ int main(void) {
     limit_memory();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_container_has_the_same_motion),
+        cmocka_unit_test(keys_have_every_component_type),
+        cmocka_unit_test(what_is_wrong_with_an_animation_is_said),
+        cmocka_unit_test(animations_are_chosen_by_name_and_number),
         cmocka_unit_test(each_word_may_be_another),
         cmocka_unit_test(each_byte_of_the_chunks_may_be_another),
     };

@@ -1,6 +1,7 @@
 /* What cannot be read: the right status, a message that names the file, silence on
  * stderr, no output; cancelling, many threads at once. */
 #include "support.h"
+#include <cpl_vsi.h>
 #include <fcntl.h>
 #include <math.h>
 #include <pthread.h>
@@ -222,8 +223,62 @@ static froe_status read_and_free(void *user, const froe_allocator *alloc) {
     return status;
 }
 
+/* A part of an archive. */
+static void write_part(const char *name, const char *text) {
+    VSILFILE *file = VSIFOpenL(name, "wb");
+    assert_non_null(file);
+    assert_int_equal(VSIFWriteL(text, 1, strlen(text), file), strlen(text));
+    assert_int_equal(VSIFCloseL(file), 0);
+}
+
+/* A triangle and a component of two colours, and one in another part. */
+static void write_3mf(void) {
+    VSILFILE *archive = VSIFOpenL("/vsizip/{m.3mf}", "wb");
+    assert_non_null(archive);
+    write_part("/vsizip/{m.3mf}/_rels/.rels",
+               "<Relationships><Relationship Target=\"/a\" Type=\"x/3dmodel\"/></Relationships>");
+#define MESH(more)                                                                                                     \
+    "<mesh><vertices><vertex x=\"0\" y=\"0\" z=\"0\"/><vertex x=\"1\" y=\"0\" z=\"0\"/><vertex x=\"0\" y=\"1\" "       \
+    "z=\"0\"/>"                                                                                                        \
+    "</vertices><triangles><triangle v1=\"0\" v2=\"1\" v3=\"2\"" more "/></triangles></mesh>"
+    write_part(
+        "/vsizip/{m.3mf}/a", "<model><resources><basematerials id=\"5\"><base name=\"red\" "
+                             "displaycolor=\"#FF0000\"/><base "
+                             "name=\"blue\" displaycolor=\"#0000FF\"/></basematerials><object id=\"1\" "
+                             "name=\"one\">" MESH(
+                                 " pid=\"5\" p1=\"0\" p2=\"1\" p3=\"0\"") "</object><object id=\"2\" pid=\"5\" "
+                                                                          "pindex=\"1\">" MESH("") "</object>"
+                                                                                                   "<object "
+                                                                                                   "id=\"3\"><"
+                                                                                                   "components><"
+                                                                                                   "component "
+                                                                                                   "objectid=\"1\"/"
+                                                                                                   "><component "
+                                                                                                   "path=\"/b\" "
+                                                                                                   "objectid=\"1\"/>"
+                                                                                                   "</components></"
+                                                                                                   "object></"
+                                                                                                   "resources><build><"
+                                                                                                   "item "
+                                                                                                   "objectid=\"3\"/"
+                                                                                                   "><item "
+                                                                                                   "objectid=\"2\"/></"
+                                                                                                   "build></model>");
+    write_part("/vsizip/{m.3mf}/b",
+               "<model><resources><object id=\"1\" name=\"other\">" MESH("") "</object></resources></model>");
+    assert_int_equal(VSIFCloseL(archive), 0);
+}
+
 static void every_failing_allocation_gives_a_status(void **state) {
     (void)state;
+    write_3mf();
+    write_text("m.ply",
+               "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+               "property uchar red\nproperty uchar green\nproperty uchar blue\nelement face 1\n"
+               "property list uchar int vertex_index\nelement edge 1\nproperty int vertex1\n"
+               "property int vertex2\nend_header\n0 0 0 255 0 0\n1 0 0 0 0 255\n0 1 0 0 0 255\n3 0 1 2\n0 1\n");
+    write_text("c.off",
+               "COFF\n4 2 0\n0 0 0 255 0 0\n2 0 0 0 0 255\n2 2 0 0 0 255\n0 2 0 0 0 0\n4 0 1 2 3\n3 0 1 2 0 1 0\n");
     write_text("m.csv", "lo_x,lo_y,hi_x,hi_y,tag\n0,0,1,1,7\n2,2,3,3,8\n");
     write_text("m2.csv", "x,y,r\n0,0,1\n2,2,3\n");
     write_text("m.off", "OFF\n5 2 0\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n1 1 1\n4 0 1 2 3\n4 0 1 2 4\n");
@@ -236,7 +291,8 @@ static void every_failing_allocation_gives_a_status(void **state) {
                "\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],\"bufferViews\":[{\"buffer\":0,"
                "\"byteLength\":36}],\"buffers\":[{\"byteLength\":36,\"uri\":\"data:application/octet-stream;"
                "base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}");
-    static const char *const paths[] = {"m.csv", "m2.csv", "m.off", "m.obj", "m.geojson", "m.gltf"};
+    static const char *const paths[] = {"m.csv",  "m2.csv", "m.off", "m.obj", "m.geojson",
+                                        "m.gltf", "m.3mf",  "m.ply", "c.off"};
     for (size_t i = 0; i < 2 * sizeof paths / sizeof *paths; i++) {
         reading r = {.path = paths[i / 2], .options = froe_read_defaults()};
         r.options.boxes = i % 2;

@@ -1,6 +1,9 @@
 /* test_textures.c: images by GDAL, and the colours of faces in models by assimp: glTF with images inside and beside it,
  * wrapped in every way, tinted and transparent; Collada; colours of corners. */
 #include "support.h"
+#include "support/memory.h"
+#include <gdal.h>
+#include <sys/stat.h>
 
 /* A PNG of two rows of two texels: red, green; blue, and white that is clear. */
 static const unsigned char four_png[] = {137, 80, 78,  71, 13, 10, 26, 10, 0,   0,   0,   13,  73,  72,  68,  82,
@@ -28,6 +31,7 @@ typedef struct gltf {
     const char *factor;
     const char *image; /* "uri":... ; NULL: inside */
     bool shades;       /* corners have colours: half red light */
+    const char *moved; /* members of the reference to the texture */
 } gltf;
 
 static size_t pad(unsigned char *bytes, size_t count, int with) {
@@ -55,10 +59,10 @@ static void write_glb(const char *path, gltf g) {
     if (g.image) snprintf(image, sizeof image, "\"uri\":\"%s\"", g.image);
     size_t count = (size_t)snprintf(
         (char *)bytes + 20, sizeof bytes - 20,
-        "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0,\"name\":"
+        "{\"asset\":{\"version\":\"2.0\"}%s,\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0,\"name\":"
         "\"sheet\"}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1%s},\"material\":0}]}"
         "],"
-        "\"materials\":[{\"name\":\"print\",\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}%s}%s}],"
+        "\"materials\":[{\"name\":\"print\",\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0%s}%s}%s}],"
         "\"textures\":[{\"source\":0,\"sampler\":0}],\"images\":[{%s}],\"samplers\":[{%s}],\"buffers\":[{"
         "\"byteLength\":"
         "%zu}],\"bufferViews\":[{\"buffer\":0,\"byteOffset\":0,\"byteLength\":144},{\"buffer\":0,\"byteOffset\":144,"
@@ -66,8 +70,9 @@ static void write_glb(const char *path, gltf g) {
         "\"byteLength\":%zu}],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":12,\"type\":\"VEC3\","
         "\"min\":[0,0,0],\"max\":[7,1,0]},{\"bufferView\":1,\"componentType\":5126,\"count\":12,\"type\":\"VEC2\"},"
         "{\"bufferView\":2,\"componentType\":5126,\"count\":12,\"type\":\"VEC3\"}]}",
-        g.shades ? ",\"COLOR_0\":2" : "", g.factor ? g.factor : "", g.material ? g.material : "", image,
-        g.wrap ? g.wrap : "", data, sizeof four_png);
+        g.moved ? ",\"extensionsUsed\":[\"KHR_texture_transform\"]" : "", g.shades ? ",\"COLOR_0\":2" : "",
+        g.moved ? g.moved : "", g.factor ? g.factor : "", g.material ? g.material : "", image, g.wrap ? g.wrap : "",
+        data, sizeof four_png);
     count = pad(bytes + 20, count, ' ');
     memcpy(bytes, "glTF\2\0\0\0", 8);
     put_word(bytes + 12, count);
@@ -112,6 +117,12 @@ static void an_image_beside_is_found(void **state) {
     (void)state;
     write_bytes("four colours.png", four_png, sizeof four_png);
     expect((gltf){.image = "four%20colours.png"}, RED, GREEN, WHITE, WHITE);
+    (void)mkdir("in", 0777);
+    write_bytes("in/4%4.png", four_png, sizeof four_png);
+    write_bytes("in/%zz%0.png", four_png, sizeof four_png);
+    expect((gltf){.image = "in/4%4.png"}, RED, GREEN, WHITE, WHITE);
+    expect((gltf){.image = "in\\\\4%254.png"}, RED, GREEN, WHITE, WHITE);
+    expect((gltf){.image = "in/%zz%0.png"}, RED, GREEN, WHITE, WHITE);
 }
 
 static void factors_and_colours_of_corners_are_multiplied_as_light(void **state) {
@@ -127,6 +138,17 @@ static void opacity_is_that_of_the_mode(void **state) {
     const char *half = ",\"baseColorFactor\":[1,1,1,0.5]";
     expect((gltf){.factor = half}, RED, GREEN, WHITE, WHITE);
     expect((gltf){.factor = half, .material = ",\"alphaMode\":\"BLEND\""}, 0xff000082, 0x00ff0082, 1, 1);
+    expect((gltf){.material = ",\"alphaMode\":\"MASK\""}, RED, GREEN, 0x00000001, 0x00000001);
+    expect((gltf){.material = ",\"alphaMode\":\"MASK\",\"alphaCutoff\":0"}, RED, GREEN, WHITE, WHITE);
+}
+
+static void a_texture_may_be_moved_and_scaled(void **state) {
+    (void)state;
+#define MOVED(members) ",\"extensions\":{\"KHR_texture_transform\":{" members "}}"
+    expect((gltf){.moved = MOVED("\"offset\":[0.5,0]")}, GREEN, RED, BLUE, BLUE);
+    expect((gltf){.moved = MOVED("\"offset\":[0,0.5]")}, BLUE, WHITE, GREEN, GREEN);
+    expect((gltf){.moved = MOVED("\"scale\":[0,0],\"offset\":[0.25,0.25]")}, RED, RED, RED, RED);
+    expect((gltf){.moved = MOVED("\"scale\":[0,0],\"offset\":[0.25,0.75]")}, BLUE, BLUE, BLUE, BLUE);
 }
 
 static void textures_that_are_missing_or_broken_are_counted(void **state) {
@@ -193,15 +215,81 @@ static void a_large_image_has_its_means(void **state) {
     froe_scene_free(scene);
 }
 
+/* A raster with one level, but for the first texel of the last band. */
+static void write_raster(const char *path, int width, int height, int bands, GDALDataType type, const double *levels) {
+    GDALDatasetH data = GDALCreate(GDALGetDriverByName("GTiff"), path, width, height, bands, type, NULL);
+    assert_non_null(data);
+    for (int i = 0; i < bands; i++) assert_int_equal(GDALFillRaster(GDALGetRasterBand(data, i + 1), levels[i], 0), 0);
+    GDALClose(data);
+}
+
+/* Grey, with opacity, of 16 bits; so long that their short side would have less than one pixel. */
+static void rasters_of_every_sort_have_their_colours(void **state) {
+    (void)state;
+    static const struct {
+        int width, height, bands;
+        GDALDataType type;
+        double levels[4];
+        uint32_t colour;
+    } cases[] = {
+        {2, 2, 1, GDT_Byte, {255}, 0xffffffff},
+        {2, 2, 1, GDT_UInt16, {0}, 0x000000ff},
+        {2, 2, 3, GDT_UInt16, {65535, 0, 65535}, 0xff00ffff},
+        {2, 2, 2, GDT_Byte, {0, 0}, 0x00000001},
+        {2, 2, 4, GDT_Byte, {0, 255, 0, 255}, 0x00ff00ff},
+        {2, 2, 4, GDT_UInt16, {0, 65535, 0, 0}, 0x00000001},
+        {3000, 1, 3, GDT_Byte, {0, 255, 255}, 0x00ffffff},
+        {1, 3000, 3, GDT_Byte, {255, 255, 0}, 0xffff00ff},
+    };
+    GDALAllRegister();
+    write_text("raster.mtl", "newmtl print\nmap_Kd raster.tif\n");
+    write_text("raster.obj", "mtllib raster.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nusemtl print\n"
+                             "f 1/1 2/2 3/3\n");
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        froe_read_report report;
+        write_raster("raster.tif", cases[i].width, cases[i].height, cases[i].bands, cases[i].type, cases[i].levels);
+        froe_scene *scene = read_scene("raster.obj", &report);
+        assert_int_equal(report.unread, 0);
+        if (colour_of(scene, 0) != cases[i].colour) fail_msg("raster %zu: %08x", i, colour_of(scene, 0));
+        froe_scene_free(scene);
+    }
+}
+
+static froe_status read_by(void *user, const froe_allocator *alloc) {
+    froe_read_options o = froe_read_defaults();
+    froe_scene *scene = NULL;
+    o.alloc = alloc;
+    const froe_status status = froe_read(user, &o, &scene, NULL, NULL);
+    froe_scene_free(scene);
+    return status;
+}
+
+/* Without memory for its texels an image is one that cannot be read. */
+static void every_allocation_may_fail(void **state) {
+    (void)state;
+    write_glb("inside.glb", (gltf){.shades = true});
+    write_bytes("four.png", four_png, sizeof four_png);
+    write_glb("beside.glb", (gltf){.image = "four.png"});
+    write_text("four.mtl", "newmtl print\nmap_Kd four.png\n");
+    write_text("four.obj", "mtllib four.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0.1 0.6\nvt 0.4 0.6\nvt 0.4 0.9\n"
+                           "usemtl print\nf 1/1 2/2 3/3\n");
+    assert_true(test_memory_each(read_by, "inside.glb") > 5);
+    assert_true(test_memory_each(read_by, "beside.glb") > 5);
+    assert_true(test_memory_each(read_by, "four.obj") > 5);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(an_image_inside_is_wrapped_as_its_sampler_says),
         cmocka_unit_test(an_image_beside_is_found),
         cmocka_unit_test(factors_and_colours_of_corners_are_multiplied_as_light),
         cmocka_unit_test(opacity_is_that_of_the_mode),
+        cmocka_unit_test(a_texture_may_be_moved_and_scaled),
         cmocka_unit_test(textures_that_are_missing_or_broken_are_counted),
         cmocka_unit_test(an_obj_is_read_with_its_images),
         cmocka_unit_test(a_large_image_has_its_means),
+        cmocka_unit_test(rasters_of_every_sort_have_their_colours),
+        cmocka_unit_test(every_allocation_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
