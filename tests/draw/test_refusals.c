@@ -211,18 +211,28 @@ static froe_status draw_to_memory(void *user, const froe_allocator *alloc) {
 static void every_allocation_may_fail(void **state) {
     (void)state;
     froe_tree *flat = tree_of(random_segments(60, 0.4, 1, 0), "autopartition", 0);
-    froe_tree *solid = tree_of(mixed_scene(3), "density", 1);
+    froe_tree *solid = tree_of(mixed_scene(3), "density", 1), *plane = tree_of(mixed_scene(2), "density", 1);
+    static const uint32_t accented[] = {0, 1, 2, 3, 4};
     scenario scenarios[] = {{flat, froe_draw_defaults(), FROE_DRAW_SVG},
                             {solid, froe_draw_defaults(), FROE_DRAW_PDF},
-                            {solid, froe_draw_defaults(), FROE_DRAW_PNG}};
+                            {solid, froe_draw_defaults(), FROE_DRAW_PNG},
+                            {plane, froe_draw_defaults(), FROE_DRAW_SVG},
+                            {plane, froe_draw_defaults(), FROE_DRAW_SVG}};
+    scenarios[3].options.accented = accented, scenarios[3].options.accented_count = 5;
+    scenarios[3].options.title = "Five";
+    for (int k = 0; k < 2; k++) { /* so near to the ball that its border is drawn as a ring of lines */
+        scenarios[4].options.lo[k] = (k ? 0.6 : 0.35) - 1e-5;
+        scenarios[4].options.hi[k] = (k ? 0.6 : 0.35) + 1e-5;
+    }
     scenarios[2].options.style = FROE_DRAW_EXPLODED;
     scenarios[1].options.show = scenarios[2].options.show = 15;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < 5; i++) {
         scenarios[i].options.width = 200;
         assert_true(test_memory_each(draw_to_memory, scenarios + i) > 10);
     }
     froe_tree_free(flat);
     froe_tree_free(solid);
+    froe_tree_free(plane);
 }
 
 typedef struct patience {

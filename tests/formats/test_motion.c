@@ -93,6 +93,10 @@ static void instants_are_milliseconds_since_1970(void **state) {
         assert_true(formats_datetime(good[i].text, &value));
         if (value != good[i].value) fail_msg("%s is %.17g", good[i].text, value);
     }
+}
+
+static void what_is_no_instant_is_refused(void **state) {
+    (void)state;
     static const char *const bad[] = {"",
                                       "2000",
                                       "2001-02-29",
@@ -702,6 +706,7 @@ static void every_allocation_may_fail(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(instants_are_milliseconds_since_1970),
+        cmocka_unit_test(what_is_no_instant_is_refused),
         cmocka_unit_test(lines_rings_and_points_become_segments),
         cmocka_unit_test(quadratic_interpolation_continues_its_velocity),
         cmocka_unit_test(cubic_interpolation_takes_velocities_from_parabolas),

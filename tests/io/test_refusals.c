@@ -242,28 +242,28 @@ static void write_3mf(void) {
     "z=\"0\"/>"                                                                                                        \
     "</vertices><triangles><triangle v1=\"0\" v2=\"1\" v3=\"2\"" more "/></triangles></mesh>"
     write_part(
-        "/vsizip/{m.3mf}/a", "<model><resources><basematerials id=\"5\"><base name=\"red\" "
-                             "displaycolor=\"#FF0000\"/><base "
-                             "name=\"blue\" displaycolor=\"#0000FF\"/></basematerials><object id=\"1\" "
-                             "name=\"one\">" MESH(
-                                 " pid=\"5\" p1=\"0\" p2=\"1\" p3=\"0\"") "</object><object id=\"2\" pid=\"5\" "
-                                                                          "pindex=\"1\">" MESH("") "</object>"
-                                                                                                   "<object "
-                                                                                                   "id=\"3\"><"
-                                                                                                   "components><"
-                                                                                                   "component "
-                                                                                                   "objectid=\"1\"/"
-                                                                                                   "><component "
-                                                                                                   "path=\"/b\" "
-                                                                                                   "objectid=\"1\"/>"
-                                                                                                   "</components></"
-                                                                                                   "object></"
-                                                                                                   "resources><build><"
-                                                                                                   "item "
-                                                                                                   "objectid=\"3\"/"
-                                                                                                   "><item "
-                                                                                                   "objectid=\"2\"/></"
-                                                                                                   "build></model>");
+        "/vsizip/{m.3mf}/a",
+        "<model><resources><basematerials id=\"5\"><base name=\"red\" "
+        "displaycolor=\"#FF0000\"/><base "
+        "name=\"blue\" displaycolor=\"#0000FF\"/></basematerials><object id=\"1\" "
+        "name=\"one\">" MESH(" pid=\"5\" p1=\"0\" p2=\"1\" p3=\"0\"") "</object><object id=\"2\" pid=\"5\" "
+                                                                      "pindex=\"1\">" MESH("") "</object>"
+                                                                                               "<object "
+                                                                                               "id=\"3\"><"
+                                                                                               "components><"
+                                                                                               "component "
+                                                                                               "objectid=\"1\"/"
+                                                                                               "><component "
+                                                                                               "path=\"/b\" "
+                                                                                               "objectid=\"1\"/>"
+                                                                                               "</components></"
+                                                                                               "object></"
+                                                                                               "resources><build><"
+                                                                                               "item "
+                                                                                               "objectid=\"3\"/"
+                                                                                               "><item "
+                                                                                               "objectid=\"2\"/></"
+                                                                                               "build></model>");
     write_part("/vsizip/{m.3mf}/b",
                "<model><resources><object id=\"1\" name=\"other\">" MESH("") "</object></resources></model>");
     assert_int_equal(VSIFCloseL(archive), 0);
