@@ -1,6 +1,7 @@
 # The front door: each target installs what it needs (scripts/deps) and uses CMake.
 # BUILD=folder builds elsewhere, JOBS=n limits parallel work, PREFIX=folder is where install goes.
 BUILD ?= build
+comma := ,
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 PREFIX ?= /usr/local
 # Ninja may be installed by the first step, so this is asked anew in every recipe.
@@ -78,12 +79,20 @@ mutate: coverage build ## would the tests notice a wrong operator? A sample of 4
 	@scripts/mutate
 
 # What is found is kept outside the project: scripts/fuzz says where.
-.PHONY: fuzz platforms soak night
+.PHONY: fuzz platforms sanitize soak night
 HOURS ?= 1
 fuzz: deps-fuzz ## all fuzzers in turn for HOURS=n hours; a table of executions, places and findings
 	@cmake --preset fuzz
 	@cmake --build --preset fuzz --parallel $(JOBS)
 	@scripts/fuzz $(HOURS)
+
+# Left out are the documents, the demo, the project, and tests that look for wrong answers alone. TURN=1 takes every second
+# test, TURN=2 the others.
+sanitize: deps-test ## the tests under AddressSanitizer and UndefinedBehaviorSanitizer
+	@cmake --preset asan-ubsan >/dev/null
+	@cmake --build --preset asan-ubsan --parallel $(JOBS)
+	@ctest --preset asan-ubsan --parallel $(JOBS) $(if $(TURN),-I $(TURN)$(comma)$(comma)2) -LE '^(claims|docs|project)$$' \
+	    -E '^(cli/demo|conformance/(floats|hashes|pictures))$$'
 
 soak: deps-test ## decisions that are checked, for HOURS=n hours of one processor; tests/soak/ledger.tsv goes on
 	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=Release -DFROE_TESTS=ON
