@@ -5,25 +5,9 @@
 #include "support/forge.h"
 #include "support/opened.h"
 #include "support/samples.h"
+#include "support/tree_file.h"
 
 enum { KINDS = 10, ROUNDS = 2, WORDS_MOST = 48 };
-
-typedef struct file {
-    uint8_t *bytes;
-    size_t size, room;
-} file;
-
-static bool receive(void *user, const void *data, size_t count) {
-    file *f = user;
-    if (f->size + count > f->room) {
-        f->room = 2 * (f->size + count);
-        f->bytes = realloc(f->bytes, f->room);
-        assert_non_null(f->bytes);
-    }
-    memcpy(f->bytes + f->size, data, count);
-    f->size += count;
-    return true;
-}
 
 /* Segments with all that a scene may carry besides. */
 static froe_tree *labelled(const char *method, uint32_t leaf) {
@@ -82,21 +66,13 @@ static froe_tree *tree_of(int kind) {
     }
 }
 
-static file file_of(int kind) {
-    file f = {0};
-    froe_tree *tree = tree_of(kind);
-    assert_int_equal(froe_tree_write(tree, receive, &f, NULL), FROE_OK);
-    froe_tree_free(tree);
-    return f;
-}
-
 /* ----------------------------------------------------------------------- judgement -- */
 
 typedef struct tally {
     size_t refused, failed, right;
 } tally;
 
-static void judge(const file *f, const char *what, tally *t) {
+static void judge(const tree_file *f, const char *what, tally *t) {
     froe_tree *tree = NULL;
     froe_diagnostic why = {0};
     char text[300];
@@ -124,12 +100,6 @@ static void judge(const file *f, const char *what, tally *t) {
 }
 
 /* ------------------------------------------------------------------ special numbers -- */
-
-static file_section section_of(const file *f, uint32_t id) {
-    file_section s;
-    memcpy(&s, f->bytes + sizeof(file_header) + (id - 1) * sizeof s, sizeof s);
-    return s;
-}
 
 /* A number of 8 bytes, or two of 4, in place of what is there. */
 static bool special_bytes(int which, uint8_t *at) {
@@ -163,12 +133,12 @@ static void special_numbers_are_refused_or_found(void **state) {
     tally t = {0};
     (void)state;
     for (int kind = 0; kind < KINDS; kind++) {
-        const file f = file_of(kind);
-        file g = f;
+        const tree_file f = tree_file_of(tree_of(kind));
+        tree_file g = f;
         g.bytes = malloc(f.size);
         assert_non_null(g.bytes);
         for (size_t i = 0; i < sizeof ids / sizeof *ids; i++) {
-            const file_section s = section_of(&f, ids[i]);
+            const file_section s = tree_file_section(&f, ids[i]);
             const uint64_t words = s.size / 8, step = words / WORDS_MOST + 1;
             for (uint64_t w = 0; w < words; w += step) /* of a long section other words for other numbers */
                 for (int which = 0;; which++) {
@@ -198,15 +168,15 @@ static void special_numbers_are_refused_or_found(void **state) {
 /* ------------------------------------------------------------------------ sections -- */
 
 /* The file with so many bytes in one section: the first of them, then zeros. */
-static file resized(const file *f, uint32_t id, uint64_t size) {
-    const file_section old = section_of(f, id);
-    file g = {.size = f->size + (size_t)size + 2 * FILE_ALIGN};
+static tree_file resized(const tree_file *f, uint32_t id, uint64_t size) {
+    const file_section old = tree_file_section(f, id);
+    tree_file g = {.size = f->size + (size_t)size + 2 * FILE_ALIGN};
     g.bytes = calloc(g.size, 1);
     assert_non_null(g.bytes);
     memcpy(g.bytes, f->bytes, sizeof(file_header) + FILE_SECTIONS * sizeof(file_section));
     uint64_t end = sizeof(file_header) + FILE_SECTIONS * sizeof(file_section);
     for (uint32_t i = 1; i <= FILE_SECTIONS; i++) {
-        file_section s = section_of(f, i);
+        file_section s = tree_file_section(f, i);
         const uint64_t kept = i == id && size < old.size ? size : s.size, from = s.offset;
         s.offset = file_align(end);
         if (i == id) s.size = size;
@@ -228,22 +198,22 @@ static void shorter_and_longer_sections_are_refused_or_optional(void **state) {
     tally t = {0};
     (void)state;
     for (int kind = 0; kind < KINDS; kind++) {
-        const file f = file_of(kind);
+        const tree_file f = tree_file_of(tree_of(kind));
         for (uint32_t id = 1; id <= FILE_SECTIONS; id++) {
-            const file_section s = section_of(&f, id);
+            const file_section s = tree_file_section(&f, id);
             const uint64_t sizes[] = {0,          s.size - s.item_size,     s.size - 1, s.size + s.item_size,
                                       s.size / 2, s.size + 2 * s.item_size, s.item_size};
             for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
                 char what[100];
                 if (sizes[i] == s.size || sizes[i] > s.size + 2 * s.item_size) continue;
-                const file g = resized(&f, id, sizes[i]);
+                const tree_file g = resized(&f, id, sizes[i]);
                 snprintf(what, sizeof what, "tree %d, section %u, %u bytes instead of %u", kind, (unsigned)id,
                          (unsigned)sizes[i], (unsigned)s.size);
                 judge(&g, what, &t);
                 free(g.bytes);
             }
         }
-        const file same = resized(&f, FILE_META, section_of(&f, FILE_META).size);
+        const tree_file same = resized(&f, FILE_META, tree_file_section(&f, FILE_META).size);
         assert_int_equal(same.size, f.size);
         assert_memory_equal(same.bytes, f.bytes, f.size);
         free(same.bytes);
@@ -260,13 +230,13 @@ static void sections_of_other_trees_do_not_fit(void **state) {
     for (int kind = 0; kind < KINDS; kind++)
         for (int other = 0; other < KINDS; other++) {
             if (other == kind) continue;
-            const file f = file_of(kind), o = file_of(other);
+            const tree_file f = tree_file_of(tree_of(kind)), o = tree_file_of(tree_of(other));
             for (uint32_t id = 1; id <= FILE_SECTIONS; id++) {
                 char what[100];
-                const file_section s = section_of(&o, id), old = section_of(&f, id);
+                const file_section s = tree_file_section(&o, id), old = tree_file_section(&f, id);
                 if (s.size == old.size && !memcmp(f.bytes + old.offset, o.bytes + s.offset, s.size)) continue;
-                file g = resized(&f, id, s.size);
-                const file_section at = section_of(&g, id);
+                tree_file g = resized(&f, id, s.size);
+                const file_section at = tree_file_section(&g, id);
                 memcpy(g.bytes + at.offset, o.bytes + s.offset, s.size);
                 forge_checksums(g.bytes, g.size);
                 snprintf(what, sizeof what, "tree %d, section %u of tree %d", kind, (unsigned)id, other);
@@ -282,7 +252,7 @@ static void sections_of_other_trees_do_not_fit(void **state) {
 /* --------------------------------------------------------------------------- memory -- */
 
 static froe_status read_whole(void *user, const froe_allocator *alloc) {
-    const file *f = user;
+    const tree_file *f = user;
     froe_tree *tree = NULL;
     froe_audit_options o = froe_audit_defaults();
     o.threads = 1;
@@ -296,7 +266,7 @@ static froe_status read_whole(void *user, const froe_allocator *alloc) {
 static void any_allocation_of_reading_and_auditing_may_fail(void **state) {
     (void)state;
     for (int kind = 0; kind < KINDS; kind++) {
-        file f = file_of(kind);
+        tree_file f = tree_file_of(tree_of(kind));
         assert_true(test_memory_each(read_whole, &f) > 5);
         free(f.bytes);
     }

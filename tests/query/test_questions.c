@@ -2,6 +2,7 @@
  * and with arguments left out. */
 #include "num/ball.h"
 #include "query/questions.h"
+#include "support/tree_file.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -140,28 +141,18 @@ static void questions_go_on_when_stamps_end(void **state) {
 
 /* --------------------------------------------------------------------- opened trees -- */
 
-typedef struct bytes {
-    unsigned char *data;
-    size_t count;
+typedef struct saved {
+    tree_file file;
     int question;
     told expected;
-} bytes;
-
-static bool receive(void *user, const void *data, size_t count) {
-    bytes *b = user;
-    b->data = realloc(b->data, b->count + count);
-    assert_non_null(b->data);
-    memcpy(b->data + b->count, data, count);
-    b->count += count;
-    return true;
-}
+} saved;
 
 static froe_status ask_opened(void *user, const froe_allocator *alloc) {
-    bytes *b = user;
+    const saved *b = user;
     froe_tree *tree = NULL;
     froe_query *q = NULL;
     told t = 0;
-    froe_status status = froe_tree_open_memory(b->data, b->count, alloc, &tree, NULL);
+    froe_status status = froe_tree_open_memory(b->file.bytes, b->file.size, alloc, &tree, NULL);
     if (!status) status = froe_query_new(tree, &q, NULL);
     if (!status) status = ask_question(q, b->question, &t);
     if (!status) assert_true(t == b->expected);
@@ -174,8 +165,8 @@ static void opened_trees_answer_alike_and_may_lack_memory(void **state) {
     (void)state;
     for (int kind = 0; kind < KINDS; kind++) {
         froe_tree *tree = tree_of(kind);
-        bytes b = {0};
-        assert_int_equal(froe_tree_write(tree, receive, &b, NULL), FROE_OK);
+        saved b = {0};
+        assert_int_equal(froe_tree_write(tree, tree_file_receive, &b.file, NULL), FROE_OK);
         for (b.question = 0; b.question < QUESTIONS_PLAIN; b.question++) {
             froe_query *q;
             assert_int_equal(froe_query_new(tree, &q, NULL), FROE_OK);
@@ -184,7 +175,7 @@ static void opened_trees_answer_alike_and_may_lack_memory(void **state) {
             froe_query_free(q);
             assert_true(test_memory_each(ask_opened, &b) > 5);
         }
-        free(b.data);
+        free(b.file.bytes);
         froe_tree_free(tree);
     }
 }

@@ -5,6 +5,7 @@
 #include "query/members.h"
 #include "support/forge.h"
 #include "support/large.h"
+#include "support/tree_file.h"
 #include <math.h>
 
 /* ------------------------------------------------------------------------- batches -- */
@@ -114,33 +115,11 @@ static void batches_can_be_cancelled_at_every_call(void **state) {
 
 /* ------------------------------------------------------------------- opened trees -- */
 
-typedef struct file {
-    uint8_t *bytes;
-    size_t size;
-} file;
-
-static bool receive(void *user, const void *data, size_t count) {
-    file *f = user;
-    f->bytes = realloc(f->bytes, f->size + count);
-    assert_non_null(f->bytes);
-    memcpy(f->bytes + f->size, data, count);
-    f->size += count;
-    return true;
-}
-
-static file file_of(froe_tree *tree) {
-    file f = {0};
-    assert_int_equal(froe_tree_write(tree, receive, &f, NULL), FROE_OK);
-    froe_tree_free(tree);
-    return f;
-}
-
 /* Blocks whose first object is none: whatever reads one says so, in a batch as well. */
 static void blocks_that_cannot_be_read_are_told_by_every_question(void **state) {
     (void)state;
-    const file f = file_of(trees_grow(2, FROE_SEGMENT, 3000, 0, 0.02, "index", 4));
-    file_section s;
-    memcpy(&s, f.bytes + sizeof(file_header) + (FILE_BLOCKS - 1) * sizeof s, sizeof s);
+    const tree_file f = tree_file_of(trees_grow(2, FROE_SEGMENT, 3000, 0, 0.02, "index", 4));
+    const file_section s = tree_file_section(&f, FILE_BLOCKS);
     for (uint64_t at = s.offset; at < s.offset + s.size; at += PACKED_BLOCK)
         memset(f.bytes + at + sizeof(packed_header), 0x7f, PACKED_BLOCK - sizeof(packed_header));
     forge_checksums(f.bytes, f.size);
@@ -178,7 +157,8 @@ static void opened_trees_of_nothing_have_no_neighbours(void **state) {
     (void)state;
     for (int dim = 2; dim <= 3; dim++)
         for (size_t k = 1; k < 4; k++) {
-            const file f = file_of(trees_grow(dim, dim == 2 ? FROE_SEGMENT : FROE_POLYGON, 0, 0, 0.02, "index", 4));
+            const tree_file f =
+                tree_file_of(trees_grow(dim, dim == 2 ? FROE_SEGMENT : FROE_POLYGON, 0, 0, 0.02, "index", 4));
             froe_tree *tree;
             froe_neighbours near = {.count = 1};
             assert_int_equal(froe_tree_open_memory(f.bytes, f.size, NULL, &tree, NULL), FROE_OK);

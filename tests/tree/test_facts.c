@@ -1,28 +1,9 @@
 /* test_facts.c: the box of the objects that a file tells, wrong in one number. */
 #include "support/forge.h"
+#include "support/tree_file.h"
 #include "trees.h"
 
-typedef struct file {
-    uint8_t *bytes;
-    size_t size;
-} file;
-
-static bool take(void *user, const void *data, size_t count) {
-    file *f = user;
-    memcpy(f->bytes + f->size, data, count);
-    f->size += count;
-    return true;
-}
-
-static file written(froe_tree *tree) {
-    file f = {malloc(froe_tree_saved_size(tree)), 0};
-    assert_non_null(f.bytes);
-    assert_int_equal(froe_tree_write(tree, take, &f, NULL), FROE_OK);
-    froe_tree_free(tree);
-    return f;
-}
-
-static froe_status check(const file *f) {
+static froe_status check(const tree_file *f) {
     froe_tree *tree = NULL;
     froe_status status = froe_tree_open_memory(f->bytes, f->size, NULL, &tree, NULL);
     if (!status) status = froe_tree_check(tree, NULL);
@@ -30,17 +11,12 @@ static froe_status check(const file *f) {
     return status;
 }
 
-static tree_facts *facts_of(const file *f) {
-    const file_section *table = (const file_section *)(const void *)(f->bytes + sizeof(file_header));
-    return (tree_facts *)(void *)(f->bytes + table[FILE_FACTS - 1].offset);
-}
-
 /* A box of no objects, or of axes that there are not, is 0. */
 static void facts_have_no_box_where_there_is_nothing(void **state) {
     (void)state;
     for (size_t count = 0; count <= 9; count += 9) {
-        file f = written(trees_grow(2, FROE_SEGMENT, count, 0, 0.4, "autopartition", 1));
-        tree_facts *facts = facts_of(&f);
+        tree_file f = tree_file_of(trees_grow(2, FROE_SEGMENT, count, 0, 0.4, "autopartition", 1));
+        tree_facts *facts = tree_file_at(&f, FILE_FACTS);
         assert_int_equal(check(&f), FROE_OK);
         for (int k = 0; k < 3; k++)
             for (int end = 1; end < 4; end++) { /* only the upper one; both */

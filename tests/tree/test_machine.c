@@ -2,7 +2,7 @@
  * of the other order of bytes. Linked with --wrap, so that the checks of both come here. */
 #include "num/context.h"
 #include "support/fail.h"
-#include "tree/file.h"
+#include "support/tree_file.h"
 #include "trees.h"
 #include <froe/kinetic.h>
 #include <string.h>
@@ -28,24 +28,12 @@ froe_status __wrap_file_check_machine(froe_diagnostic *diag) {
 static const char path[] = "machine.froe";
 static const char *const said[] = {"", "It rounds otherwise.", "It has another order of bytes."};
 
-typedef struct bytes {
-    uint8_t *data;
-    size_t count;
-} bytes;
-
-static bool take(void *user, const void *data, size_t count) {
-    bytes *b = user;
-    memcpy(b->data + b->count, data, count);
-    b->count += count;
-    return true;
-}
-
 static void no_tree_is_opened_on_a_machine_that_cannot(void **state) {
     (void)state;
     froe_tree *saved = trees_grow(2, FROE_SEGMENT, 20, 0, 0.4, "autopartition", 1);
-    bytes file = {malloc(froe_tree_saved_size(saved)), 0};
+    tree_file file = {0};
     assert_int_equal(froe_tree_save(saved, path, NULL), FROE_OK);
-    assert_int_equal(froe_tree_write(saved, take, &file, NULL), FROE_OK);
+    assert_int_equal(froe_tree_write(saved, tree_file_receive, &file, NULL), FROE_OK);
     for (int m = USUAL; m <= OTHER_ORDER; m++)
         for (int way = 0; way < 3; way++) {
             test_memory memory;
@@ -55,7 +43,7 @@ static void no_tree_is_opened_on_a_machine_that_cannot(void **state) {
             machine = m;
             const froe_status status = way == 0   ? froe_tree_open(path, &alloc, &tree, &why)
                                        : way == 1 ? froe_tree_open_copy(path, &alloc, &tree, &why)
-                                                  : froe_tree_open_memory(file.data, file.count, &alloc, &tree, &why);
+                                                  : froe_tree_open_memory(file.bytes, file.size, &alloc, &tree, &why);
             machine = USUAL;
             assert_int_equal(status, m == USUAL ? FROE_OK : FROE_E_UNSUPPORTED);
             assert_int_equal(memory.calls > 0, m == USUAL);
@@ -65,7 +53,7 @@ static void no_tree_is_opened_on_a_machine_that_cannot(void **state) {
             froe_tree_free(tree);
             test_memory_end(&memory);
         }
-    free(file.data);
+    free(file.bytes);
     froe_tree_free(saved);
 }
 
@@ -75,16 +63,17 @@ static void no_tree_is_saved_where_bytes_have_another_order(void **state) {
     froe_tree *tree = trees_grow(2, FROE_SEGMENT, 20, 0, 0.4, "autopartition", 1);
     for (int m = USUAL; m <= OTHER_ORDER; m += OTHER_ORDER) {
         froe_diagnostic why = {0};
-        bytes file = {malloc(froe_tree_saved_size(tree)), 0};
+        tree_file file = {0};
         unlink(path);
         machine = m;
         assert_int_equal(froe_tree_save(tree, path, &why), m == USUAL ? FROE_OK : FROE_E_UNSUPPORTED);
         assert_string_equal(why.message, said[m]);
-        assert_int_equal(froe_tree_write(tree, take, &file, &why), m == USUAL ? FROE_OK : FROE_E_UNSUPPORTED);
+        assert_int_equal(froe_tree_write(tree, tree_file_receive, &file, &why),
+                         m == USUAL ? FROE_OK : FROE_E_UNSUPPORTED);
         machine = USUAL;
         assert_int_equal(access(path, F_OK) == 0, m == USUAL);
-        assert_int_equal(file.count, m == USUAL ? froe_tree_saved_size(tree) : 0);
-        free(file.data);
+        assert_int_equal(file.size, m == USUAL ? froe_tree_saved_size(tree) : 0);
+        free(file.bytes);
     }
     froe_tree_free(tree);
 }

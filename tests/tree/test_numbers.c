@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "support/forge.h"
+#include "support/tree_file.h"
 #include "tree/packed/space.h"
 #include "tree/validate.h"
 #include "trees.h"
@@ -84,32 +85,12 @@ static void blocks_have_objects_and_scales_there_are(void **state) {
 
 /* --------------------------------------------------------------------------- files -- */
 
-typedef struct file {
-    uint8_t *bytes;
-    size_t size;
-} file;
-
-static bool take(void *user, const void *data, size_t count) {
-    file *f = user;
-    memcpy(f->bytes + f->size, data, count);
-    f->size += count;
-    return true;
-}
-
-static void *section_of(const file *f, file_id id) {
-    const file_section *table = (const file_section *)(const void *)(f->bytes + sizeof(file_header));
-    return f->bytes + table[id - 1].offset;
-}
-
 static void files_tell_of_finite_cubes_and_depths(void **state) {
     (void)state;
     froe_tree *tree = trees_grow(2, FROE_SEGMENT, 9, 0, 0.4, "autopartition", 1), *opened = NULL;
-    file f = {malloc(froe_tree_saved_size(tree)), 0};
-    assert_non_null(f.bytes);
-    assert_int_equal(froe_tree_write(tree, take, &f, NULL), FROE_OK);
-    froe_tree_free(tree);
-    tree_meta *m = section_of(&f, FILE_META);
-    tree_facts *facts = section_of(&f, FILE_FACTS);
+    const tree_file f = tree_file_of(tree);
+    tree_meta *m = tree_file_at(&f, FILE_META);
+    tree_facts *facts = tree_file_at(&f, FILE_FACTS);
     double *const numbers[] = {m->root_lo, m->root_hi + 1, m->root_lo + 2, &facts->mean_depth};
     const double wrong[] = {-INFINITY, NAN, 1, INFINITY};
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {

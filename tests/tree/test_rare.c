@@ -5,6 +5,7 @@
 #include "geom/selftest.h"
 #include "scene/convex.h"
 #include "support/forge.h"
+#include "support/tree_file.h"
 #include "tree/audit/aspect.h"
 #include "tree/audit/inseparable.h"
 #include "tree/audit/share.h"
@@ -15,42 +16,13 @@
 #include <stdio.h>
 #include <unistd.h>
 
-typedef struct file {
-    uint8_t *bytes;
-    size_t size;
-} file;
-
-static bool receive(void *user, const void *data, size_t count) {
-    file *f = user;
-    f->bytes = realloc(f->bytes, f->size + count + 2 * FILE_ALIGN);
-    assert_non_null(f->bytes);
-    memcpy(f->bytes + f->size, data, count);
-    f->size += count;
-    return true;
-}
-
-static file file_of(froe_tree *tree) {
-    file f = {0};
-    assert_int_equal(froe_tree_write(tree, receive, &f, NULL), FROE_OK);
-    froe_tree_free(tree);
-    return f;
-}
-
-static froe_status read_whole(const file *f, froe_diagnostic *why) {
+static froe_status read_whole(const tree_file *f, froe_diagnostic *why) {
     froe_tree *tree = NULL;
     froe_status status = froe_tree_open_memory(f->bytes, f->size, NULL, &tree, why);
     if (!status) status = froe_tree_check(tree, why);
     froe_tree_free(tree);
     return status;
 }
-
-static void *section_of(const file *f, file_id id) {
-    file_section s;
-    memcpy(&s, f->bytes + sizeof(file_header) + (id - 1) * sizeof s, sizeof s);
-    return f->bytes + s.offset;
-}
-
-/* -------------------------------------------------------------------------- headers -- */
 
 /* Every word of the header and of the table of sections. The axis that points up is free in space. */
 static void wrong_words_of_headers_are_refused(void **state) {
@@ -59,9 +31,9 @@ static void wrong_words_of_headers_are_refused(void **state) {
                           trees_grow(3, FROE_POLYGON, 20, 0, 0.4, "index", 6),
                           trees_grow(4, FROE_BOX, 6, 0, 0.4, "density", 1)};
     for (size_t t = 0; t < sizeof trees / sizeof *trees; t++) {
-        const file f = file_of(trees[t]);
+        const tree_file f = tree_file_of(trees[t]);
         const size_t words = (sizeof(file_header) + FILE_SECTIONS * sizeof(file_section)) / 4;
-        file g = {.bytes = malloc(f.size), .size = f.size};
+        tree_file g = {.bytes = malloc(f.size), .size = f.size};
         for (size_t w = 0; w < words; w++) {
             uint32_t old, up = offsetof(file_header, up) / 4;
             memcpy(&old, f.bytes + 4 * w, 4);
@@ -81,7 +53,7 @@ static void wrong_words_of_headers_are_refused(void **state) {
     }
 }
 
-static void assert_refused(const file *f, const char *what) {
+static void assert_refused(const tree_file *f, const char *what) {
     froe_diagnostic why = {0};
     assert_int_equal(read_whole(f, &why), FROE_E_FORMAT);
     if (!strstr(why.message, what)) fail_msg("%s instead of %s", why.message, what);
@@ -89,9 +61,11 @@ static void assert_refused(const file *f, const char *what) {
 
 static void files_of_other_lengths_are_refused(void **state) {
     (void)state;
-    file f = file_of(trees_grow(2, FROE_SEGMENT, 20, 0, 0.4, "autopartition", 1));
+    tree_file f = tree_file_of(trees_grow(2, FROE_SEGMENT, 20, 0, 0.4, "autopartition", 1));
+    f.bytes = realloc(f.bytes, f.size + FILE_ALIGN);
+    assert_non_null(f.bytes);
     file_header *h = (file_header *)(void *)f.bytes;
-    const file nothing = {f.bytes, 0}, little = {f.bytes, 63};
+    const tree_file nothing = {f.bytes, 0}, little = {f.bytes, 63};
     froe_tree *tree;
     assert_refused(&nothing, "it is empty");
     assert_refused(&little, "it is too short");
@@ -121,8 +95,8 @@ static void empty_files_are_no_trees(void **state) {
 
 static void texts_of_descriptions_are_printable_and_end(void **state) {
     (void)state;
-    const file f = file_of(trees_grow(2, FROE_SEGMENT, 20, 0, 0.4, "autopartition", 1));
-    tree_meta *m = section_of(&f, FILE_META), right = *m;
+    const tree_file f = tree_file_of(trees_grow(2, FROE_SEGMENT, 20, 0, 0.4, "autopartition", 1));
+    tree_meta *m = tree_file_at(&f, FILE_META), right = *m;
     for (int wrong = 0; wrong < 6; wrong++) {
         *m = right;
         if (wrong == 0) memset(m->method, 'a', sizeof m->method);
@@ -306,7 +280,7 @@ static void missing_arguments_are_refused(void **state) {
     (void)state;
     froe_tree *made, *tree = trees_grow(2, FROE_SEGMENT, 6, 0, 0.4, "autopartition", 1);
     const double lo[2] = {0, 0}, hi[2] = {1, 1}, far[2] = {1, INFINITY}, low[2] = {-INFINITY, 0};
-    file f = {0};
+    tree_file f = {0};
     assert_int_equal(froe_tree_cells(NULL, lo, hi, take_cell, NULL, NULL), FROE_E_ARG);
     assert_int_equal(froe_tree_cells(tree, NULL, hi, take_cell, NULL, NULL), FROE_E_ARG);
     assert_int_equal(froe_tree_cells(tree, lo, NULL, take_cell, NULL, NULL), FROE_E_ARG);
@@ -318,7 +292,7 @@ static void missing_arguments_are_refused(void **state) {
     assert_int_equal(froe_tree_open(NULL, NULL, &made, NULL), FROE_E_ARG);
     assert_int_equal(froe_tree_open_memory(lo, 16, NULL, NULL, NULL), FROE_E_ARG);
     assert_int_equal(froe_tree_open_memory(NULL, 16, NULL, &made, NULL), FROE_E_ARG);
-    assert_int_equal(froe_tree_write(NULL, receive, &f, NULL), FROE_E_ARG);
+    assert_int_equal(froe_tree_write(NULL, tree_file_receive, &f, NULL), FROE_E_ARG);
     assert_int_equal(froe_tree_write(tree, NULL, &f, NULL), FROE_E_ARG);
     assert_int_equal(froe_tree_save(NULL, "x", NULL), FROE_E_ARG);
     assert_int_equal(froe_tree_save(tree, NULL, NULL), FROE_E_ARG);
@@ -427,7 +401,8 @@ static void opened_trees_of_many_objects_and_of_none_answer(void **state) {
     (void)state;
     for (size_t count = 0; count <= 6000; count += 6000)
         for (int dim = 2; dim <= 3; dim++) {
-            const file f = file_of(trees_grow(dim, dim == 2 ? FROE_SEGMENT : FROE_POLYGON, count, 0, 0.01, "index", 8));
+            const tree_file f =
+                tree_file_of(trees_grow(dim, dim == 2 ? FROE_SEGMENT : FROE_POLYGON, count, 0, 0.01, "index", 8));
             froe_tree *tree;
             froe_query *q;
             froe_list found;
@@ -457,7 +432,7 @@ static void packers_take_large_leaves_and_may_lack_memory(void **state) {
 /* A file that ends where a section does, before the zeros that align the next one. */
 static void sections_that_begin_behind_the_end_are_refused(void **state) {
     (void)state;
-    file f = file_of(trees_grow(2, FROE_SEGMENT, 21, 0, 0.4, "autopartition", 1));
+    tree_file f = tree_file_of(trees_grow(2, FROE_SEGMENT, 21, 0, 0.4, "autopartition", 1));
     file_header *h = (file_header *)(void *)f.bytes;
     const size_t whole = f.size;
     int ends = 0;
@@ -479,15 +454,15 @@ static void sections_that_begin_behind_the_end_are_refused(void **state) {
 static void parts_that_name_what_is_not_there_are_refused_when_asked(void **state) {
     (void)state;
     for (int wrong = 0; wrong < 4; wrong++) {
-        const file f = file_of(trees_grow(2, FROE_SEGMENT, 300, 0, 0.05, wrong ? "index" : "autopartition", 6));
-        file_section s;
-        memcpy(&s, f.bytes + sizeof(file_header) + (FILE_BLOCKS - 1) * sizeof s, sizeof s);
-        packed_header *first = section_of(&f, FILE_BLOCKS);
+        const tree_file f =
+            tree_file_of(trees_grow(2, FROE_SEGMENT, 300, 0, 0.05, wrong ? "index" : "autopartition", 6));
+        const file_section s = tree_file_section(&f, FILE_BLOCKS);
+        packed_header *first = tree_file_at(&f, FILE_BLOCKS);
         packed_header *last = (packed_header *)(void *)(f.bytes + s.offset + s.size - PACKED_BLOCK);
-        if (wrong == 0) ((tree_piece *)section_of(&f, FILE_PIECES))->object = 300;
+        if (wrong == 0) ((tree_piece *)tree_file_at(&f, FILE_PIECES))->object = 300;
         if (wrong == 1) first->owner = UINT32_MAX;
         if (wrong == 2) last->owner += 1;
-        if (wrong == 3) *(uint32_t *)section_of(&f, FILE_OWNERS) = 300;
+        if (wrong == 3) *(uint32_t *)tree_file_at(&f, FILE_OWNERS) = 300;
         forge_checksums(f.bytes, f.size);
         const double all[4] = {-9, -9, 9, 9};
         froe_tree *tree;
@@ -513,8 +488,8 @@ static void parts_that_name_what_is_not_there_are_refused_when_asked(void **stat
 /* Boxes of trees in space follow from their nodes: no other number of children, unit, corner or level will do. */
 static void wide_nodes_that_do_not_fit_are_refused(void **state) {
     (void)state;
-    const file f = file_of(trees_grow(3, FROE_POLYGON, 400, 0, 0.1, "index", 2));
-    wide_node *nodes = section_of(&f, FILE_WIDE);
+    const tree_file f = tree_file_of(trees_grow(3, FROE_POLYGON, 400, 0, 0.1, "index", 2));
+    wide_node *nodes = tree_file_at(&f, FILE_WIDE);
     const wide_node right = *nodes;
     for (int wrong = 0; wrong < 8; wrong++) {
         *nodes = right;
@@ -543,9 +518,9 @@ static void cuts_beside_the_root_box_are_found(void **state) {
     static const double places[] = {-1e9, 1e9};
     (void)state;
     for (int i = 0; i < 2; i++) {
-        const file f = file_of(trees_grow(2, FROE_SEGMENT, 12, 0, 0.01, "index", 9));
-        tree_node *nodes = section_of(&f, FILE_NODES);
-        packed_header *blocks = section_of(&f, FILE_BLOCKS);
+        const tree_file f = tree_file_of(trees_grow(2, FROE_SEGMENT, 12, 0, 0.01, "index", 9));
+        tree_node *nodes = tree_file_at(&f, FILE_NODES);
+        packed_header *blocks = tree_file_at(&f, FILE_BLOCKS);
         assert_int_equal(nodes[0].type, TREE_PLAIN);
         assert_true(nodes[1].type == TREE_LEAF && nodes[2].type == TREE_LEAF);
         packed_header *of[2] = {blocks + 2 * nodes[1].child, blocks + 2 * nodes[2].child};
