@@ -30,7 +30,7 @@ void froe_draw_defaults_into(froe_draw_options *out, size_t size) {
 
 const char *froe_draw_style_name(froe_draw_style style) {
     static const char *const names[FROE_DRAW_STYLE_COUNT] = {"auto", "flat", "sections", "exploded"};
-    return style >= 0 && style < FROE_DRAW_STYLE_COUNT ? names[style] : NULL;
+    return (unsigned)style < FROE_DRAW_STYLE_COUNT ? names[style] : NULL;
 }
 
 const char *froe_draw_layer_name(froe_draw_layer layer) {

@@ -30,9 +30,7 @@ double formats_seconds(void) {
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* Takes the byte order mark of UTF-8 (RFC 3629, section 6) from the beginning of a text: it is no part of it, and a
- * word behind it would not be recognised. No binary format begins with these bytes. Returns how many bytes are left. */
-static size_t drop_mark(char *text, size_t size) {
+size_t formats_drop_mark(char *text, size_t size) {
     static const char mark[] = {'\xef', '\xbb', '\xbf'};
     if (size < sizeof mark || memcmp(text, mark, sizeof mark) != 0) return size;
     memmove(text, text + sizeof mark, size - sizeof mark);
@@ -57,7 +55,7 @@ froe_status formats_source_open(const char *path, const froe_read_options *optio
     if (error) return support_fail_file(diag, "read", name, error);
     if (!regular) return support_fail_irregular(diag, name, directory);
     if (!got) return support_fail(diag, FROE_E_FORMAT, "%s: The file is empty.", support_short(name));
-    source->head[drop_mark(source->head, (size_t)got)] = '\0';
+    source->head[formats_drop_mark(source->head, (size_t)got)] = '\0';
     source->size = (uint64_t)about.st_size;
     source->extension = support_path_extension(path);
     return FROE_OK;
@@ -92,7 +90,7 @@ froe_status formats_load(const formats_source *source, formats_sink *sink, bool 
     int error = errno;
     if (file >= 0) close(file);
     if (got < 0) return support_fail_file(sink->diag, "read", source->path, error);
-    text->count = drop_mark(to, (size_t)got);
+    text->count = formats_drop_mark(to, (size_t)got);
     memset(to + text->count, '\0', BEHIND);
     if (!binary && memchr(to, '\0', text->count)) return formats_refuse_zero(source, sink, strlen(to));
     return FROE_OK;

@@ -51,6 +51,10 @@ typedef ARRAY(char) formats_text;
  * holds a NUL. */
 froe_status formats_load(const formats_source *source, formats_sink *sink, bool binary, formats_text *text);
 
+/** Takes the byte order mark of UTF-8 (RFC 3629, section 6) from the beginning of a text: it is no part of it, and a
+ * word behind it would not be recognised. No binary format begins with these bytes. Returns how many bytes are left. */
+size_t formats_drop_mark(char *text, size_t size);
+
 /** FROE_E_FORMAT for a text with a NUL at some byte. */
 froe_status formats_refuse_zero(const formats_source *source, const formats_sink *sink, size_t byte);
 /** The same text, but mapped, so that it takes memory only where it is read, and a NUL may stand in it: `capacity` is

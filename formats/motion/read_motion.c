@@ -533,8 +533,8 @@ froe_status formats_load_motion(const char *path, const froe_allocator *alloc, f
     fclose(file);
     if (error) return support_fail_file(diag, "read", path, error);
     if (got == PART || !array_reserve(alloc, text, BEHIND)) return support_fail_memory(diag);
+    text->count = formats_drop_mark(text->data, text->count);
     memset(text->data + text->count, 0, BEHIND);
-    if (!strncmp(text->data, "\xEF\xBB\xBF", 3)) memset(text->data, ' ', 3); /* a byte order mark is no part of it */
     return FROE_OK;
 }
 

@@ -13,7 +13,7 @@ void froe_picture_defaults_into(froe_picture_options *out, size_t size) {
 
 const char *froe_paint_name(froe_paint paint) {
     static const char *const names[FROE_PAINT_COUNT] = {"whole", "regions", "fragments"};
-    return paint >= 0 && paint < FROE_PAINT_COUNT ? names[paint] : NULL;
+    return (unsigned)paint < FROE_PAINT_COUNT ? names[paint] : NULL;
 }
 
 const char *froe_line_name(froe_line kind) {
