@@ -1,7 +1,6 @@
 # The front door: each target installs what it needs (scripts/deps) and uses CMake.
 # BUILD=folder builds elsewhere, JOBS=n limits parallel work, PREFIX=folder is where install goes.
 BUILD ?= build
-comma := ,
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 PREFIX ?= /usr/local
 # Ninja may be installed by the first step, so this is asked anew in every recipe.
@@ -88,6 +87,7 @@ fuzz: deps-fuzz ## all fuzzers in turn for HOURS=n hours; a table of executions,
 
 # Left out are the documents, the demo, the project, and tests that look for wrong answers alone. TURN=1 takes every second
 # test, TURN=2 the others.
+comma := ,
 sanitize: deps-test ## the tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	@cmake --preset asan-ubsan >/dev/null
 	@cmake --build --preset asan-ubsan --parallel $(JOBS)
