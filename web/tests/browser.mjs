@@ -89,16 +89,18 @@ export async function press(page, selector, keys) {
     for (const key of keys) await page.keyboard.press(key);
 }
 
-/** The path of the file `name` in `folder` that a button saves. */
+/** The path of the file `name` in `folder` that a button saves, once the browser says that all of it is there: it makes an
+ * empty file of that name first. */
 export async function saved(page, folder, label, name) {
     const session = await page.browser().target().createCDPSession(), path = join(folder, name);
-    await session.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: folder });
+    await session.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: folder, eventsEnabled: true });
+    const state = new Promise((resolve, reject) => {
+        session.on("Browser.downloadProgress", ({ state }) => state !== "inProgress" && resolve(state));
+        setTimeout(() => reject(new Error(`${name} has not been saved.`)), 60000).unref();
+    });
     await page.evaluate((text) => [...document.querySelectorAll("button")]
         .find((button) => (button.getAttribute("aria-label") ?? button.textContent) === text).click(), label);
-    for (let tries = 0; !existsSync(path); tries++) {
-        if (tries > 200) throw new Error(`${name} has not been saved.`);
-        await new Promise((resume) => setTimeout(resume, 50));
-    }
+    if (await state !== "completed" || !existsSync(path)) throw new Error(`The browser has not saved ${name}.`);
     await session.detach();
     return path;
 }
