@@ -1,9 +1,9 @@
-# Fuzzers: fuzz/fuzz_NAME.c. With libFuzzer (FROE_FUZZ, preset fuzz) they search. Otherwise each is a test that replays
-# fuzz/corpus/NAME and the seeds that fuzz/seeds.c makes during the build, and that fails if these reach fewer places of
-# the library than its floor: a corpus that has died says so.
+# Fuzzers: fuzz/fuzz_NAME.c. With libFuzzer (FROE_FUZZ, preset fuzz) they search. With sanitizers (FROE_SANITIZE) each is a
+# test that replays fuzz/corpus/NAME and the seeds that fuzz/seeds.c makes during the build, and that fails if these reach
+# fewer places of the library than its floor: a corpus that has died says so.
 
 # The library with its internal functions. For replays it is compiled once more, so that it tells where it has been, and
-# with the same optimization in every kind of build, so that there is about the same number of places.
+# with the same optimization in every build, so that there is about the same number of places.
 function(froe_fuzzed name)
   if(FROE_FUZZ)
     add_library(froe_fuzzed_${name} STATIC $<TARGET_OBJECTS:froe_${name}>)

@@ -1,5 +1,5 @@
 /* replay.c: feeds files, and the files of folders, to a fuzzer without libFuzzer: what once
- * was found stays found, in every ordinary run of the tests.
+ * was found stays found, in every build with sanitizers.
  *
  *     replay FLOOR PATH...     fails if the inputs reach fewer than FLOOR places of the library
  *
