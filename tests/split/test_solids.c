@@ -121,6 +121,40 @@ static void hulls_in_one_plane_are_told_apart(void **state) {
 
 /* ------------------------------------------------------------ unlike kinds -- */
 
+/** Plates whose four corners lie in a plane but for a rounding, stacked at an odd angle, so that planes are counted
+ * again by exact numbers; and boxes and balls about them, which have no corners that are vertices. */
+static void plates_that_seem_flat_are_told_from_boxes_and_balls(void **state) {
+    enum { PLATES = 12, OTHERS = 8, SCENES = 20 };
+    (void)state;
+    for (uint64_t seed = 1; seed <= SCENES; seed++) {
+        solids s = begin(3);
+        s.random.state = seed;
+        double plates[PLATES][4][3], boxes[OTHERS][2][3], balls[OTHERS][3], radii[OTHERS];
+        size_t starts[PLATES + 1] = {0};
+        for (size_t i = 0; i < PLATES; i++) {
+            starts[i + 1] = starts[i] + 4;
+            for (int j = 0; j < 4; j++) {
+                const double x = j == 1 || j == 2, y = j > 1, z = 0.1 * (double)(i / 2), u = x + (double)(i % 2);
+                plates[i][j][0] = cos(0.7) * u - sin(0.7) * z;
+                plates[i][j][1] = y;
+                plates[i][j][2] = sin(0.7) * u + cos(0.7) * z;
+            }
+        }
+        for (size_t i = 0; i < OTHERS; i++) {
+            radii[i] = 0.2;
+            for (int k = 0; k < 3; k++) {
+                balls[i][k] = 2 * fuzz_unit(&s.random);
+                boxes[i][0][k] = 2 * fuzz_unit(&s.random);
+                boxes[i][1][k] = boxes[i][0][k] + 0.2;
+            }
+        }
+        add(&s, FROE_HULL, PLATES, plates[0][0], NULL, starts);
+        add(&s, FROE_BOX, OTHERS, boxes[0][0], NULL, NULL);
+        add(&s, FROE_BALL, OTHERS, balls[0], radii, NULL);
+        froe_tree_free(build(&s, 1, 0));
+    }
+}
+
 /** Unit vectors at right angles: the first is the direction of the gap. */
 static void draw_frame(solids *s, int dim, double frame[3][3]) {
     for (int i = 0; i < dim;) {
@@ -353,6 +387,7 @@ int main(void) {
         cmocka_unit_test(hulls_that_touch_are_told_apart),
         cmocka_unit_test(a_flat_hull_on_another_ends_in_the_cut),
         cmocka_unit_test(hulls_in_one_plane_are_told_apart),
+        cmocka_unit_test(plates_that_seem_flat_are_told_from_boxes_and_balls),
         cmocka_unit_test(disjoint_solids_of_any_kinds_are_told_apart),
         cmocka_unit_test(candidates_may_be_few_or_many),
         cmocka_unit_test(pairs_of_every_two_kinds_are_told_apart_in_all_dimensions),

@@ -8,10 +8,13 @@ static uint8_t bit_of(int side) {
     return (uint8_t)((side == -1) | (side == 1) << 1);
 }
 
-/** By its corners, of which the vertices have their sides in the view. */
+/** By its corners, of which the vertices have their sides in the view. Those that it shows of boxes and balls are no
+ * corners of the fragment. */
 static int class_of_fragment(const split_view *v, split_set *set, const split_plane *plane, uint32_t i,
                              const split_fragment *f) {
     if (plane->cut.kind == FROE_CUT_OBJECT && plane->cut.id[0] == f->object) return SPLIT_ON;
+    const froe_kind form = scene_form(set->scene, f->object);
+    if (form == FROE_BOX || form == FROE_BALL) return split_class(set, plane, f);
     const uint32_t *corner = v->corner.data + v->start.data[i], n = v->start.data[i + 1] - v->start.data[i];
     const uint8_t *side = v->side.data + 1;
     uint8_t seen = 0;
