@@ -113,10 +113,10 @@ froe_status inseparable_refuted(num_context *context, base_task *task, const fro
     froe_status status = FROE_OK;
     for (uint32_t i = 0; i < list->count && !found && !status && pair_may_go_on(&p); i++) {
         p.a = tree_object(list, i);
-        for (uint32_t j = 0; j < i && !found && !status; j++) {
+        if (scene_form(s, p.a) == FROE_BOX) continue; /* no axis separates it from another box; from others, below */
+        for (uint32_t j = 0; j < list->count && !found && !status; j++) {
             p.b = tree_object(list, j);
-            if (scene_form(s, p.a) == FROE_BOX && scene_form(s, p.b) == FROE_BOX) continue; /* no axis separates them */
-            status = separated(&p, &found);
+            if (j < i || scene_form(s, p.b) == FROE_BOX) status = separated(&p, &found);
         }
     }
     normals_free(&m);
