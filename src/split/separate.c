@@ -98,12 +98,12 @@ split_verdict split_separate(split_work *work, const split_cell *cell, split_sep
     if (share_a_point(work, cell)) return SPLIT_INSEPARABLE;
     if (!split_separator_ready(&work->set, cell, separator)) return SPLIT_MEMORY;
     for (uint32_t i = 0; i < cell->count && split_go_on(work); i++) {
-        uint32_t a = object_at(work, cell, i);
-        for (uint32_t j = 0; j < i; j++) {
-            uint32_t b = object_at(work, cell, j);
-            if (scene_form(scene, a) == FROE_BOX && scene_form(scene, b) == FROE_BOX)
-                continue; /* by_axis() found none */
-            if (split_separate_pair(work, a, b, separator, cut)) return SPLIT_CUT;
+        const uint32_t a = object_at(work, cell, i);
+        if (scene_form(scene, a) == FROE_BOX) continue; /* by_axis() found no plane beside another box */
+        for (uint32_t j = 0; j < cell->count; j++) {
+            const uint32_t b = object_at(work, cell, j);
+            if ((j < i || scene_form(scene, b) == FROE_BOX) && split_separate_pair(work, a, b, separator, cut))
+                return SPLIT_CUT;
         }
     }
     return base_cancelled(work->task) ? SPLIT_CANCELLED : SPLIT_INSEPARABLE;
