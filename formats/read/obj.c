@@ -16,6 +16,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 enum { NAME_ROOM = FORMATS_MATERIAL_NAME, BUCKETS = 4096 };
 
@@ -213,6 +214,20 @@ static froe_status read_shade(obj *o, const char *at) {
     return FROE_OK;
 }
 
+/* One library or more. Names may hold blanks: each ends where a blank follows .mtl, or with the line. */
+static froe_status read_libraries(obj *o, char *at) {
+    froe_status status = FROE_OK;
+    o->regroup = true;
+    for (char *next; *(at += strspn(at, " \t\r")) && !status; at = next) {
+        char name[1024];
+        for (next = at + 1; *next && !(is_blank(*next) && next - at > 4 && !strncasecmp(next - 4, ".mtl", 4));) next++;
+        if (*next) *next++ = '\0';
+        copy_rest(name, sizeof name, at);
+        status = formats_materials_read(o->sink, o->path, name, &o->materials, &o->images);
+    }
+    return status;
+}
+
 static froe_status read_line(obj *o) {
     char *line = o->line + strspn(o->line, " \t");
     if (starts(line, "v")) {
@@ -232,12 +247,7 @@ static froe_status read_line(obj *o) {
         return array_append(&o->sink->alloc, &o->places, place, 2) ? FROE_OK : out_of_memory(o);
     }
     if (starts(line, "f") || starts(line, "l") || starts(line, "p")) return read_element(o, *line, line + 1);
-    if (starts(line, "mtllib")) {
-        char name[1024];
-        copy_rest(name, sizeof name, line + 6);
-        o->regroup = true;
-        return formats_materials_read(o->sink, o->path, name, &o->materials, &o->images);
-    }
+    if (starts(line, "mtllib")) return read_libraries(o, line + 6);
     if (starts(line, "curv") || starts(line, "curv2") || starts(line, "surf"))
         return ++o->sink->report.skipped, FROE_OK;
     const bool material = starts(line, "usemtl"), name = starts(line, "o") || starts(line, "g");

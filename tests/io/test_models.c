@@ -208,6 +208,13 @@ static void materials_bring_their_colours(void **state) {
     assert_int_equal(froe_scene_group_count(scene), 6);
     for (uint32_t g = 0; g < 6; g++) assert_int_equal(froe_scene_group(scene, g).colour, colours[g]);
     froe_scene_free(scene);
+    write_text("more colours.MTL", "newmtl unknown\nKd 0 1 0\n");
+    write_text("two.obj", "mtllib more colours.MTL\tcolours.mtl \nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl tiles\nf 1 2 3\n"
+                          "usemtl unknown\nf 1 2 3\n");
+    scene = read_scene("two.obj", &report);
+    assert_string_equal(report.unread_library, "");
+    for (uint32_t g = 0; g < 2; g++) assert_int_equal(froe_scene_group(scene, g).colour, g ? 0x00FF00FF : colours[0]);
+    froe_scene_free(scene);
     write_bytes("colours.mtl", "newmtl tiles\0", 13);
     scene = read_scene("colours.obj", &report);
     assert_int_equal(froe_scene_group(scene, 0).colour, 0);
