@@ -116,6 +116,7 @@ int render_add_styles(const char *list, render_styles *styles) {
             return cli_fail(CLI_USE, NULL, "--line-style: '%.*s' is one style too many.", (int)length, list);
         styles->at[styles->count++] = style;
         list += length + (list[length] != '\0');
+        list += strspn(list, " ");
     }
     return 0;
 }
