@@ -4,7 +4,6 @@
 #include "scene/scene.h"
 #include "support/axes.h"
 #include "support/fail.h"
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -161,21 +160,18 @@ static froe_status fill_page(const froe_camera *c, const fit_points *points, fro
 }
 
 /* The diagonal of the scene's box: sides are multiplied by a power of two, so that no square underflows or overflows.
- * Halves are taken only where whole sides overflow: half of the least double is 0. 1 for a scene of a single point, or
- * of none. */
+ * Infinite where a side is. 1 for a scene of a single point, or of none. */
 static double extent_of(const froe_scene *scene) {
     double most = 0, sum = 0;
-    int exponent = DBL_MAX_EXP;
+    int exponent = 0;
     for (int k = 0; k < 3 && scene->object_count; k++) most = fmax(most, scene->hi[k] - scene->lo[k]);
     if (!(most > 0)) return 1;
-    const bool halved = !isfinite(most);
-    const double share = halved ? 0.5 : 1;
-    if (!halved) frexp(most, &exponent);
+    frexp(most, &exponent); /* any number where `most` is infinite */
     for (int k = 0; k < 3; k++) {
-        const double side = ldexp(share * scene->hi[k] - share * scene->lo[k], -exponent);
+        const double side = ldexp(scene->hi[k] - scene->lo[k], -exponent);
         sum += side * side;
     }
-    return ldexp(sqrt(sum), exponent + halved);
+    return ldexp(sqrt(sum), exponent);
 }
 
 /* Extents whose projections on any page neither overflow nor lose visible bits: the camera multiplies and divides

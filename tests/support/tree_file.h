@@ -40,4 +40,14 @@ static inline file_section tree_file_section(const tree_file *f, uint32_t id) {
 static inline void *tree_file_at(const tree_file *f, uint32_t id) {
     return f->bytes + tree_file_section(f, id).offset;
 }
+
+/** The same tree, opened from its file, in which a corner names no vertex: that is found by the first call that looks at
+ * all of it. *f outlives the tree. */
+static inline froe_tree *tree_file_damaged(froe_tree *tree, tree_file *f) {
+    froe_tree *opened;
+    *f = tree_file_of(tree);
+    memset(tree_file_at(f, FILE_CORNERS), 0xee, sizeof(uint32_t));
+    assert_int_equal(froe_tree_open_memory(f->bytes, f->size, NULL, &opened, NULL), FROE_OK);
+    return opened;
+}
 #endif

@@ -270,6 +270,39 @@ static void boxes_that_overlap(void **state) {
     froe_scene_free(scene);
 }
 
+/* The same polygons, with a corner in the middle of every side, where the border goes straight on. */
+static froe_tree *with_middles(const froe_scene *s, const char *method) {
+    froe_scene *scene;
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    for (uint32_t o = 0; o < s->object_count; o++) {
+        const uint32_t n = scene_corners(s, o), count = scene->object_count;
+        const size_t starts[2] = {0, 2 * (size_t)n};
+        if (scene_form(s, o) != FROE_POLYGON) continue;
+        double coords[24];
+        for (uint32_t i = 0; i < n; i++)
+            for (int k = 0; k < 3; k++) {
+                const double a = scene_point(s, o, i)[k], b = scene_point(s, o, i + 1 < n ? i + 1 : 0)[k];
+                coords[6 * i + (uint32_t)k] = a;
+                coords[6 * i + 3 + (uint32_t)k] = 0.5 * a + 0.5 * b;
+            }
+        assert_int_equal(trees_add(scene, FROE_POLYGON, 1, coords, NULL, starts), FROE_OK);
+        assert_int_equal(scene_corners(scene, count), 2 * n);
+    }
+    froe_tree *tree = trees_build(scene, method, 1);
+    froe_scene_free(scene);
+    return tree;
+}
+
+/* Each half of a side is an edge, although the beam of its polygon has the whole side. */
+static void borders_that_go_straight_on(void **state) {
+    (void)state;
+    froe_scene *lattice = trees_scene(3, FROE_POLYGON, 40, 3, 2, 1), *solid = boxes(10, 4);
+    check_tree(with_middles(lattice, "density"), 2, 30);
+    check_tree(with_middles(solid, "autopartition"), 2, 30);
+    check_tree(with_middles(solid, "cylindrical"), 2, 20);
+    froe_scene_free(lattice), froe_scene_free(solid);
+}
+
 /* Each of three slats lies over the next: no order of whole faces paints them. */
 static void slats_in_a_cycle_and_crossing(void **state) {
     (void)state;
@@ -565,6 +598,11 @@ static void every_allocation_may_fail(void **state) {
     froe_tree *tree = trees_grow(3, FROE_POLYGON, 40, 3, 1, "density", 1);
     assert_true(test_memory_each(look_with, tree) > 20);
     froe_tree_free(tree);
+    froe_scene *solid = boxes(2, 2);
+    tree = with_middles(solid, "density");
+    assert_true(test_memory_each(look_with, tree) > 20);
+    froe_tree_free(tree);
+    froe_scene_free(solid);
 }
 
 int main(void) {
@@ -572,6 +610,7 @@ int main(void) {
         cmocka_unit_test(random_triangles),
         cmocka_unit_test(triangles_of_a_lattice_with_overlaps_in_planes),
         cmocka_unit_test(boxes_that_overlap),
+        cmocka_unit_test(borders_that_go_straight_on),
         cmocka_unit_test(edges_stay_hidden_when_the_eye_is_in_cuts),
         cmocka_unit_test(slats_in_a_cycle_and_crossing),
         cmocka_unit_test(a_window_shows_what_is_behind_it_and_nothing_else),

@@ -178,6 +178,7 @@ froe_status froe_picture_new(const froe_tree *tree, const froe_surface *surface,
     BASE_FLOATS_OWN;
     if (!tree || !surface || !out) return support_fail_null(diag, __func__);
     froe_status status = check_picture_options(options, diag);
+    if (!status) status = view_check_surface(tree, surface, diag);
     if (!status) status = tree_settle(tree, diag);
     if (status) return status;
     const froe_allocator alloc = support_allocator(options->alloc);

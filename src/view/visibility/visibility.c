@@ -152,8 +152,9 @@ static froe_status sort_pieces(visibility_search *k) {
 
 static froe_status look_from_eye(visibility_search *k, const geom_eye *eye) {
     froe_visibility *v = k->v;
-    froe_status status = view_sightlines_new(&v->sights, v->tree, v->surface, eye, k->options->window,
-                                             (uint32_t)k->options->window_corners, &v->alloc);
+    const double *window = k->options->window;
+    const uint32_t corners = window ? (uint32_t)k->options->window_corners : 0;
+    froe_status status = view_sightlines_new(&v->sights, v->tree, v->surface, eye, window, corners, &v->alloc);
     if (!status) status = view_screen_new(&k->screen, &v->sights);
     k->crosser = (view_crosser){
         .sights = &v->sights, .screen = &k->screen, .section = v->section != 0, .hidden = k->options->hidden_crossings};
@@ -190,13 +191,18 @@ static froe_status look_from_eye(visibility_search *k, const geom_eye *eye) {
 
 /* ---------------------------------------------------------------------- calling -- */
 
+froe_status view_check_surface(const froe_tree *tree, const froe_surface *surface, froe_diagnostic *diag) {
+    if (surface->scene == tree->scene) return FROE_OK;
+    return support_fail(diag, FROE_E_ARG, "The surface is not of the tree's scene.");
+}
+
 static froe_status check_visibility_options(const froe_tree *tree, const froe_surface *surface,
                                             const froe_visibility_options *o, froe_diagnostic *diag) {
     if (!tree || !surface) return support_fail_null(diag, "froe_visibility_new");
     if (!o || o->size != sizeof *o) return support_fail_defaults(diag, "froe_visibility_defaults");
-    if (surface->scene != tree->scene) return support_fail(diag, FROE_E_ARG, "The surface is not of the tree's scene.");
-    const froe_status settled = tree_settle(tree, diag);
-    if (settled) return settled;
+    froe_status status = view_check_surface(tree, surface, diag);
+    if (!status) status = tree_settle(tree, diag);
+    if (status) return status;
     if (o->section < -1 || o->section > 1)
         return support_fail(diag, FROE_E_OPTIONS, "A section is -1, 0 or 1, not %d.", o->section);
     if (o->section && tree_is_leaf(tree->nodes))

@@ -77,6 +77,8 @@ void view_ray_at(const froe_visibility *v, view_turn at, double out[3]);
 /** The ring of a visible piece. False without memory. */
 bool view_ring_of_visible(const froe_visibility *v, view_sightlines *sights, uint32_t visible, view_ring *out);
 
+/** FROE_E_ARG: it is of another scene. */
+froe_status view_check_surface(const froe_tree *tree, const froe_surface *surface, froe_diagnostic *diag);
 /** The rank of every object within its plane (see froe_visibility_options), object_count + 1 words; to be
  * freed after a failure, too. FROE_E_MEMORY. */
 froe_status view_rank_objects(const froe_allocator *alloc, const froe_surface *surface, const int32_t *priorities,
