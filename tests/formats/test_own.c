@@ -342,6 +342,182 @@ static void what_obj_has_beside_elements_is_passed_over(void **state) {
 }
 
 #define OTHERS "is neither CSV, OFF, OBJ or PLY nor a collection of features in GeoJSON"
+
+/* ------------------------------------------------------------------------- CSV -- */
+
+static void headers_of_csv_say_what_rows_are(void **state) {
+    (void)state;
+    static const struct {
+        const char *path, *text, *format;
+        int dim;
+        size_t objects;
+    } files[] = {
+        {"tabs.tsv", "x\ty\n1\t2\n", "CSV points", 2, 1},
+        {"ends.csv", "from_x,from_y,x,y\n1,2,3,4\n", "CSV points", 2, 1}, /* beside x,y the other columns are none */
+        {"boxes.csv", "from_x,lo_x,lo_y,hi_x,hi_y,r,hull\n9,0,0,1,1,q,q\n", "CSV boxes", 2, 1},
+        {"eight.csv",
+         "lo_x1,lo_x2,lo_x3,lo_x4,lo_x5,lo_x6,lo_x7,lo_x8,hi_x1,hi_x2,hi_x3,hi_x4,hi_x5,hi_x6,hi_x7,hi_x8\n"
+         "0,0,0,0,0,0,0,0,1,1,1,1,1,1,1,1\n",
+         "CSV boxes", 8, 1},
+        {"blank.csv", "x,y\n1,2\n \t\n\r\n3,4\n  ", "CSV points", 2, 2},
+    };
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        froe_read_report report;
+        write_text(files[i].path, files[i].text);
+        froe_scene *scene = read_scene(files[i].path, &report);
+        assert_string_equal(report.format, files[i].format);
+        assert_int_equal(froe_scene_dim(scene), files[i].dim);
+        assert_int_equal(froe_scene_object_count(scene), files[i].objects);
+        froe_scene_free(scene);
+    }
+    write_text("names.csv", "x,y,name,name\n1,2,first,second\n"); /* the first column of that name counts */
+    froe_scene *scene = read_scene("names.csv", NULL);
+    assert_string_equal(froe_scene_group(scene, froe_scene_object(scene, 0).group).name, "first");
+    froe_scene_free(scene);
+}
+
+static void broken_csv_is_refused_with_its_row(void **state) {
+    (void)state;
+    static const struct {
+        const char *text;
+        froe_status status;
+        const char *words;
+    } files[] = {
+        {"x,y,x\n1,2,3\n", FROE_E_FORMAT, "The header names x, y, x."},
+        {"x,z\n1,2\n", FROE_E_FORMAT, "The header names x, z."},
+        {"lo_x,lo_y,hi_x,hi_z\n1,2,3,4\n", FROE_E_FORMAT, "of the same two or more axes"},
+        {"lo_x,hi_x,WKT\n1,2,POINT (1 2)\n", FROE_E_UNSUPPORTED, "other.csv"},
+        {"x,y,tag\n1,2,12a\n", FROE_E_FORMAT, "row 1: The tag '12a' is not a whole number"},
+        {"x,y,tag\n1,2,-1\n", FROE_E_FORMAT, "row 1: The tag '-1' is not a whole number"},
+        {"x,y\n1,2\n ,3\n", FROE_E_FORMAT, "row 2: A coordinate is missing."},
+        {"x,y,r\nnan,0,1\n", FROE_E_INPUT, "row 1: Coordinate x of corner 0 is nan"},
+        {"x,y,r\n-1.7e308,0,1e308\n", FROE_E_INPUT, "row 1: It reaches beyond the range of doubles."},
+        {"x,y,r\n1.7e308,0,1e308\n", FROE_E_INPUT, "row 1: It reaches beyond the range of doubles."},
+        {"hull,x,y\n1,inf,0\n1,1,1\n2,0,0\n", FROE_E_INPUT, "row 1: Coordinate x of corner 0 is inf"},
+        {"x,y\n", FROE_E_INPUT, "no objects"},
+    };
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        write_text("other.csv", files[i].text);
+        refuse("other.csv", files[i].status, files[i].words);
+    }
+    static const char zero[] = "x,\0y\n1,2\n";
+    write_bytes("other.csv", zero, sizeof zero - 1);
+    refuse("other.csv", FROE_E_FORMAT, "byte 2 is zero");
+}
+
+typedef struct batches {
+    size_t objects, count;
+    double sum;
+    froe_status status; /* of the function */
+} batches;
+
+static froe_status take_batch(void *user, int dim, const froe_objects *batch, froe_diagnostic *diag) {
+    batches *b = user;
+    assert_true(batch->kind == FROE_POINT && dim == 2);
+    for (size_t i = 0; i < 2 * batch->count; i++) b->sum += batch->coords[i];
+    b->objects += batch->count, b->count++;
+    if (b->status && diag) snprintf(diag->message, sizeof diag->message, "Enough.");
+    return b->status;
+}
+
+/* A file of more than 4 MB, behind a mark, is given back page by page while it is read. */
+static void rows_come_in_batches(void **state) {
+    const int rows = 150000;
+    (void)state;
+    froe_diagnostic why = {.message = ""};
+    batches b = {.objects = 0};
+    FILE *file = fopen("large.csv", "w");
+    assert_non_null(file);
+    fputs("\xef\xbb\xbfx,y\n", file);
+    for (int i = 0; i < rows; i++) fprintf(file, "%d.0000000000000000000,%d.00000000\n", i, -2 * i);
+    assert_int_equal(fclose(file), 0);
+    if (froe_read_batches("large.csv", NULL, take_batch, &b, NULL, &why)) fail_msg("%s", why.message);
+    assert_true(b.objects == (size_t)rows && b.sum == -(rows - 1.0) * rows / 2);
+    b = (batches){.status = FROE_E_CANCELLED};
+    assert_int_equal(froe_read_batches("large.csv", NULL, take_batch, &b, NULL, &why), FROE_E_CANCELLED);
+    assert_string_equal(why.message, "Enough.");
+    assert_int_equal(froe_read_batches("large.csv", NULL, take_batch, &b, NULL, NULL), FROE_E_CANCELLED);
+    assert_int_equal(b.count, 2);
+    static const struct {
+        const char *text;
+        froe_status status;
+        const char *words;
+    } others[] = {
+        {"x,y,name\n1,2,a\n", FROE_E_UNSUPPORTED, "The rows name groups"},
+        {"x", FROE_E_FORMAT, "The header names x."},
+        {"x,y\n1,2\n3,\"4\n", FROE_E_FORMAT, "line 3: A quotation mark is not closed."},
+        {"x,y\n", FROE_E_INPUT, "no objects"},
+    };
+    b.status = FROE_OK;
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
+        write_text("other.csv", others[i].text);
+        assert_int_equal(froe_read_batches("other.csv", NULL, take_batch, &b, NULL, &why), others[i].status);
+        if (!strstr(why.message, others[i].words)) fail_msg("%s", why.message);
+    }
+    static const char zero[] = "x,y\n1,2\n\0003,4\n";
+    write_bytes("other.csv", zero, sizeof zero - 1);
+    assert_int_equal(froe_read_batches("other.csv", NULL, take_batch, &b, NULL, &why), FROE_E_FORMAT);
+    assert_non_null(strstr(why.message, "zero"));
+}
+
+/* --------------------------------------------------------------------- GeoJSON -- */
+
+#define COLLECTION(members, features) "{\"type\":\"FeatureCollection\"," members "\"features\":[" features "]}"
+#define FEATURE(members, properties, geometry)                                                                         \
+    "{\"type\":\"Feature\"," members "\"properties\":{" properties "},\"geometry\":{" geometry "}}"
+#define POINT "\"type\":\"Point\",\"coordinates\":[1,2]"
+
+static void geojson_that_is_not_plain_is_refused(void **state) {
+    (void)state;
+    static const char *const texts[] = {
+        COLLECTION("\"crs\":null,\"crs\":null,", FEATURE("", "", POINT)),
+        COLLECTION("\"CRS\":null,", FEATURE("", "", POINT)),
+        COLLECTION("\"crs\":{\"type\":\"name\"},", FEATURE("", "", POINT)),
+        COLLECTION("\"\\u0078\":null,", FEATURE("", "", POINT)),
+        COLLECTION("\"other\":-x,", FEATURE("", "", POINT)),
+        COLLECTION("\"type\":\"FeatureCollection\",", FEATURE("", "", POINT)),
+        COLLECTION("", FEATURE("\"id\":1,\"id\":1,", "", POINT)),
+        COLLECTION("", FEATURE("\"id\":-1,", "", POINT)),
+        COLLECTION("", FEATURE("\"id\":1234567890123456789,", "", POINT)),
+        COLLECTION("", FEATURE("", "\"name\":\"-5-6\"", POINT)),
+        COLLECTION("", FEATURE("", "\"name\":\"+5:6\"", POINT)),
+        COLLECTION("", FEATURE("", "", "\"type\":\"Point\",\"coordinates\":[1e999,2]")),
+        COLLECTION("", FEATURE("", "", POINT ",\"bbox\":[1,")),
+        COLLECTION("", FEATURE("", "", "\"type\":\"GeometryCollection\",\"geometries\":[],\"geometries\":[]")),
+        COLLECTION("", FEATURE("", "", "\"type\":\"GeometryCollection\",\"geometries\":[],\"coordinates\":[1,2]")),
+        COLLECTION("", FEATURE("", "", "\"type\":\"GeometryCollection\",\"geometries\":[1]")),
+        COLLECTION("", FEATURE("", "", POINT)) " x",
+    };
+    char text[8000], deep[4001];
+    memset(deep, '[', 4000), deep[4000] = 0;
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        write_text("other.geojson", texts[i]);
+        refuse("other.geojson", FROE_E_UNSUPPORTED, "other.geojson: line 1: ");
+    }
+    snprintf(text, sizeof text, COLLECTION("\"deep\":%s,", ""), deep);
+    write_text("other.geojson", text);
+    refuse("other.geojson", FROE_E_UNSUPPORTED, "not plain GeoJSON");
+    memset(deep, 'a', 4000);
+    snprintf(text, sizeof text, COLLECTION("\"long\":\"%s\",\"crs\":null,", FEATURE("", "", POINT)), deep);
+    write_text("other.geojson", text); /* GDAL does not find it there */
+    refuse("other.geojson", FROE_E_UNSUPPORTED, "Other coordinate systems");
+    snprintf(text, sizeof text, COLLECTION("\"long\":\"%s\",\"more\":\"%.2000s\",", FEATURE("", "", POINT)), deep,
+             deep);
+    write_text("other.geojson", text);
+    refuse("other.geojson", FROE_E_UNSUPPORTED, "not plain GeoJSON");
+}
+
+/* Members whose names begin like known ones are others; a number as an id and as a property counts once. */
+static void geojson_has_other_members_too(void **state) {
+    (void)state;
+    write_text("more.geojson",
+               COLLECTION("\"featured\":1,", FEATURE("\"typed\":true,\"id\":7,", "\"names\":1,\"id\":3", POINT)));
+    froe_scene *scene = read_scene("more.geojson", NULL);
+    assert_int_equal(froe_scene_object_count(scene), 1);
+    assert_int_equal(froe_scene_object(scene, 0).tag, 7);
+    froe_scene_free(scene);
+}
+
 static void other_formats_are_refused(void **state) {
     (void)state;
     static const struct {
@@ -351,6 +527,8 @@ static void other_formats_are_refused(void **state) {
         {"wkt.csv", "name,WKT\na,POINT (1 2)\n", OTHERS},
         {"other.stl", "solid a\nendsolid a\n", OTHERS},
         {"other.mfjson", "{}", "holds moving features"},
+        {"other.json", "{\"temporalGeometry\":{}}", "holds moving features"},
+        {"other.json", "{\"type\":\"MovingLineString\"}", "holds moving features"},
     };
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         write_text(files[i].path, files[i].text);
@@ -394,6 +572,11 @@ int main(void) {
         cmocka_unit_test(blanks_and_rests_of_off_are_passed_over),
         cmocka_unit_test(broken_obj_is_refused_with_its_line),
         cmocka_unit_test(what_obj_has_beside_elements_is_passed_over),
+        cmocka_unit_test(headers_of_csv_say_what_rows_are),
+        cmocka_unit_test(broken_csv_is_refused_with_its_row),
+        cmocka_unit_test(rows_come_in_batches),
+        cmocka_unit_test(geojson_that_is_not_plain_is_refused),
+        cmocka_unit_test(geojson_has_other_members_too),
         cmocka_unit_test(other_formats_are_refused),
         cmocka_unit_test(what_cannot_be_read_is_refused),
     };
