@@ -35,11 +35,13 @@ static double share_of(const formats_animation *a, double time) {
 
 static layout lay_out(formats_writer *w, const formats_animation *a) {
     layout s = {.w = w, .a = a, .width = a->options.width, .scale = 1};
-    const double across = a->hi[0] - a->lo[0], up = a->hi[1] - a->lo[1], room = s.width - LEFT - RIM;
-    const double scale = fmin(across > 0 ? room / across : HUGE_VAL, up > 0 ? 1.2 * s.width / up : HUGE_VAL);
-    if (scale > 0 && isfinite(scale)) s.scale = scale; /* else no extent, or one beyond doubles */
-    s.height = ceil(fmin(fmax(up * s.scale, 40), 1.2 * s.width)) + RIM + AXIS;
-    s.x0 = LEFT + 0.5 * room - s.scale * (0.5 * a->lo[0] + 0.5 * a->hi[0]);
+    const double room = 0.5 * (s.width - LEFT - RIM),
+                 most = 0.6 * s.width; /* halves: whole extents may be no doubles */
+    const double across = 0.5 * a->hi[0] - 0.5 * a->lo[0], up = 0.5 * a->hi[1] - 0.5 * a->lo[1];
+    const double scale = fmin(across > 0 ? room / across : HUGE_VAL, up > 0 ? most / up : HUGE_VAL);
+    if (isfinite(scale)) s.scale = scale; /* else no extent, or hardly any */
+    s.height = ceil(2 * fmin(fmax(up * s.scale, 20), most)) + RIM + AXIS;
+    s.x0 = LEFT + room - s.scale * (0.5 * a->lo[0] + 0.5 * a->hi[0]);
     s.y0 = RIM + 0.5 * (s.height - RIM - AXIS) + s.scale * (0.5 * a->lo[1] + 0.5 * a->hi[1]);
     return s;
 }

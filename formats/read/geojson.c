@@ -200,18 +200,14 @@ static froe_status read_crs(geojson *g, const char *name) {
         quoted ^= *value == '"';
         if (*value != usual[length++]) break;
     }
-    return value == g->at && !usual[length] ? FROE_OK
-                                            : odd(g, "Other coordinate systems than WGS 84 are left to GDAL.");
+    return value == g->at ? FROE_OK : odd(g, "Other coordinate systems than WGS 84 are left to GDAL.");
 }
 
-/* A member of the collection. */
-static froe_status read_root_member(geojson *g, formats_scan_text *name, bool *typed, bool *filled) {
+/* A member of the collection behind the first, which is its type: formats_is_collection(). */
+static froe_status read_root_member(geojson *g, formats_scan_text *name, bool *filled) {
     formats_scan_text text;
     if (is_like(name, "type")) {
-        if (*typed || !formats_scan_is(name, "type") || !formats_scan_string(&g->at, &text) ||
-            !formats_scan_is(&text, "FeatureCollection"))
-            return odd_text(g);
-        *typed = true;
+        return odd_text(g);
     } else if (is_like(name, "features")) {
         if (*filled || !formats_scan_is(name, "features")) return odd_text(g);
         if (g->filled != name->text - 1) return odd_text(g); /* GDAL looks for the word alone */
@@ -247,15 +243,14 @@ static bool look_at_head(geojson *g) {
 static froe_status read_collection(geojson *g) {
     formats_scan_text name;
     formats_scan_step step;
-    bool typed = false, filled = false;
+    bool filled = false;
     if (!look_at_head(g) || !formats_scan_byte(&g->at, '{')) return odd_text(g);
     for (bool first = true; (step = formats_scan_member(&g->at, first, &name)) == FORMATS_SCAN_MORE; first = false) {
-        const froe_status status = read_root_member(g, &name, &typed, &filled);
+        const froe_status status = first && formats_scan_skip(&g->at) ? FROE_OK : read_root_member(g, &name, &filled);
         if (status) return status;
     }
     formats_scan_blanks(&g->at);
-    if (step == FORMATS_SCAN_ODD || !typed || !filled || g->heads || g->at != g->text.data + g->text.count)
-        return odd_text(g);
+    if (step == FORMATS_SCAN_ODD || !filled || g->heads || g->at != g->text.data + g->text.count) return odd_text(g);
     if (!geojson_names_right(&g->names)) return odd(g, "All names of features may be dates, which are left to GDAL.");
     return g->refused;
 }
@@ -282,7 +277,7 @@ static froe_status name_layer(geojson *g, formats_text *name) {
     const char *begin = slash > backslash ? slash : backslash;
     begin = begin ? begin + 1 : g->source->file;
     const char *dot = strrchr(begin, '.');
-    const size_t length = dot && dot > begin ? (size_t)(dot - begin) : strlen(begin);
+    const size_t length = dot > begin ? (size_t)(dot - begin) : strlen(begin);
     if (!array_append(&g->sink->alloc, name, begin, length) || !array_push(&g->sink->alloc, name, '\0'))
         return support_fail_memory(g->sink->diag);
     g->layer = name->data;

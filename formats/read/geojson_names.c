@@ -33,8 +33,8 @@ static bool read_value(char **at, geojson_value *out) {
     out->kind = GEOJSON_WHOLE;
     out->number = 0;
     const char *const digits = first + (*first == '-');
-    for (const char *c = digits; c < *at; c++) { /* at most 18 of them, which an integer holds */
-        if ((unsigned char)(*c - '0') >= 10 || c - digits == 18) return false;
+    for (const char *c = digits; c < *at; c++) { /* the scanner takes 18 of them, which an integer holds */
+        if ((unsigned char)(*c - '0') >= 10) return false;
         out->number = 10 * out->number + (*c - '0');
     }
     if (*first == '-') out->number = -out->number;
@@ -49,7 +49,7 @@ static bool may_be_date(const char *text) {
 
 bool geojson_read_id(char **at, geojson_feature *feature) {
     geojson_value *id = &feature->id;
-    return id->kind == GEOJSON_ABSENT && read_value(at, id) && !(id->kind == GEOJSON_WHOLE && id->number < 0);
+    return read_value(at, id) && !(id->kind == GEOJSON_WHOLE && id->number < 0);
 }
 
 bool geojson_read_properties(char **at, geojson_names *names, geojson_feature *feature) {

@@ -808,6 +808,36 @@ static void pictures_of_odd_motions_are_numbers(void **state) {
     }
 }
 
+/* A segment that stands, of any extent, anywhere: on the page its ends are two numbers each, of few digits. */
+static void pictures_of_any_extent_have_places(void **state) {
+    (void)state;
+    static const double ends[][4] = {
+        {1, 2, 1, 5},
+        {1, 2, 4, 2},
+        {-1.7e308, -1.7e308, 1.7e308, 1.7e308},
+        {0, -1.7e308, 1, 1.7e308},
+        {0, 0, 1e-320, 2e-320},
+        {1e17, 0, 1e17 + 16, 1},
+        {1e308, -1e308, 1.7e308, 1.7e308},
+    };
+    static const size_t starts[] = {0, 1, 2};
+    static const double times[] = {0, 0};
+    for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) {
+        froe_moving b = froe_moving_defaults();
+        froe_motion *m = make_motion(2, 9);
+        b.vertex_count = 2, b.count = 1, b.starts = starts, b.times = times, b.coords = ends[i];
+        assert_int_equal(froe_motion_add(m, &b, NULL), FROE_OK);
+        assert_int_equal(froe_animate(m, NULL, 0, NULL, "wide.svg", NULL), FROE_OK);
+        assert_false(is_in_file("wide.svg", "nan") || is_in_file("wide.svg", "inf\""));
+        double at[4] = {-1, -1, -1, -1};
+        assert_int_equal(sscanf(part_of_file("wide.svg", "class=\"still\" d=\"", '>'),
+                                "class=\"still\" d=\"M%lf %lfL%lf %lf\"", at, at + 1, at + 2, at + 3),
+                         4);
+        for (int k = 0; k < 4; k++) assert_true(at[k] >= 0 && at[k] <= 1200);
+        froe_motion_free(m);
+    }
+}
+
 static void real_cars_are_read_unrounded(void **state) {
     (void)state;
     froe_motion *m = NULL;
@@ -921,6 +951,7 @@ int main(void) {
         cmocka_unit_test(features_end_where_lives_do),
         cmocka_unit_test(pictures_and_tables_refuse_what_they_cannot_show),
         cmocka_unit_test(pictures_of_odd_motions_are_numbers),
+        cmocka_unit_test(pictures_of_any_extent_have_places),
         cmocka_unit_test(real_cars_are_read_unrounded),
         cmocka_unit_test(events_are_a_file_when_all_are_there),
         cmocka_unit_test(every_allocation_may_fail),

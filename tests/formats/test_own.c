@@ -341,7 +341,6 @@ static void what_obj_has_beside_elements_is_passed_over(void **state) {
     froe_scene_free(scene);
 }
 
-#define OTHERS "is neither CSV, OFF, OBJ or PLY nor a collection of features in GeoJSON"
 
 /* ------------------------------------------------------------------------- CSV -- */
 
@@ -516,8 +515,14 @@ static void geojson_has_other_members_too(void **state) {
     assert_int_equal(froe_scene_object_count(scene), 1);
     assert_int_equal(froe_scene_object(scene, 0).tag, 7);
     froe_scene_free(scene);
+    write_text(".geojson", COLLECTION("", FEATURE("\"id\":5,", "", POINT) "," FEATURE("", "\"id\":3", POINT)));
+    scene = read_scene(".geojson", NULL); /* where features have numbers, properties are none */
+    assert_int_equal(froe_scene_object(scene, 0).tag, 5);
+    assert_int_equal(froe_scene_object(scene, 1).tag, 0);
+    froe_scene_free(scene);
 }
 
+#define OTHERS "is neither CSV, OFF, OBJ or PLY nor a collection of features in GeoJSON"
 static void other_formats_are_refused(void **state) {
     (void)state;
     static const struct {

@@ -135,6 +135,9 @@ static void what_is_wrong_is_said_with_line_or_part(void **state) {
         const char *text, *message;
         froe_status status;
     } bad[] = {
+        {"body,time,x,y,z\nlid,0,0,0,\"0\n", "poses.csv: line 2: A quotation mark is not closed.", FROE_E_FORMAT},
+        {"body,time,x,y,z\nlid,0,0,0,0,9\n", "poses.csv: line 2: The row has 6 columns, and the header 5.",
+         FROE_E_FORMAT},
         {"body,time,x,y\n", "poses.csv: The table of poses has no column 'z'.", FROE_E_FORMAT},
         {"body,time,x,y,z,qx,qy,qz\n", "poses.csv: The table of poses has no column 'qw'.", FROE_E_FORMAT},
         {"body,time,x,y,z\n", "poses.csv: There are no poses.", FROE_E_INPUT},
@@ -162,6 +165,11 @@ static void what_is_wrong_is_said_with_line_or_part(void **state) {
     froe_scene_free(model);
     froe_diagnostic diag;
     froe_motion *m = NULL;
+    put("body,time,x,y,z\nlid,0,0,0,0\n"); /* without groups there are no parts */
+    assert_int_equal(froe_scene_new(3, NULL, &model), FROE_OK);
+    assert_int_equal(froe_read_poses("poses.csv", model, NULL, &m, NULL, &diag), FROE_E_INPUT);
+    assert_string_equal(diag.message, "poses.csv: line 2: The model has no part 'lid'.");
+    froe_scene_free(model);
     assert_int_equal(froe_scene_new(4, NULL, &model), FROE_OK);
     assert_int_equal(froe_read_poses("poses.csv", model, NULL, &m, NULL, &diag), FROE_E_UNSUPPORTED);
     assert_string_equal(diag.message, "poses.csv: The model is not of the plane or of space.");
