@@ -118,6 +118,33 @@ static void sections_are_lines(void **state) {
     froe_tree_free(tree);
 }
 
+/* Two walls are seen edge-on and cut from corner to corner, and two are only touched. Nearer, both are beside the page. */
+static void sections_from_corner_to_corner_are_lines(void **state) {
+    (void)state;
+    const double plane[4] = {0, -3, 1, 0};
+    froe_tree *whole = box(), *tree = section_of(whole, plane);
+    for (int near = 0; near < 2; near++) {
+        double length = 0;
+        page p;
+        open_page(&p, tree);
+        p.section = plane;
+        p.options.section = -1;
+        p.options.lines = FROE_LINE_SECTION;
+        p.options.hidden = near;
+        look_from(&p, 0, 0, 1, near ? 200 : 10);
+        check_view(&p, 20, 1);
+        for (size_t i = 0; i < froe_picture_stroke_count(p.picture); i++) {
+            const froe_stroke s = froe_picture_stroke(p.picture, i);
+            length += length_of(&s);
+        }
+        assert_true(fabs(length - (near ? 0 : 200)) < 1e-6);
+        froe_picture_free(p.picture);
+        close_page(&p);
+    }
+    froe_tree_free(tree);
+    froe_tree_free(whole);
+}
+
 static void a_section_outlives_the_file_it_comes_from(void **state) {
     (void)state;
     const double plane[4] = {1, 1, 0, 7};
@@ -237,6 +264,7 @@ int main(void) {
         cmocka_unit_test(what_is_left_is_seen),
         cmocka_unit_test(one_sees_through_what_is_left),
         cmocka_unit_test(sections_are_lines),
+        cmocka_unit_test(sections_from_corner_to_corner_are_lines),
         cmocka_unit_test(a_section_outlives_the_file_it_comes_from),
         cmocka_unit_test(sections_of_degenerate_scenes_keep_their_promises),
         cmocka_unit_test(bad_sections_are_refused),

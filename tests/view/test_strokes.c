@@ -210,11 +210,63 @@ static void lines_do_not_depend_on_the_tree(void **state) {
     assert_true(strokes > 10 && points > 5 * strokes);
 }
 
+/* Strips side by side, up and down in turn, of these groups; kinds of the edges between them, as they are drawn. */
+static void kinds_of_edges_follow_groups_and_angles(void **state) {
+    enum { STRIPS = 6 };
+    (void)state;
+    static const froe_group groups[STRIPS] = {
+        {.name = "none"}, /* the first strip is of no group */
+        {.name = "wall", .material = "brick", .colour = 1},
+        {.name = "wall", .material = "brick", .colour = 1},
+        {.name = "wall", .material = "brick", .colour = 2},
+        {.name = "wall", .material = "wood", .colour = 2},
+        {.name = "door", .material = "wood", .colour = 2},
+    };
+    static const froe_line rest = (froe_line)0; /* a crease or a line of the mesh, by the angle */
+    const froe_line expected[STRIPS] = {rest, FROE_LINE_OBJECT,   FROE_LINE_OBJECT,
+                                        rest, FROE_LINE_MATERIAL, FROE_LINE_OBJECT};
+    const size_t starts[2] = {0, 4};
+    froe_scene *scene;
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    for (uint32_t i = 0; i < STRIPS; i++) {
+        const double x = i, z = i % 2 * 0.5, strip[12] = {x, 0, z, x + 1, 0, 0.5 - z, x + 1, 1, 0.5 - z, x, 1, z};
+        froe_objects o = froe_objects_defaults();
+        uint32_t id;
+        assert_int_equal(froe_scene_add_group(scene, groups + i, &id), FROE_OK);
+        o.count = 1, o.coords = strip, o.starts = starts, o.group = i ? id : FROE_NONE;
+        assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
+    }
+    froe_tree *tree = tree_of(scene, "density", 1);
+    static const double creases[] = {0, 30, 180};
+    for (int i = 0; i < 6; i++) { /* from above, and from beside, where every second strip is seen from behind */
+        froe_picture_options o = froe_picture_defaults();
+        froe_camera camera = froe_camera_defaults();
+        o.lines = FROE_LINE_OBJECT | FROE_LINE_MATERIAL | FROE_LINE_CREASE | FROE_LINE_MESH;
+        o.crease = creases[i % 3], o.hidden = true;
+        camera.parallel = true;
+        camera.eye[0] = i / 3 ? 3 : 0, camera.eye[1] = -0.3, camera.eye[2] = 1;
+        sight s = look_by(tree, &camera, &o);
+        uint32_t found = 0;
+        for (size_t k = 0; k < froe_picture_stroke_count(s.picture); k++) {
+            const froe_stroke line = froe_picture_stroke(s.picture, k);
+            const uint32_t edge = (uint32_t)line.space[0];
+            const uint32_t by_angle = creases[i % 3] < 180 ? FROE_LINE_CREASE : FROE_LINE_MESH;
+            assert_true(edge > 0 && edge < STRIPS && line.space[0] == line.space[3]);
+            assert_int_equal(line.kind, expected[edge] ? expected[edge] : by_angle);
+            found |= 1u << edge;
+        }
+        assert_int_equal(found, (1u << STRIPS) - 2);
+        close_sight(&s);
+    }
+    froe_tree_free(tree);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lines_lie_on_the_objects_that_they_name),
         cmocka_unit_test(lines_of_objects_apart_are_the_same_lines),
         cmocka_unit_test(lines_do_not_depend_on_the_tree),
+        cmocka_unit_test(kinds_of_edges_follow_groups_and_angles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
