@@ -341,7 +341,6 @@ static void what_obj_has_beside_elements_is_passed_over(void **state) {
     froe_scene_free(scene);
 }
 
-
 /* ------------------------------------------------------------------------- CSV -- */
 
 static void headers_of_csv_say_what_rows_are(void **state) {

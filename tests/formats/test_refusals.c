@@ -139,8 +139,8 @@ static void instants_are_checked(void **state) {
     }
 }
 
-/* Of two segments one lives from 0 to 1 and the other from 2 to 3: at their last instants they are gone, but for the end
- * of the window. In between nothing is there. */
+/* Of two segments one lives from 0 to 1 and the other from 2 to 3: at their last instants they are gone, but for the
+ * end of the window. In between nothing is there. */
 static void what_has_died_is_gone(void **state) {
     (void)state;
     static const struct {

@@ -41,8 +41,8 @@ static inline void *tree_file_at(const tree_file *f, uint32_t id) {
     return f->bytes + tree_file_section(f, id).offset;
 }
 
-/** The same tree, opened from its file, in which a corner names no vertex: that is found by the first call that looks at
- * all of it. *f outlives the tree. */
+/** The same tree, opened from its file, in which a corner names no vertex: that is found by the first call that looks
+ * at all of it. *f outlives the tree. */
 static inline froe_tree *tree_file_damaged(froe_tree *tree, tree_file *f) {
     froe_tree *opened;
     *f = tree_file_of(tree);

@@ -1,5 +1,5 @@
-/* test_refusals.c: calls about views with arguments that are none: a status with a sentence. What is read beyond the end
- * is nothing. */
+/* test_refusals.c: calls about views with arguments that are none: a status with a sentence. What is read beyond the
+ * end is nothing. */
 #include "../tree/trees.h"
 #include "support/tree_file.h"
 #include <froe/view.h>

@@ -118,7 +118,8 @@ static void sections_are_lines(void **state) {
     froe_tree_free(tree);
 }
 
-/* Two walls are seen edge-on and cut from corner to corner, and two are only touched. Nearer, both are beside the page. */
+/* Two walls are seen edge-on and cut from corner to corner, and two are only touched. Nearer, both are beside
+ * the page. */
 static void sections_from_corner_to_corner_are_lines(void **state) {
     (void)state;
     const double plane[4] = {0, -3, 1, 0};
