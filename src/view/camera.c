@@ -115,20 +115,22 @@ static bool fit_points_new(const froe_camera *c, const froe_scene *scene, fit_po
     return true;
 }
 
-/* The distance from which the angle of view takes in every point. */
+/* The distance from which the angle of view takes in every point, and the nearest one is not too near to be drawn; 0:
+ * all are in one place. */
 static double distance_for(const froe_projection *view, const froe_camera *c, const fit_points *points,
                            const double *aim) {
     const double most_y = view_tan(c->fov / 2),
                  most_x = most_y * (c->width - 2 * c->margin) / (c->height - 2 * c->margin);
-    double distance = 0;
+    double distance = 0, nearest = 0;
     for (size_t i = 0; i < points->count; i++) {
         double w[3];
         for (int k = 0; k < 3; k++) w[k] = points->at[3 * i + (size_t)k] - aim[k];
         const double out = support_dot(w, view->back);
+        nearest = fmax(nearest, out);
         distance = fmax(distance, out + fabs(support_dot(w, view->right)) / most_x);
         distance = fmax(distance, out + fabs(support_dot(w, view->up)) / most_y);
     }
-    return distance;
+    return distance > 0 ? fmax(distance, nearest + 2 * view->near) : 0;
 }
 
 /* Scale (unless it is given) and centre, so that the scene fills the page within its margin. */
@@ -191,6 +193,7 @@ static froe_status put_in_place(const froe_camera *camera, const froe_scene *sce
                             "its coordinates by a power of two.",
                             extent);
     double distance = extent;
+    view.near = 1e-6 * extent;
     for (int k = 0; k < 3; k++) {
         const double middle = scene->object_count ? 0.5 * scene->lo[k] + 0.5 * scene->hi[k] : 0;
         view.origin[k] = camera->fit ? middle : camera->parallel ? camera->target[k] : camera->eye[k];
@@ -201,7 +204,6 @@ static froe_status put_in_place(const froe_camera *camera, const froe_scene *sce
         for (int k = 0; k < 3; k++) view.origin[k] += distance * view.back[k];
     }
     memcpy(view.eye.at, camera->parallel ? view.back : view.origin, sizeof view.eye.at);
-    view.near = 1e-6 * extent;
     view.centre[0] = 0.5 * camera->width, view.centre[1] = 0.5 * camera->height;
     if (camera->fit || (camera->parallel && !(camera->scale > 0)))
         status = fill_page(camera, points, &view, diag);

@@ -75,6 +75,39 @@ static void cameras_are_checked(void **state) {
     close_stage(&s);
 }
 
+/* A spire from above: its top, in the middle, is nearest to the eye, and its base does not keep the eye away. So it is
+ * with a segment along the line of view; a point is seen from as far as its scene would be wide. */
+static void what_points_at_the_eye_is_before_it(void **state) {
+    (void)state;
+    static const double spire[] = {-1, -1, 0, 1, -1, 0, 0, 0, 10, 1, 1, 0, -1, 1, 0, 0, 0, 10};
+    static const double segment[] = {0, 0, 0, 0, 0, 10}, point[] = {0, 0, 5};
+    static const struct {
+        froe_kind kind;
+        size_t count, corners;
+        const double *coords;
+        double least, most; /* of the height of the eye */
+    } cases[] = {{FROE_POLYGON, 2, 6, spire, 10, 10.001},
+                 {FROE_SEGMENT, 1, 2, segment, 10, 10.001},
+                 {FROE_POINT, 1, 1, point, 6, 6}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        froe_scene *scene;
+        froe_projection view;
+        froe_camera c = froe_camera_defaults();
+        assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+        assert_int_equal(trees_add(scene, cases[i].kind, cases[i].count, cases[i].coords, NULL, NULL), FROE_OK);
+        c.eye[0] = c.eye[1] = 0, c.eye[2] = 1;
+        if (froe_camera_place(&c, scene, &view, &why)) fail_msg("%s", why.message);
+        assert_true(view.eye.at[2] >= cases[i].least && view.eye.at[2] <= cases[i].most);
+        for (size_t k = 0; k < cases[i].corners; k++) { /* all of it is on the page */
+            double page[2];
+            assert_true(cases[i].coords[3 * k + 2] < view.eye.at[2] - view.near);
+            assert_true(froe_project(&view, cases[i].coords + 3 * k, page));
+            assert_true(fabs(page[0] - 500) <= 480.001 && fabs(page[1] - 500) <= 480.001);
+        }
+        froe_scene_free(scene);
+    }
+}
+
 static void scenes_beyond_doubles_have_no_camera(void **state) {
     (void)state;
     static const double coords[] = {-1.5e308, 0, 0, 1.5e308, 0, 0, 0, 1, 0};
@@ -384,6 +417,7 @@ static void damaged_files_are_noticed_by_every_call(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cameras_are_checked),
+        cmocka_unit_test(what_points_at_the_eye_is_before_it),
         cmocka_unit_test(scenes_beyond_doubles_have_no_camera),
         cmocka_unit_test(turntables_are_checked),
         cmocka_unit_test(orders_are_checked),
