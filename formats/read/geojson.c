@@ -277,7 +277,7 @@ static froe_status name_layer(geojson *g, formats_text *name) {
     const char *begin = slash > backslash ? slash : backslash;
     begin = begin ? begin + 1 : g->source->file;
     const char *dot = strrchr(begin, '.');
-    const size_t length = dot > begin ? (size_t)(dot - begin) : strlen(begin);
+    const size_t length = dot && dot > begin ? (size_t)(dot - begin) : strlen(begin);
     if (!array_append(&g->sink->alloc, name, begin, length) || !array_push(&g->sink->alloc, name, '\0'))
         return support_fail_memory(g->sink->diag);
     g->layer = name->data;
