@@ -41,11 +41,8 @@ function(froe_test area name)
   math(EXPR limit "30 * ${slower} * ${seconds}")
   set(counts "") # which branches this test takes: scripts/coverage
   if(FROE_COVERAGE)
-    set(each %m) # all programs of a test are one file; where they limit their own memory, each is one
-    if("${area}/${name}" MATCHES "^cli/(limits|malicious)$")
-      set(each %p)
-    endif()
-    set(counts ";LLVM_PROFILE_FILE=set:${PROJECT_BINARY_DIR}/counts/${area}-${name}-${each}.profraw")
+    # All programs of a test share a file, which they map (%c): what is killed leaves its counts, too.
+    set(counts ";LLVM_PROFILE_FILE=set:${PROJECT_BINARY_DIR}/counts/${area}-${name}-%c%m.profraw")
   endif()
   add_test(NAME ${area}/${name} COMMAND ${ARGN} WORKING_DIRECTORY ${scratch})
   set_tests_properties(${area}/${name} PROPERTIES LABELS ${area} TIMEOUT ${limit} ${first}
@@ -125,6 +122,9 @@ endforeach()
 if(TARGET test_cli_plot) # figures are part of the program, which tests run otherwise
   target_sources(test_cli_plot PRIVATE cli/report/plot.c cli/report/axis.c)
   target_include_directories(test_cli_plot PRIVATE cli)
+  if(FROE_COVERAGE)
+    target_compile_options(test_cli_plot PRIVATE ${coverage_flags})
+  endif()
 endif()
 
 # Decisions that are checked over and over (make soak); of each kind one block is a test.
