@@ -11,7 +11,9 @@ typedef ARRAY(unsigned char) byte_array;
 static bool take(void *user, const void *bytes, size_t count) {
     const froe_allocator alloc = support_allocator(NULL);
     byte_array *all = user;
-    return array_append(&alloc, all, bytes, count);
+    if (array_append(&alloc, all, bytes, count)) return true;
+    (void)cli_report_lose(); /* the library calls it a failure to write */
+    return false;
 }
 
 static json_t *base64_json(const unsigned char *bytes, size_t count) {

@@ -45,6 +45,7 @@ static const char *const scenes[] = {
     "generate moving-polygons -n 5 -o m.mfjson",
     "generate segments -n 2000 --seed 2 -o t.geojson",
     "build s.geojson --shards 3 -o f.froes",
+    "generate moving-boxes -n 2 -o w.mfjson",
 };
 
 static const run_case cases[] = {
@@ -55,7 +56,7 @@ static const run_case cases[] = {
     {"measure h.off --draw out.svg --quiet", "out.svg", LINKED},
     {"compare s.geojson --methods kd,index --queries 1 --halvings 0 --no-times -o out.html --quiet", "out.html",
      LINKED},
-    {"compare s.geojson --methods kd --queries 1 --halvings 0 --no-times --csv out.csv --quiet", "out.csv", THOROUGH},
+    {"compare s.geojson --methods kd --queries 1 --halvings 1 --no-times --csv out.csv --quiet", "out.csv", THOROUGH},
     {"build s.geojson -o out.froe --json", "out.froe", TIMED},
     {"build t.geojson -o out.froe --threads 3 --quiet", "out.froe", PLAIN},
     {"build h.off -o - --quiet", NULL, PLAIN},
@@ -76,7 +77,17 @@ static const run_case cases[] = {
     {"near b.csv --queries q.csv --save-tree out.froe", "out.froe", PLAIN},
     {"pairs s.geojson", NULL, PLAIN},
     {"draw s.froe -o out.svg --quiet", "out.svg", LINKED},
+    {"draw s.froe --marks c.csv -o out.svg --quiet", "out.svg", LINKED},
     {"render h.froe -o out.pdf --quiet", "out.pdf", PLAIN},
+    {"render w.mfjson --animate --frames 2 -o out.svg --quiet", "out.svg", PLAIN},
+    {"render w.mfjson --animate --exact -o out.svg --quiet", "out.svg", PLAIN},
+    {"render h.off --turntable 3 --animate -o out.svg --quiet", "out.svg", PLAIN},
+    {"draw s.froe -o - --output-format svg --quiet", NULL, LINKED},
+    {"range f.froes --queries r.csv --columns *,name --format geojson", NULL, PLAIN},
+    {"locate f.froes --queries q.csv --groups", NULL, PLAIN},
+    {"ray h.froe --queries y.csv --all --json", NULL, TIMED},
+    {"near f.froes --queries q.csv", NULL, PLAIN},
+    {"locate b.csv --queries q.csv --format geojson", NULL, PLAIN},
     {"render h.off -o out.svg --preset technical --threads 2 --quiet", "out.svg", PLAIN},
     {"export s.froe -o out.geojson --quiet", "out.geojson", PLAIN},
     {"export h.froe -o out.obj --quiet", "out.obj", PLAIN},
@@ -133,7 +144,7 @@ typedef struct fault {
 static const fault no_fault;
 
 /* Runs `froe WORDS <in` with a fault or two; its wait status. What it prints is in the files "said" and "out", and
- * "counts" has how many calls of each kind there were. */
+ * "counts" has how many calls of each kind there were; "places", without a fault, who asked for memory. */
 static int run_froe(bool draws, const char *words, fault one, fault two) {
     enum { NEW = O_WRONLY | O_CREAT | O_TRUNC };
     char line[300], plan[40], *argv[MOST_WORDS] = {getenv(draws ? "FROE_FAULTY" : "FROE_FAULTY_CORE")};
@@ -152,6 +163,10 @@ static int run_froe(bool draws, const char *words, fault one, fault two) {
         setenv("FROE_FAULT_COUNTS", "3", 1);
         become("in", O_RDONLY | O_CREAT, STDIN_FILENO);
         become("out", NEW, STDOUT_FILENO), become("said", NEW, STDERR_FILENO), become("counts", NEW, 3);
+        if (!one.variable) {
+            setenv("FROE_FAULT_PLACES", "4", 1);
+            become("places", NEW, 4);
+        }
         execv(argv[0], argv);
         _exit(99);
     }
@@ -216,6 +231,7 @@ static void set_up(void) {
     spill("poses.csv", "body,time,x,y,qz,qw\ndoor,0,0,0,0,1\ndoor,2,0,0,0.7071067811865476,0.7071067811865476\n");
     spill("q.csv", "x,y,name\n0.5,0.5,a\n2,48,\"b, c\"\n");
     spill("r.csv", "lo_x,lo_y,hi_x,hi_y\n0,0,0.5,0.5\n");
+    spill("c.csv", "ax,ay,bx,by,r,name\n0.1,0.1,0.5,0.5,0.1,a\n0.2,0.9,0.3,0.8,0.05,b\n");
     spill("r3.csv", "lo_x,lo_y,lo_z,hi_x,hi_y,hi_z\n-9,-9,-9,9,9,9\n");
     spill("y.csv", "ox,oy,oz,dx,dy,dz\n-9,-9,-9,1,1,1\n9,0,0,-1,0,0\n");
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {

@@ -6,7 +6,7 @@
  *
  * reads.c does the same for calls that read, FROE_FAULT_READS; memory.c for calls that give memory, FROE_FAULT_MEMORY,
  * and for those that tell of progress, FROE_FAULT_STEPS. FROE_FAULT_COUNTS is a descriptor that gets their numbers in
- * the end. */
+ * the end; FROE_FAULT_PLACES is one that gets a line for each call for memory: its number, and which functions ask. */
 #ifndef FROE_TESTS_FAULTS_H
 #define FROE_TESTS_FAULTS_H
 #include <stdbool.h>

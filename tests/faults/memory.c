@@ -5,6 +5,7 @@
 #include "faults.h"
 #include <errno.h>
 #include <fcntl.h>
+#include <inttypes.h>
 #include <jansson.h>
 #include <pthread.h>
 #include <signal.h>
@@ -16,6 +17,7 @@
 #include <sys/mman.h>
 #include <sys/types.h>
 #include <unistd.h>
+#include <unwind.h>
 
 typedef struct counted {
     unsigned at; /* the number of the call with a fault; 0: none */
@@ -23,7 +25,7 @@ typedef struct counted {
     atomic_uint calls; /* so far */
 } counted;
 static counted memory, steps;
-static int log_to = -1;
+static int log_to = -1, places_to = -1;
 
 static atomic_int json_blocks; /* that were given and not taken back */
 
@@ -33,9 +35,37 @@ static void tell(void) {
                 json_blocks);
 }
 
+/* ------------------------------------------------------------------ places -- */
+
+extern const char __executable_start, etext; /* of the linker: where the code of the program is */
+
+/* Who asks: the innermost functions of the program, those of this file left out. Libraries between them, such as
+ * jansson, do not count. */
+typedef struct place {
+    int functions; /* those of this file count from -3 */
+    uint64_t hash;
+} place;
+
+static _Unwind_Reason_Code add_function(struct _Unwind_Context *context, void *user) {
+    enum { FUNCTIONS = 2 };
+    place *p = user;
+    const uintptr_t at = (uintptr_t)_Unwind_GetIP(context), begin = (uintptr_t)&__executable_start;
+    if (at < begin || at >= (uintptr_t)&etext) return _URC_NO_REASON;
+    if (p->functions >= 0) p->hash = (p->hash ^ (at - begin)) * 0x9E3779B97F4A7C15u;
+    p->hash ^= p->hash >> 29;
+    return ++p->functions < FUNCTIONS ? _URC_NO_REASON : _URC_NORMAL_STOP;
+}
+
+static __attribute__((noinline)) void tell_place(unsigned number) {
+    place p = {.functions = -3}; /* this one, meets() and that which stands for malloc() */
+    _Unwind_Backtrace(add_function, &p);
+    dprintf(places_to, "%u %" PRIx64 "\n", number, p.hash);
+}
+
 /* Counts a call; true when it shall fail. */
-static bool meets(counted *c) {
+static __attribute__((noinline)) bool meets(counted *c) {
     const unsigned number = atomic_fetch_add(&c->calls, 1) + 1;
+    if (c == &memory && places_to >= 0) tell_place(number);
     if (!c->at || number < c->at || (number > c->at && c->kind != FAULT_FOREVER)) return false;
     if (c->kind == FAULT_INTERRUPT || c->kind == FAULT_TERMINATE) {
         raise(c->kind == FAULT_INTERRUPT ? SIGINT : SIGTERM);
@@ -145,13 +175,14 @@ static void read_plan(const char *name, counted *c) {
 /* Only what main() calls is counted and fails. What runs before and after it belongs to compilers, such as what counts
  * branches for scripts/coverage. */
 static void begin(void) {
-    const char *log = getenv("FROE_FAULT_COUNTS");
+    const char *log = getenv("FROE_FAULT_COUNTS"), *places = getenv("FROE_FAULT_PLACES");
     memory.calls = 0;
     fault_reads.calls = 0;
     fault_plan_read(&fault_reads, "FROE_FAULT_READS");
     read_plan("FROE_FAULT_MEMORY", &memory);
     read_plan("FROE_FAULT_STEPS", &steps);
     if (log) log_to = atoi(log);
+    if (places) places_to = atoi(places);
     stdin = fault_stream(STDIN_FILENO);
     __wrap_json_set_alloc_funcs(__wrap_malloc, free);
 }
@@ -159,7 +190,7 @@ static void begin(void) {
 static void end(void) {
     tell();
     memory.at = steps.at = faults.at = fault_reads.at = 0;
-    faults.log = -1;
+    faults.log = places_to = -1;
 }
 
 int __real_main(int argc, char **argv);
