@@ -220,12 +220,10 @@ static int set_value(place found, const char *text) {
         return set_choice(found.option, field, text);
     case CLI_REALS:
         return set_reals(found.option, field, text);
-    case CLI_FLAG:
-    case CLI_END:
-        break;
+    default: /* a flag */
+        *(bool *)field = true;
+        return 0;
     }
-    *(bool *)field = true;
-    return 0;
 }
 
 /* ------------------------------------------------------------------ words -- */
@@ -233,18 +231,12 @@ static int set_value(place found, const char *text) {
 static bool is_set(const cli_option *option, const char *base) {
     const void *field = base + option->at;
     switch (option->type) {
-    case CLI_TEXT:
-        return *(const char *const *)field != NULL;
     case CLI_OUTPUT:
         return ((const cli_output *)field)->name != NULL;
-    case CLI_WORDS:
-        return *(char *const *)field != NULL;
-    case CLI_WHOLE:
-        return *(const uint64_t *)field != 0;
     case CLI_TEXTS:
         return ((const cli_texts *)field)->count != 0;
-    default:
-        return true;
+    default: /* CLI_TEXT */
+        return *(const char *const *)field != NULL;
     }
 }
 

@@ -52,10 +52,10 @@ typedef struct cli_option {
     const char *name; /**< long name without its dashes; NULL: an operand */
     char letter;      /**< short name, or 0 */
     cli_type type;
-    size_t at;         /**< of the field in its struct */
-    const char *value; /**< what --help calls the value, e.g. "FILE" */
-    const char *help;  /**< one or two lower-case clauses */
-    bool required;
+    size_t at;                  /**< of the field in its struct */
+    const char *value;          /**< what --help calls the value, e.g. "FILE" */
+    const char *help;           /**< one or two lower-case clauses */
+    bool required;              /**< of types CLI_TEXT, CLI_TEXTS and CLI_OUTPUT */
     uint64_t min, max;          /**< CLI_WHOLE; max 0: no limit */
     const char *const *choices; /**< CLI_CHOICE; ended by NULL */
     const char *alias;          /**< another long name, or NULL */

@@ -89,15 +89,6 @@ static int run_line(const cli_common *common, const char *text, bool loud, json_
     return code;
 }
 
-/* The method serves the dimension and the objects of the scene: segments in the plane, polygons in space; and without
- * being asked to cut them by each other, which in a house of many storeys would take a minute. */
-static bool serves(const froe_method_info *method, int dim) {
-    const froe_kind kind = dim == 2 ? FROE_SEGMENT : FROE_POLYGON;
-    const froe_option_info *o = method->options;
-    while (o && o->name && strcmp(o->name, "crossing") != 0) o++;
-    return (method->kinds[dim] >> kind & 1) && !(dim == 3 && o && o->name);
-}
-
 static int unpack(const char *name) {
     const support_embedded *file = support_embedded_named(cli_embedded_files, name);
     if (!file) return cli_fail(CLI_INPUT, name, "The program was built without this file.");
@@ -115,7 +106,7 @@ static int run_scene(const cli_common *common, const demo_scene *scene, demo_res
     result->methods = json_array();
     const froe_method_info *method;
     for (size_t i = 0; (method = froe_method_at(i)) != NULL; i++) {
-        if (!serves(method, scene->dim)) continue;
+        if (!(method->kinds[2] >> FROE_SEGMENT & 1)) continue; /* of a plan */
         char line[LINE];
         json_t *report;
         snprintf(line, sizeof line, "build %s --method %s", scene->methods, method->name);

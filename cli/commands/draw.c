@@ -86,7 +86,7 @@ static int set_show(const cli_draw *library, const char *list, uint32_t *show) {
         uint32_t found = 0;
         for (uint32_t bit = 1; !found && bit <= FROE_DRAW_OBJECTS; bit <<= 1) {
             const char *known = library->layer_name((froe_draw_layer)bit);
-            if (known && strlen(known) == length && memcmp(known, list, length) == 0) found = bit;
+            if (strlen(known) == length && memcmp(known, list, length) == 0) found = bit;
         }
         if (!found)
             return cli_fail(CLI_USE, NULL, "--show: '%.*s' is not one of cells, cuts, fragments, objects.", (int)length,

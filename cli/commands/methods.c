@@ -38,7 +38,7 @@ static json_t *method_json(const froe_method_info *m) {
         json_array_append_new(dims, json_integer(d));
         json_object_set_new(kinds, name, served);
     }
-    for (const froe_option_info *o = m->options; o && o->name; o++) json_array_append_new(list, option_json(o));
+    for (const froe_option_info *o = m->options; o->name; o++) json_array_append_new(list, option_json(o));
     return json_pack("{s:s, s:s, s:s, s:s, s:o, s:o, s:i, s:o}", "name", m->name, "summary", m->summary, "source",
                      m->source, "guarantee", m->guarantee, "dims", dims, "kinds", kinds, "leaf",
                      m->leaf ? (int)m->leaf : 1, "options", list);
@@ -82,8 +82,8 @@ static void put_method(const froe_method_info *m) {
         }
         put_line(label, list);
     }
-    if (m->options && m->options->name) printf("  options, with their defaults:\n");
-    for (const froe_option_info *o = m->options; o && o->name; o++) put_option(o);
+    if (m->options->name) printf("  options, with their defaults:\n");
+    for (const froe_option_info *o = m->options; o->name; o++) put_option(o);
 }
 
 static int run_methods(const void *given) {

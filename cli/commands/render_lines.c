@@ -12,7 +12,7 @@
 static uint32_t kind_of(const char *name, size_t length) {
     for (uint32_t bit = 1; bit < FROE_LINE_END; bit <<= 1) {
         const char *known = froe_line_name((froe_line)bit);
-        if (known && strlen(known) == length && memcmp(known, name, length) == 0) return bit;
+        if (strlen(known) == length && memcmp(known, name, length) == 0) return bit;
     }
     return 0;
 }
@@ -27,8 +27,8 @@ static kind_names all_kinds(void) {
     size_t used = 0;
     for (uint32_t bit = 1; bit < FROE_LINE_END; bit <<= 1) {
         const char *known = froe_line_name((froe_line)bit);
-        const int more = snprintf(names.text + used, sizeof names.text - used, "%s%s", used ? ", " : "", known);
-        if (more > 0 && used + (size_t)more < sizeof names.text) used += (size_t)more;
+        snprintf(names.text + used, sizeof names.text - used, "%s%s", used ? ", " : "", known);
+        used = strlen(names.text);
     }
     return names;
 }

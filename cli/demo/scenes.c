@@ -117,7 +117,6 @@ const demo_scene demo_scenes[] = {
                  .text = "The house in sixteen parts that float apart"},
             },
         .methods = "freedoom-e1m1.geojson",
-        .dim = 2,
         .credit = "The floor plan is that of map E1M1 of Freedoom 0.12.1, BSD-3-Clause, © Contributors to the Freedoom "
                   "project. " COUNTRIES_CREDIT " " HOUSE_CREDIT,
     },

@@ -20,8 +20,7 @@ typedef struct demo_scene {
     const char *text;              /**< what it is good for; with markup */
     const char *files[DEMO_FILES]; /**< of the embedded ones */
     demo_step steps[DEMO_STEPS];   /**< ended by a NULL command */
-    const char *methods;           /**< the file of which every method builds a tree, for a table; NULL: none */
-    int dim;                       /**< of it */
+    const char *methods;           /**< the plan of which every method builds a tree, for a table; NULL: none */
     const char *credit;
 } demo_scene;
 

@@ -4,6 +4,7 @@
 #include "support/escape.h"
 #include "version.h"
 #include <froe/froe.h>
+#include <math.h>
 #include <string.h>
 
 void html_text(FILE *out, const char *text) {
@@ -58,7 +59,7 @@ static void put_whole(FILE *out, json_int_t value) {
 }
 
 void html_value(FILE *out, const json_t *value) {
-    const double number = json_number_value(value), size = number < 0 ? -number : number;
+    const double number = json_number_value(value), size = fabs(number);
     if (json_is_integer(value))
         put_whole(out, json_integer_value(value));
     else if (json_is_real(value) && size < 1e15 && (size >= 1000 || number == (double)(json_int_t)number))
@@ -67,8 +68,6 @@ void html_value(FILE *out, const json_t *value) {
         fprintf(out, "%.3g", number);
     else if (json_is_string(value))
         html_text(out, json_string_value(value));
-    else if (json_is_boolean(value))
-        fputs(json_is_true(value) ? "yes" : "no", out);
     else
         fputs("&ndash;", out);
 }
@@ -115,7 +114,6 @@ void html_rows(FILE *out, const json_t *reports, const html_field *fields) {
 }
 
 void html_bounds(FILE *out, const json_t *bounds) {
-    if (!json_object_size(bounds)) return;
     fputs("<div class=\"scroll\"><table>\n<thead><tr><th scope=\"col\">promise</th><th scope=\"col\">at most</th>"
           "<th scope=\"col\">came out</th><th class=\"bar\"></th></tr></thead>\n<tbody>\n",
           out);

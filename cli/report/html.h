@@ -30,6 +30,6 @@ typedef struct html_field {
 void html_pairs(FILE *out, const json_t *report, const html_field *fields);
 /** A table with a row for each report, and its heading. */
 void html_rows(FILE *out, const json_t *reports, const html_field *fields);
-/** The promises of a build as a table with bars, nothing when there are none. */
+/** The promises of a build as a table with bars; there are some. */
 void html_bounds(FILE *out, const json_t *bounds);
 #endif

@@ -40,7 +40,7 @@ static bool read_size(const char *text, uint64_t *out) {
 static int read_numbers(const cli_shards_args *args, froe_shards_options *o) {
     uint64_t shards = 0;
     char *end;
-    const bool automatic = !args->shards || !strcmp(args->shards, "auto");
+    const bool automatic = !strcmp(args->shards, "auto");
     if (!automatic && (!read_whole_number(args->shards, &end, &shards) || *end || !shards || shards > FROE_SHARDS_MOST))
         return cli_fail(CLI_USE, NULL, "--shards: '%s' is neither auto nor a number from 1 to %d.", args->shards,
                         FROE_SHARDS_MOST);

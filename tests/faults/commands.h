@@ -85,6 +85,7 @@ static const run_case cases[] = {
     {"draw s.froe -o - --output-format svg --quiet", NULL, LINKED},
     {"range f.froes --queries r.csv --columns *,name --format geojson", NULL, PLAIN},
     {"locate f.froes --queries q.csv --groups", NULL, PLAIN},
+    {"locate f.froes --queries q.csv --above", NULL, PLAIN},
     {"ray h.froe --queries y.csv --all --json", NULL, TIMED},
     {"near f.froes --queries q.csv", NULL, PLAIN},
     {"locate b.csv --queries q.csv --format geojson", NULL, PLAIN},
