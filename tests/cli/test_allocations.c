@@ -3,10 +3,10 @@
  * to write is as before; or it found another way, and all is as without a fault. After a signal it says that it was
  * cancelled. Nothing else is left behind, nothing crashes.
  *
- * A place of the program that asks for memory is refused it once, in the first command that comes there. Of the places a
- * quarter is tried. Of the other faults there is a sample of the calls, of another seed for each command. With the
- * argument "all" (make faults) each call has each fault, with "all WORDS" only those of the command lines that begin with
- * these words. */
+ * A place of the program that asks for memory is refused it once, in the first command that comes there. Of the places
+ * a quarter is tried. Of the other faults there is a sample of the calls, of another seed for each command. With the
+ * argument "all" (make faults) each call has each fault, with "all WORDS" only those of the command lines that begin
+ * with these words. */
 #include "faults/commands.h"
 #include "support/sanitized.h"
 #include <inttypes.h>
