@@ -84,7 +84,8 @@ static void put_line(plot *p, double x0, double y0, double x1, double y1, const 
 
 /* -------------------------------------------------------------------- frame -- */
 
-static void fit_axes(plot *p) {
+/* Is there a point that can be shown? */
+static bool fit_axes(plot *p) {
     const bool columns = p->o->kind == PLOT_COLUMNS;
     p->x = plot_axis_new(p->o->log_x);
     p->y = plot_axis_new(p->o->log_y);
@@ -101,6 +102,7 @@ static void fit_axes(plot *p) {
     plot_axis_round(&p->y);
     p->x.from = p->o->y_label ? 64 : 46, p->x.to = p->o->width - 14;
     p->y.from = p->o->height - (p->o->x_label ? 40 : 24), p->y.to = p->o->title ? 30 : 10;
+    return any;
 }
 
 static void put_frame(plot *p) {
@@ -234,7 +236,7 @@ plot_options plot_defaults(void) {
 
 void plot_put(FILE *out, const plot_series *series, size_t count, const plot_options *options) {
     plot figure = {.out = out, .o = options, .series = series, .count = count}, *p = &figure;
-    fit_axes(p);
+    const bool any = fit_axes(p);
     const double height = p->o->height + key(p, false);
     put_markup(p, "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\"");
     put_attribute(p, "width", p->o->width);
@@ -245,12 +247,8 @@ void plot_put(FILE *out, const plot_series *series, size_t count, const plot_opt
     put_escaped(p, p->o->title ? p->o->title : "");
     put_markup(p, "\">\n");
     put_frame(p);
-    size_t points = 0;
-    for (size_t s = 0; s < p->count; s++) {
-        points += p->series[s].count;
-        put_series(p, s);
-    }
-    if (!points) put_label(p, (p->x.from + p->x.to) / 2, (p->y.from + p->y.to) / 2, "middle", "", "nothing to show");
+    for (size_t s = 0; s < p->count; s++) put_series(p, s);
+    if (!any) put_label(p, (p->x.from + p->x.to) / 2, (p->y.from + p->y.to) / 2, "middle", "", "nothing to show");
     key(p, true);
     put_markup(p, "</svg>\n");
 }

@@ -162,6 +162,43 @@ static void equal_factors_are_equal_distances(void **state) {
     free(s);
 }
 
+/* Axes without numbers, of one number and of huge ones; names that are empty, of other letters, and wider than a page. */
+static void odd_series_have_figures_too(void **state) {
+    (void)state;
+    static const double five[] = {5, 5}, huge[] = {1e16, 5}, below[] = {-5, -7};
+    char wide[200] = "";
+    memset(wide, 'w', sizeof wide - 1);
+    sheet *s = calloc(1, sizeof *s);
+    plot_options o = plot_defaults();
+    o.log_x = o.log_y = true, o.title = "";
+    put(s, NULL, 0, &o);
+    assert_non_null(strstr(s->text, "nothing to show"));
+    put(s, &(plot_series){"below", below, below, 2}, 1, &o); /* no logarithm */
+    assert_non_null(strstr(s->text, "nothing to show"));
+    o.log_x = o.log_y = false;
+    put(s, &(plot_series){"one", five, five, 1}, 1, &o);
+    assert_null(strstr(s->text, "nothing to show"));
+    put(s, &(plot_series){"huge", five, huge, 2}, 1, &o);
+    assert_int_equal(count_of(s->text, "Z"), 1); /* 5 alone */
+    const plot_series unnamed[] = {{NULL, five, below, 2}, {"", below, five, 2}};
+    put(s, unnamed, 2, &o);
+    const int without = count_of(s->text, "<text");
+    const plot_series named[] = {{wide, five, below, 2}, {"\xC3\xA9t\xC3\xA9", below, five, 2}};
+    put(s, named, 2, &o);
+    assert_int_equal(count_of(s->text, "<text"), without + 2);
+    plot_series columns[9];
+    for (size_t i = 0; i < 9; i++) columns[i] = (plot_series){"c", five, five, 1};
+    o.kind = PLOT_COLUMNS;
+    put(s, columns, 9, &o);
+    assert_int_equal(count_of(s->text, "stroke-width=\"1.5\""), 0); /* none is hollow */
+    put(s, NULL, 0, &o);
+    assert_non_null(strstr(s->text, "nothing to show"));
+    o.log_x = true;
+    put(s, columns, 1, &o);
+    assert_null(strstr(s->text, "nan"));
+    free(s);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(axes_place_numbers_and_ticks),
@@ -169,6 +206,7 @@ int main(void) {
         cmocka_unit_test(what_cannot_be_shown_is_left_out),
         cmocka_unit_test(equal_factors_are_equal_distances),
         cmocka_unit_test(series_differ_by_colour_or_by_dash_and_shape),
+        cmocka_unit_test(odd_series_have_figures_too),
         cmocka_unit_test(lines_break_where_a_number_is_left_out),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
