@@ -162,7 +162,7 @@ static void equal_factors_are_equal_distances(void **state) {
     free(s);
 }
 
-/* Axes without numbers, of one number and of huge ones; names that are empty, of other letters, or wider than a page. */
+/* Axes without numbers, of one number and of huge ones; names that are empty, of other letters, or very long. */
 static void odd_series_have_figures_too(void **state) {
     (void)state;
     static const double five[] = {5, 5}, huge[] = {1e16, 5}, below[] = {-5, -7};
