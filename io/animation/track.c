@@ -133,7 +133,7 @@ bool io_track_rests(const double *numbers, const io_track *track) {
 double io_track_apart(const double *numbers, const io_track *track, size_t key) {
     const double *first = io_track_value(numbers, track, 0), *now = io_track_value(numbers, track, key);
     double b[4][4], apart[4], most = 0;
-    const bool spline = track->between == IO_CUBIC && key > 0; /* it stays within the hull of Bezier's points */
+    const bool spline = track->between == IO_CUBIC; /* it stays within the hull of Bezier's points */
     if (spline) bezier_of(numbers, track, key, b);
     for (int i = spline ? 0 : 3; i < 4; i++) {
         for (size_t k = 0; k < track->width; k++) apart[k] = (spline ? b[i][k] : now[k]) - first[k];

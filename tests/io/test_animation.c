@@ -271,6 +271,12 @@ static void what_is_not_rigid_is_refused(void **state) {
     expect("scaled.gltf", NULL, FROE_E_UNSUPPORTED,
            "scaled.gltf: animation 'go': node 'node 0': Its scale changes from 1 1 1 to 1 2 1 at the time 1, and parts "
            "move as rigid bodies.");
+    for (int k = 0; k < 3; k++) {
+        m.node[0].track[2].values[1][k] = 3, m.node[0].track[2].values[1][(k + 1) % 3] = 1;
+        m.node[0].track[2].values[1][(k + 2) % 3] = 1;
+        animated_write(&m, "scaled.gltf");
+        expect("scaled.gltf", NULL, FROE_E_UNSUPPORTED, NULL);
+    }
     make_door(&m);
     m.node[1] = m.node[0], m.node[1].parent = 0, m.node[0].scale[2] = 2;
     animated_write(&m, "sheared.gltf");
@@ -292,6 +298,10 @@ static void what_is_not_rigid_is_refused(void **state) {
     animated_write(&m, "through.gltf");
     expect("through.gltf", NULL, FROE_E_LIMIT,
            "through.gltf: animation 'go': At the time 0.5 a deviation of 0.00447 cannot be kept.");
+    m.node[0].track[1].times[0] = 8388608, m.node[0].track[1].times[1] = 8388609; /* no number is in between at last */
+    animated_write(&m, "through.gltf");
+    expect("through.gltf", NULL, FROE_E_LIMIT,
+           "through.gltf: animation 'go': At the time 8388608.5 a deviation of 0.00447 cannot be kept.");
 }
 
 /* Pieces are as many as the root of what is asked for: those that nobody could wait for are refused. */
@@ -391,6 +401,63 @@ static void a_motion_with_parts_that_stand_survives_a_file(void **state) {
     froe_motion_free(made), froe_motion_free(read);
 }
 
+static void wrong_calls_are_refused(void **state) {
+    (void)state;
+    static animated_model m;
+    froe_motion *motion = NULL;
+    froe_motion_read_options o = froe_motion_read_defaults();
+    make_door(&m);
+    animated_write(&m, "door.gltf");
+    expect(NULL, NULL, FROE_E_ARG, "An argument of froe_read_animation is NULL.");
+    assert_int_equal(froe_read_animation("door.gltf", NULL, NULL, NULL, NULL), FROE_E_ARG);
+    o.size = 0;
+    expect("door.gltf", &o, FROE_E_OPTIONS, NULL);
+    o = froe_motion_read_defaults(), o.deviation = (double)INFINITY;
+    expect("door.gltf", &o, FROE_E_OPTIONS, "The deviation of an animation, inf, is not above 0.");
+    o = froe_motion_read_defaults(), o.from = 3, o.to = 1;
+    expect("door.gltf", &o, FROE_E_INPUT, "door.gltf: The window 3 .. 1 is empty, endless or not a number.");
+    m.node[0].track[1].count = 1;
+    animated_write(&m, "still.gltf");
+    static const char two[] = "still.gltf: animation 'go': It has no two keys at different times.";
+    for (int k = 0; k < 2; k++) {
+        o = froe_motion_read_defaults();
+        *(k ? &o.to : &o.from) = 1;
+        expect("still.gltf", &o, FROE_E_INPUT, two);
+    }
+    o.from = 0;
+    expect("still.gltf", &o, FROE_E_INPUT, "still.gltf: animation 'go': It moves nothing that has faces.");
+    assert_null(motion);
+}
+
+/* Keys that are all the same move nothing, and still say where a node is; so do nodes without faces. */
+static void tracks_that_rest_hold_their_nodes(void **state) {
+    (void)state;
+    static animated_model m;
+    make_door(&m);
+    m.nodes = 4;
+    m.node[2] = m.node[1], m.node[2].parent = 1, m.node[2].scale[0] = m.node[2].scale[1] = m.node[2].scale[2] = 0;
+    m.node[3] = m.node[0], m.node[3].mesh = false; /* it moves, and has no faces */
+    m.node[1].track[0] = (animated_track){2, STEP, {0, 1}, {{1, 2, 3}, {1, 2, 3}}};
+    m.node[1].track[1] = (animated_track){1, CUBIC, {0}, {{7, 0, 0, 0}, {0, 1, 0, 0}, {0, 7, 0, 0}}};
+    m.node[1].track[2] = (animated_track){1, LINEAR, {0}, {{2, 2, 2}}};
+    m.node[0].track[0] = (animated_track){3, STEP, {0, 1, 2}, {{0, 0, 0}, {0, 0, 0}, {0, 1, 0}}};
+    animated_write(&m, "rests.gltf");
+    const compared c = compare(&m, "rests.gltf", NULL);
+    assert_true(c.most <= c.reported + 1e-12 && c.reported <= 1e-3 * c.extent);
+}
+
+/* The rotation at rest counts only where no keys are. */
+static void a_rotation_beyond_numbers_may_be_replaced_by_keys(void **state) {
+    (void)state;
+    static animated_model m;
+    make_door(&m);
+    m.node[0].turn[0] = 3e38f;
+    animated_write(&m, "large.gltf");
+    m.node[0].turn[0] = 0;
+    const compared c = compare(&m, "large.gltf", NULL);
+    assert_true(c.most <= c.reported + 1e-12);
+}
+
 static void lines_are_refused_with_the_name_of_the_file(void **state) {
     (void)state;
     static animated_model m;
@@ -402,6 +469,47 @@ static void lines_are_refused_with_the_name_of_the_file(void **state) {
     fprintf(file, "%.*s\"mode\":3,%s", (int)(at - text), text, at);
     fclose(file);
     expect("lines.gltf", NULL, FROE_E_UNSUPPORTED, "lines.gltf: object 0: It is no polygon, and only those are parts.");
+}
+
+/* DirectX: keys of frames by their names, which may be those of two or of none. */
+static void keys_of_names_that_are_not_those_of_one_node_are_refused(void **state) {
+    (void)state;
+    static const char text[] =
+        "xof 0303txt 0032\nFrame leaf {\n FrameTransformMatrix { "
+        "1.0,0.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0,0.0,1.0;; }\n"
+        " Mesh m { 3; 0.0;0.0;0.0;, 1.0;0.0;0.0;, 0.0;1.0;0.0;; 1; 3;0,1,2;; %s }\n Frame %s { }\n}\n"
+        "AnimationSet go { Animation a { {%s} AnimationKey { 2; 2; 0;3;0.0,0.0,0.0;;, 4;3;1.0,0.0,0.0;;; } } }\n";
+    static const struct {
+        const char *skin, *frame, *moved;
+        froe_status status;
+        const char *message;
+    } cases[] = {
+        {"", "other", "leaf", FROE_OK, NULL},
+        {"", "leaf", "leaf", FROE_E_INPUT, "keys.x: animation 'go': node 'leaf': Several nodes have this name."},
+        {"", "other", "door", FROE_E_INPUT, "keys.x: animation 'go': node 'door': The model has no such node."},
+        {"SkinWeights { \"other\"; 1; 0; 1.0; 1.0,0.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0,0.0,1.0;; }",
+         "other", "leaf", FROE_E_UNSUPPORTED,
+         "keys.x: animation 'go': node 'leaf': It is skinned, and parts move as rigid bodies."},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        FILE *file = fopen("keys.x", "w");
+        assert_non_null(file);
+        fprintf(file, text, cases[i].skin, cases[i].frame, cases[i].moved);
+        fclose(file);
+        if (cases[i].status) {
+            expect("keys.x", NULL, cases[i].status, cases[i].message);
+            continue;
+        }
+        froe_motion *motion = NULL;
+        double at[3][3];
+        assert_int_equal(froe_read_animation("keys.x", NULL, &motion, NULL, NULL), FROE_OK);
+        assert_true(froe_motion_window(motion).end == 4); /* no ticks are told: each is a second */
+        for (int k = 0; k < 3; k++)
+            assert_true(froe_motion_position(motion, froe_motion_object(motion, 0).vertices[0], 2 * k, at[k]));
+        for (int k = 1; k < 3; k++)
+            assert_true(at[k][0] - at[0][0] == k / 2.0 && at[k][1] == at[0][1] && at[k][2] == at[0][2]);
+        froe_motion_free(motion);
+    }
 }
 
 /* Changes of the text of a file that is right. */
@@ -469,13 +577,25 @@ static void changed_bytes_end_in_a_status(void **state) {
 }
 
 static froe_status read_once(void *user, const froe_allocator *alloc) {
-    (void)user;
     froe_motion_read_options o = froe_motion_read_defaults();
     o.alloc = alloc;
     froe_motion *motion = NULL;
-    const froe_status status = froe_read_animation("memory.gltf", &o, &motion, NULL, NULL);
+    const froe_status status = froe_read_animation(user, &o, &motion, NULL, NULL);
     froe_motion_free(motion);
     return status;
+}
+
+/* So many keys and jumps that lists of them grow. */
+static void make_chain(animated_model *m) {
+    memset(m, 0, sizeof *m);
+    m->nodes = 5;
+    for (int c = 0; c < 3; c++) random_vector(m->corners[c], 3);
+    for (int n = 0; n < m->nodes; n++) {
+        m->node[n] = (animated_node){.parent = n - 1, .mesh = n == 4, .turn = {0, 0, 0, 1}, .scale = {1, 1, 1}};
+        m->node[n].track[0] = (animated_track){.count = ANIMATED_KEYS, .between = STEP};
+        for (int k = 0; k < ANIMATED_KEYS; k++)
+            m->node[n].track[0].times[k] = (float)(n + 5 * k), m->node[n].track[0].values[k][0] = (float)k;
+    }
 }
 
 static void allocations_may_fail(void **state) {
@@ -483,7 +603,16 @@ static void allocations_may_fail(void **state) {
     static animated_model m;
     make_random(&m, 3);
     animated_write(&m, "memory.gltf");
-    assert_true(test_memory_each(read_once, NULL) > 50);
+    assert_true(test_memory_each(read_once, "memory.gltf") > 50);
+    make_chain(&m);
+    animated_write(&m, "chain.gltf");
+    const compared c = compare(&m, "chain.gltf", NULL);
+    if (c.most > c.reported + 1e-12 * c.extent) fail_msg("%g apart, and %g was told", c.most, c.reported);
+    assert_true(test_memory_each(read_once, "chain.gltf") > 50);
+    for (const char *const *door = (const char *const[]){FROE_TEST_DATA "/../tests/io/door.dae",
+                                                         FROE_TEST_DATA "/../tests/io/door.fbx", NULL};
+         *door; door++)
+        assert_true(test_memory_each(read_once, (void *)(uintptr_t)*door) > 20);
 }
 
 int main(void) {
@@ -499,6 +628,10 @@ int main(void) {
         cmocka_unit_test(quaternions_rounded_to_bytes_are_read),
         cmocka_unit_test(a_name_that_is_cut_within_a_character_is_quoted_as_text),
         cmocka_unit_test(a_motion_with_parts_that_stand_survives_a_file),
+        cmocka_unit_test(wrong_calls_are_refused),
+        cmocka_unit_test(tracks_that_rest_hold_their_nodes),
+        cmocka_unit_test(a_rotation_beyond_numbers_may_be_replaced_by_keys),
+        cmocka_unit_test(keys_of_names_that_are_not_those_of_one_node_are_refused),
         cmocka_unit_test(lines_are_refused_with_the_name_of_the_file),
         cmocka_unit_test(what_the_file_lacks_is_said),
         cmocka_unit_test(changed_bytes_end_in_a_status),

@@ -213,6 +213,16 @@ static void keys_have_every_component_type(void **state) {
     }
 }
 
+/* The animation of the file is not read, and this is said behind its name. */
+static void must_say(const char *path, froe_status status, const char *sentence) {
+    char message[300];
+    froe_diagnostic why;
+    const froe_status found = follow(path, NULL, &why);
+    snprintf(message, sizeof message, "%s: %s", path, sentence);
+    if (found != status || strcmp(message, why.message) != 0)
+        fail_msg("expected '%s': %s: '%s'", sentence, froe_status_name(found), why.message);
+}
+
 /* What is wrong with a file that assimp takes: words of it, others instead, and what is said. */
 static void what_is_wrong_with_an_animation_is_said(void **state) {
     (void)state;
@@ -258,17 +268,109 @@ static void what_is_wrong_with_an_animation_is_said(void **state) {
     write_typed(last, sizeof last);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         static const char text[] = TYPED("5126", "");
-        char changed[2 * sizeof text], message[300];
-        froe_diagnostic why;
+        char changed[2 * sizeof text];
         const char *from = strstr(text, cases[i].from);
         assert_non_null(from);
         snprintf(changed, sizeof changed, "%.*s%s%s", (int)(from - text), text, cases[i].to,
                  from + strlen(cases[i].from));
         write_text("typed.gltf", changed);
-        const froe_status status = follow("typed.gltf", NULL, &why);
-        snprintf(message, sizeof message, "typed.gltf: %s", cases[i].message);
-        if (status != cases[i].status || strcmp(message, why.message))
-            fail_msg("case %zu: %s: '%s'", i, froe_status_name(status), why.message);
+        must_say("typed.gltf", cases[i].status, cases[i].message);
+    }
+}
+
+/* A channel whose sampler has times alone, in a second buffer: assimp takes nearly any. */
+static void write_second(const char *count, const char *view, const char *buffer) {
+    FILE *file = fopen("buffer.gltf", "w");
+    assert_non_null(file);
+    fprintf(
+        file,
+        "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"mesh\":0}],\"meshes\":"
+        "[{"
+        "\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":[{\"bufferView\":0,\"componentType\":5126,"
+        "\"count\":3,\"type\":\"VEC3\"},{\"componentType\":5126,\"type\":\"SCALAR\",\"bufferView\":1,\"count\":%s}],"
+        "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36},{\"buffer\":1,\"byteLength\":%s}],\"buffers\":[{"
+        "\"byteLength\":"
+        "36,\"uri\":\"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"},{\"byteLength\":%s}],"
+        "\"animations\":["
+        "{\"name\":\"go\",\"channels\":[{\"sampler\":0,\"target\":{\"node\":0,\"path\":\"scale\"}}],\"samplers\":[{"
+        "\"input\":"
+        "1}]}]}",
+        count, view, buffer);
+    fclose(file);
+}
+
+static void what_is_wrong_with_a_buffer_is_said(void **state) {
+    (void)state;
+    static const char outside[] = "A buffer is not at or below the folder of the file.",
+                      other[] = "The bytes of a buffer are not in base64.",
+                      beyond[] = "An accessor of an animation goes beyond its buffer.",
+                      no_output[] = "An accessor of an animation is broken."; /* the times are read, values are none */
+    static const struct {
+        const char *count, *view, *buffer;
+        froe_status status;
+        const char *message;
+    } cases[] = {
+        {"0", "0", "0", FROE_E_FORMAT, "A buffer of glTF has no bytes."},
+        {"0", "0", "0,\"uri\":\"/x.bin\"", FROE_E_UNSUPPORTED, outside},
+        {"0", "0", "0,\"uri\":\"../x.bin\"", FROE_E_UNSUPPORTED, outside},
+        {"0", "0", "0,\"uri\":\"file:x.bin\"", FROE_E_UNSUPPORTED, outside},
+        {"0", "0", "7,\"uri\":\"data:nothing\"", FROE_E_UNSUPPORTED, other},
+        {"0", "0", "0,\"uri\":\"data:,\"", FROE_E_UNSUPPORTED, other},
+        {"0", "0", "0,\"uri\":\"data:text/plain,\"", FROE_E_UNSUPPORTED, other},
+        {"0", "0", "0,\"uri\":\"data:;base64,\"", FROE_E_FORMAT, no_output},
+        {"1", "4", "4,\"uri\":\"data:;base64,+-/_AA==\"", FROE_E_FORMAT, no_output},
+        {"1", "4,\"byteStride\":70000", "4,\"uri\":\"data:;base64,AAAAAA==\"", FROE_E_FORMAT, beyond},
+        {"1", "4", "4,\"uri\":\"%67%6A%6b%G%1%4!.bin\"", FROE_E_FORMAT, no_output},
+        /* assimp reads the file whose name is as it is written, and this one has fewer bytes */
+        {"1", "4", "4,\"uri\":\"shor%74.bin\"", FROE_E_FORMAT, beyond},
+        {"1,\"byteOffset\":4", "8", "8,\"uri\":\"shor%74.bin\"", FROE_E_FORMAT, beyond},
+    };
+    write_bytes("gjk%G%1%4!.bin", "four", 4), write_bytes("%67%6A%6b%G%1%4!.bin", "four", 4);
+    write_bytes("short.bin", "two", 2), write_bytes("shor%74.bin", "eight by", 8);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        write_second(cases[i].count, cases[i].view, cases[i].buffer);
+        must_say("buffer.gltf", cases[i].status, cases[i].message);
+    }
+    char name[5000] = "0,\"uri\":\"";
+    const size_t used = strlen(name);
+    memset(name + used, 'x', sizeof name - used);
+    memcpy(name + sizeof name - 2, "\"", 2);
+    write_second("0", "0", name);
+    must_say("buffer.gltf", FROE_E_UNSUPPORTED, outside);
+}
+
+/* Nodes that assimp leaves out, and versions that it reads. */
+static void what_is_wrong_with_nodes_and_versions_is_said(void **state) {
+    (void)state;
+    static const char first[] = "{\"asset\":{\"version\":\"1.0\"},\"scene\":\"s\",\"scenes\":{\"s\":{\"nodes\":[\"n\"]}"
+                                "},\"nodes\":{\"n\":{\"meshes\":[\"m\"]}"
+                                "},\"meshes\":{\"m\":{\"primitives\":[{\"attributes\":{\"POSITION\":\"a\"}}]}},"
+                                "\"accessors\":{\"a\":{\"bufferView\":\"v\","
+                                "\"componentType\":5126,\"byteOffset\":0,\"byteStride\":12,\"count\":3,\"type\":"
+                                "\"VEC3\"}},\"bufferViews\":{\"v\":{"
+                                "\"buffer\":\"b\",\"byteOffset\":0,\"byteLength\":36}},\"buffers\":{\"b\":{"
+                                "\"byteLength\":36,\"uri\":\"data:;base64,"
+                                "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}}}   ",
+                      version[] = "Animations are read from glTF 2, and the file is another version.",
+                      nodes[] = "The nodes of the file are not as assimp has them.";
+    unsigned char binary[20 + sizeof first] = "glTF\1";
+    const size_t text = (sizeof first - 1) / 4 * 4, size = 20 + text;
+    write_text("first.gltf", first);
+    must_say("first.gltf", FROE_E_UNSUPPORTED, version);
+    for (int k = 0; k < 2; k++)
+        binary[8 + k] = (unsigned char)(size >> 8 * k), binary[12 + k] = (unsigned char)(text >> 8 * k);
+    memcpy(binary + 20, first, text);
+    write_bytes("first.glb", binary, size);
+    must_say("first.glb", FROE_E_UNSUPPORTED, version);
+    static const char *const changes[] = {"\"name\":\"m\",\"children\":[-1]", "\"name\":\"m\",\"children\":[\"x\"]"};
+    static const char typed[] = TYPED("5126", "");
+    const char *from = strstr(typed, "\"scene\":0,"), *name = strstr(typed, "\"name\":\"m\"");
+    for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
+        char changed[2 * sizeof typed];
+        snprintf(changed, sizeof changed, "%.*s\"scene\":1,%.*s%s%s", (int)(from - typed), typed,
+                 (int)(name - from) - 10, from + 10, changes[i], name + 10);
+        write_text("nodes.gltf", changed);
+        must_say("nodes.gltf", FROE_E_UNSUPPORTED, nodes);
     }
 }
 
@@ -325,6 +427,8 @@ int main(void) {
         cmocka_unit_test(every_container_has_the_same_motion),
         cmocka_unit_test(keys_have_every_component_type),
         cmocka_unit_test(what_is_wrong_with_an_animation_is_said),
+        cmocka_unit_test(what_is_wrong_with_a_buffer_is_said),
+        cmocka_unit_test(what_is_wrong_with_nodes_and_versions_is_said),
         cmocka_unit_test(animations_are_chosen_by_name_and_number),
         cmocka_unit_test(each_word_may_be_another),
         cmocka_unit_test(each_byte_of_the_chunks_may_be_another),
