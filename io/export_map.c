@@ -235,17 +235,14 @@ static void with_ending(const char *path, const char *ending, char *out) {
 }
 
 static froe_status copy_file(map_export *m, const char *from, support_writer *out) {
-    static const size_t room = 1 << 16;
-    char *buffer = support_calloc(&m->alloc, room, 1);
-    FILE *in = buffer ? fopen(from, "rb") : NULL;
-    froe_status status = buffer ? FROE_OK : support_fail_memory(m->diag);
-    if (buffer && !in) status = support_fail_file(m->diag, "written", m->path, errno);
-    for (size_t got; in && (got = fread(buffer, 1, room, in)) > 0 && support_writer_put(out, buffer, got);) {
+    char buffer[1 << 13];
+    FILE *in = fopen(from, "rb");
+    if (!in) return support_fail_file(m->diag, "written", m->path, errno);
+    for (size_t got; (got = fread(buffer, 1, sizeof buffer, in)) > 0 && support_writer_put(out, buffer, got);) {
     }
-    if (in && ferror(in)) status = support_fail_file(m->diag, "written", m->path, EIO);
-    if (in) fclose(in);
-    support_free(&m->alloc, buffer, room);
-    return status;
+    const bool failed = ferror(in);
+    fclose(in);
+    return failed ? support_fail_file(m->diag, "written", m->path, EIO) : FROE_OK;
 }
 
 /* The other files of a Shapefile. All are copied before the first takes its place; those of an older Shapefile that the

@@ -41,6 +41,6 @@ froe_status io_gdal_fail(const io_heard *heard, froe_diagnostic *diag, froe_stat
 
 void io_names_put(io_names *names, const char *name) {
     const size_t room = sizeof names->text - names->used;
-    const int length = snprintf(names->text + names->used, room, "%s%s", names->count++ ? ", " : "", name);
-    if (length > 0) names->used += (size_t)length < room ? (size_t)length : room - 1;
+    const size_t length = (size_t)snprintf(names->text + names->used, room, "%s%s", names->count++ ? ", " : "", name);
+    names->used += length < room ? length : room - 1;
 }

@@ -3,8 +3,12 @@
 
 #include <cpl_conv.h>
 #include <dirent.h>
+#include <errno.h>
 #include <gdal.h>
 #include <ogr_api.h>
+#include <signal.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static froe_tree *tree_of(const char *kind, size_t n) {
@@ -204,11 +208,161 @@ static void definitions_are_read_and_no_names(void **state) {
     assert_int_equal(temporary_files(), 0);
 }
 
+/* ------------------------------------------------------------------- faults -- */
+
+static size_t objects_of(const char *path) {
+    froe_scene *scene = NULL;
+    froe_diagnostic why;
+    if (froe_read(path, NULL, &scene, NULL, &why)) fail_msg("%s", why.message);
+    const size_t count = froe_scene_object_count(scene);
+    froe_scene_free(scene);
+    return count;
+}
+
+/* A disk that is full after some bytes, at every size: OGR tells of it or not. */
+static void a_full_disk_leaves_the_old_file(void **state) {
+    (void)state;
+    static const char *const paths[] = {"full.gpkg", "full.fgb", "full.shp"};
+    froe_tree *small = tree_of("segments", 10), *large = tree_of("segments", 1000);
+    struct rlimit limit;
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &limit), 0);
+    signal(SIGXFSZ, SIG_IGN);
+    for (int i = 0; i < 3; i++) {
+        assert_int_equal(froe_export_map(small, paths[i], FROE_EXPORT_FRAGMENTS, NULL, NULL), FROE_OK);
+        const size_t before = objects_of(paths[i]);
+        size_t failed = 0;
+        froe_status status = FROE_E_IO;
+        for (size_t most = 0; status; most += most / 2 + 64) {
+            const struct rlimit few = {most, limit.rlim_max};
+            froe_diagnostic why = {.message = ""};
+            assert_int_equal(setrlimit(RLIMIT_FSIZE, &few), 0);
+            status = froe_export_map(large, paths[i], FROE_EXPORT_FRAGMENTS, NULL, &why);
+            assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
+            if (!status) break;
+            if (status != FROE_E_IO || strncmp(why.message, paths[i], strlen(paths[i])) != 0)
+                fail_msg("%s, %zu bytes: %s", paths[i], most, why.message);
+            assert_int_equal(temporary_files(), 0);
+            assert_int_equal(objects_of(paths[i]), before);
+            failed++;
+        }
+        assert_true(failed > 10 && objects_of(paths[i]) > before);
+    }
+    signal(SIGXFSZ, SIG_DFL);
+    froe_tree_free(small), froe_tree_free(large);
+}
+
+/* The name is that of a link, or of one of the other files that belong to it. */
+static void places_that_cannot_be_taken_are_told(void **state) {
+    (void)state;
+    froe_tree *tree = tree_of("segments", 100);
+    froe_diagnostic why;
+    assert_int_equal(symlink("/dev/full", "device.fgb"), 0);
+    assert_int_equal(froe_export_map(tree, "device.fgb", FROE_EXPORT_FRAGMENTS, NULL, &why), FROE_E_IO);
+    assert_string_equal(why.message, "device.fgb: The file cannot be written: No space left on device.");
+    unlink("device.fgb");
+    static const char *const sides[] = {"side.dbf", "side.qix"}; /* written, and removed */
+    for (int i = 0; i < 2; i++) {
+        char message[100];
+        snprintf(message, sizeof message, "%s: The file cannot be %s: %s.", sides[i], i ? "removed" : "written",
+                 strerror(EISDIR));
+        assert_int_equal(mkdir(sides[i], 0777), 0);
+        assert_int_equal(froe_export_map(tree, "side.shp", FROE_EXPORT_FRAGMENTS, NULL, &why), FROE_E_IO);
+        assert_string_equal(why.message, message);
+        assert_int_equal(access("side.shp", F_OK), i - 1); /* the one with the shapes is the last that is written */
+        rmdir(sides[i]);
+    }
+    assert_int_equal(temporary_files(), 0);
+    froe_tree_free(tree);
+}
+
+/* Where no folder can be beside the file, OGR writes where temporary files are. */
+static void long_paths_need_another_folder(void **state) {
+    (void)state;
+    enum { LONG = 4092 };
+    static char path[LONG + 1], temporary[LONG + 1], target[LONG + 1];
+    froe_tree *tree = tree_of("segments", 100);
+    froe_diagnostic why;
+    assert_non_null(getcwd(target, sizeof target - 20));
+    const size_t here = strlen(target);
+    strcat(target, "/behind.fgb");
+    assert_int_equal(symlink(target, "x.fgb"), 0);
+    for (size_t i = 0; i < LONG; i++) path[i] = "/."[i % 2 == 0];
+    memcpy(path + LONG - 6, "/x.fgb", 6);
+    const char *old = getenv("TMPDIR");
+    char *kept = old ? strdup(old) : NULL;
+    const char *const folders[] = {NULL, "", ".", "no/such/folder", temporary};
+    snprintf(temporary, sizeof temporary, "%.*s", (int)here, target);
+    while (strlen(temporary) < LONG - 12) strcat(temporary, "/.");
+    for (size_t i = 0; i < 5; i++) {
+        if (folders[i])
+            setenv("TMPDIR", folders[i], 1);
+        else
+            unsetenv("TMPDIR");
+        unlink("behind.fgb");
+        const froe_status status = froe_export_map(tree, path, FROE_EXPORT_FRAGMENTS, NULL, &why);
+        if (status != (i < 3 ? FROE_OK : FROE_E_IO)) fail_msg("%zu: %s", i, why.message);
+        if (!status) assert_true(objects_of("behind.fgb") >= 100);
+        if (status) assert_non_null(strstr(why.message, i == 3 ? "No such file" : "File name too long"));
+        if (status) assert_int_not_equal(access("behind.fgb", F_OK), 0);
+    }
+    if (kept)
+        setenv("TMPDIR", kept, 1);
+    else
+        unsetenv("TMPDIR");
+    free(kept);
+    unlink("x.fgb");
+    froe_tree_free(tree);
+}
+
+/* What is no GeoPackage is replaced, and one with other layers is kept. */
+static void other_layers_are_not_lost(void **state) {
+    (void)state;
+    froe_tree *tree = tree_of("segments", 10);
+    froe_diagnostic why;
+    write_text("junk.gpkg", "this is text");
+    assert_int_equal(froe_export_map(tree, "junk.gpkg", FROE_EXPORT_FRAGMENTS, NULL, &why), FROE_OK);
+    assert_true(objects_of("junk.gpkg") >= 10);
+    GDALDatasetH data = GDALCreate(GDALGetDriverByName("GPKG"), "home.gpkg", 0, 0, 0, GDT_Unknown, NULL);
+    assert_non_null(data);
+    for (int i = 0; i < 6; i++) {
+        char name[40];
+        snprintf(name, sizeof name, "a layer whose name is so long: %d", i);
+        assert_non_null(GDALDatasetCreateLayer(data, name, NULL, wkbPoint, NULL));
+    }
+    GDALClose(data);
+    assert_int_equal(froe_export_map(tree, "home.gpkg", FROE_EXPORT_FRAGMENTS, NULL, &why), FROE_E_UNSUPPORTED);
+    assert_string_equal(why.message,
+                        "home.gpkg: Other layers in the file would be lost: a layer whose name is so long: 0, a layer "
+                        "whose name is so long: 1, a layer whose name is so long: 2, a layer whose name is so .");
+    froe_tree_free(tree);
+}
+
+static void a_gdal_without_the_driver_is_told(void **state) {
+    (void)state;
+    froe_tree *tree = tree_of("segments", 10);
+    froe_diagnostic why;
+    GDALDriverH driver = GDALGetDriverByName("FlatGeobuf");
+    GDALDeregisterDriver(driver);
+    assert_int_equal(froe_export_map(tree, "none.fgb", FROE_EXPORT_FRAGMENTS, NULL, &why), FROE_E_UNSUPPORTED);
+    assert_string_equal(why.message, "none.fgb: This GDAL does not write its format.");
+    assert_int_not_equal(access("none.fgb", F_OK), 0);
+    GDALRegisterDriver(driver);
+    assert_int_equal(froe_export_map(tree, "none.fgb", FROE_EXPORT_FRAGMENTS, NULL, &why), FROE_OK);
+    froe_tree_free(tree);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(parts_are_given_until_it_is_enough),    cmocka_unit_test(every_kind_has_its_shape),
-        cmocka_unit_test(what_is_cancelled_leaves_the_old_file), cmocka_unit_test(broken_names_are_marked),
+        cmocka_unit_test(parts_are_given_until_it_is_enough),
+        cmocka_unit_test(every_kind_has_its_shape),
+        cmocka_unit_test(what_is_cancelled_leaves_the_old_file),
+        cmocka_unit_test(broken_names_are_marked),
         cmocka_unit_test(definitions_are_read_and_no_names),
+        cmocka_unit_test(a_full_disk_leaves_the_old_file),
+        cmocka_unit_test(places_that_cannot_be_taken_are_told),
+        cmocka_unit_test(long_paths_need_another_folder),
+        cmocka_unit_test(other_layers_are_not_lost),
+        cmocka_unit_test(a_gdal_without_the_driver_is_told),
     };
     GDALAllRegister();
     return cmocka_run_group_tests(tests, NULL, NULL);
