@@ -3,13 +3,13 @@
 #include "support/memory.h"
 #include "support/small_scenes.h"
 #include <froe/io.h>
+#include <gdal.h>
 #include <math.h>
 #include <stdio.h>
 
-/* Two boxes of two objects that pass through each other, the second with a name that DXF cannot have. */
-static froe_tree *boxes(void) {
+/* Two boxes of two objects that pass through each other; a name that is NULL: an object of no group. */
+static froe_tree *boxes_named(const char *const names[2]) {
     static const int face[6][4] = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
-    static const char *const names[2] = {"wall", "T\xC3\xBCr/2"};
     const size_t starts[7] = {0, 4, 8, 12, 16, 20, 24};
     froe_scene *scene = scene_of(3);
     for (int b = 0; b < 2; b++) {
@@ -17,11 +17,16 @@ static froe_tree *boxes(void) {
         const froe_group group = {.name = names[b], .material = ""};
         froe_objects o = froe_objects_defaults();
         for (int i = 0; i < 72; i++) x[i] = (face[i / 12][i / 3 % 4] >> i % 3 & 1 ? 4 : 0) + b * (1 + i % 3);
-        assert_int_equal(froe_scene_add_group(scene, &group, &o.group), FROE_OK);
+        if (names[b]) assert_int_equal(froe_scene_add_group(scene, &group, &o.group), FROE_OK);
         o.count = 6, o.coords = x, o.starts = starts;
         assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
     }
     return tree_of(scene, "density", 1);
+}
+
+/* The second has a name that DXF cannot have. */
+static froe_tree *boxes(void) {
+    return boxes_named((const char *const[]){"wall", "T\xC3\xBCr/2"});
 }
 
 /* ------------------------------------------------------------------------ reading -- */
@@ -222,6 +227,75 @@ static void layers_by_object_have_names_that_dxf_can_have(void **state) {
     froe_tree_free(tree);
 }
 
+/* Signs that are none, and names that are too long; what has no group is named by its sight alone. */
+static void any_name_becomes_one_of_dxf(void **state) {
+    (void)state;
+    char long_name[300];
+    memset(long_name, 'x', sizeof long_name - 1), long_name[sizeof long_name - 1] = '\0';
+    static const char *const none[] = {"VISIBLE", "HIDDEN"}, *const odd[] = {"A_B_C_D-VISIBLE", "A_B_C_D-HIDDEN"};
+    froe_render_options o = froe_render_defaults();
+    o.hidden = true;
+    o.layers = FROE_LAYERS_OBJECT;
+    froe_tree *tree = boxes_named((const char *const[]){NULL, "a\xff"
+                                                              "b\x01"
+                                                              "c\x7f"
+                                                              "d"});
+    assert_int_equal(froe_render_dxf(tree, "odd.dxf", &o, NULL, NULL), FROE_OK);
+    drawing *d = read_drawing("odd.dxf");
+    for (int i = 0; i < 2; i++) find(d, "LAYER", none[i]), find(d, "LAYER", odd[i]);
+    free_drawing(d);
+    froe_tree_free(tree);
+    tree = boxes_named((const char *const[]){"short", long_name});
+    assert_int_equal(froe_render_dxf(tree, "long.dxf", &o, NULL, NULL), FROE_OK);
+    d = read_drawing("long.dxf");
+    size_t cut = 0;
+    for (size_t i = 0; i < d->count; i++) cut += d->at[i].code == 8 && !strncmp(d->at[i].value, "XXXXXXXX", 8);
+    assert_true(cut > 0);
+    free_drawing(d);
+    froe_tree_free(tree);
+}
+
+/* Layers with the same dashes and gaps share a type of line. */
+static void dashes_are_types_of_lines(void **state) {
+    (void)state;
+    static const double gaps[] = {1, 2, 1};
+    froe_tree *tree = boxes();
+    froe_render_options o = froe_render_defaults();
+    froe_line_style s[3];
+    for (int i = 0; i < 3; i++) s[i] = froe_line_style_defaults(), s[i].dash = 3, s[i].gap = gaps[i];
+    s[0].visible = FROE_LINE_SILHOUETTE, s[1].visible = FROE_LINE_CREASE, s[2].hidden = FROE_LINE_CREASE;
+    o.hidden = true;
+    o.line_styles = s, o.line_style_count = 3;
+    assert_int_equal(froe_render_dxf(tree, "dashes.dxf", &o, NULL, NULL), FROE_OK);
+    drawing *d = read_drawing("dashes.dxf");
+    static const char *const layers[] = {"VISIBLE-SILHOUETTE", "VISIBLE-CREASE", "HIDDEN-CREASE"};
+    const char *types[3];
+    for (int i = 0; i < 3; i++) {
+        char gap[16];
+        snprintf(gap, sizeof gap, "%.5f", -gaps[i]);
+        types[i] = value(d, find(d, "LAYER", layers[i]), 6, 0);
+        assert_string_equal(value(d, find(d, "LTYPE", types[i]), 49, 1), gap);
+    }
+    assert_string_equal(types[0], types[2]);
+    assert_string_not_equal(types[0], types[1]);
+    free_drawing(d);
+    froe_tree_free(tree);
+}
+
+static void a_gdal_without_the_driver_is_told(void **state) {
+    (void)state;
+    froe_tree *tree = boxes();
+    froe_diagnostic why;
+    assert_int_equal(froe_render_dxf(tree, "with.dxf", NULL, NULL, NULL), FROE_OK);
+    GDALDriverH driver = GDALGetDriverByName("DXF");
+    GDALDeregisterDriver(driver);
+    assert_int_equal(froe_render_dxf(tree, "without.dxf", NULL, NULL, &why), FROE_E_UNSUPPORTED);
+    assert_string_equal(why.message, "without.dxf: GDAL has no driver that writes DXF.");
+    assert_null(fopen("without.dxf", "rb"));
+    GDALRegisterDriver(driver);
+    froe_tree_free(tree);
+}
+
 static void the_same_bytes_again(void **state) {
     (void)state;
     froe_tree *tree = boxes();
@@ -246,6 +320,7 @@ static void bad_options_leave_no_file(void **state) {
     o.crease = -1;
     assert_int_equal(froe_render_dxf(tree, "none.dxf", &o, NULL, &why), FROE_E_OPTIONS);
     assert_int_equal(froe_render_dxf(NULL, "none.dxf", NULL, NULL, &why), FROE_E_ARG);
+    assert_int_equal(froe_render_dxf(tree, NULL, NULL, NULL, &why), FROE_E_ARG);
     assert_int_equal(froe_render_dxf(tree, "no/such/folder/none.dxf", NULL, NULL, &why), FROE_E_IO);
     assert_int_equal(froe_render(tree, "none.dxf", NULL, NULL, &why), FROE_E_UNSUPPORTED);
     assert_non_null(strstr(why.message, "froe_render_dxf()"));
@@ -271,6 +346,9 @@ int main(void) {
         cmocka_unit_test(the_lines_are_those_that_are_data),
         cmocka_unit_test(layers_have_the_styles_of_their_lines),
         cmocka_unit_test(layers_by_object_have_names_that_dxf_can_have),
+        cmocka_unit_test(any_name_becomes_one_of_dxf),
+        cmocka_unit_test(dashes_are_types_of_lines),
+        cmocka_unit_test(a_gdal_without_the_driver_is_told),
         cmocka_unit_test(the_same_bytes_again),
         cmocka_unit_test(bad_options_leave_no_file),
         cmocka_unit_test(every_allocation_may_fail),
