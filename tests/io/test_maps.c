@@ -1,9 +1,11 @@
 /* Plane maps: the same features through every format of OGR that can be written here,
  * and by hand those that cannot; order, names, sides, curves, and what is counted. */
 #include "support.h"
+#include "support/memory.h"
 #include <cpl_vsi.h>
 #include <gdal.h>
 #include <ogr_api.h>
+#include <ogr_srs_api.h>
 #include <unistd.h>
 
 /* Two polygons, one of them with a hole, and one of two parts: 4 + 4 + 3 + 4 + 3 segments. */
@@ -286,6 +288,181 @@ static void a_folder_of_several_layers_needs_the_name_of_one(void **state) {
     froe_scene_free(scene);
 }
 
+/* ------------------------------------------------------------- coordinate systems -- */
+
+/* A file of one point in a system. */
+static void write_in(const char *driver, const char *path, const char *wkt) {
+    OGRSpatialReferenceH system = wkt ? OSRNewSpatialReference(wkt) : NULL;
+    GDALDatasetH data = new_data(driver, path);
+    OGRLayerH layer = GDALDatasetCreateLayer(data, "places", system, wkbPoint, NULL);
+    assert_non_null(layer);
+    add_feature(layer, "POINT (1 2)", NULL);
+    if (system) OSRRelease(system);
+    GDALClose(data);
+}
+
+static void systems_are_of_degrees_or_of_something_else(void **state) {
+    (void)state;
+    static const char grads[] =
+        "GEOGCS[\"own grads\",DATUM[\"own\",SPHEROID[\"ball\",6371000,0]],PRIMEM[\"Greenwich\",0],"
+        "UNIT[\"grad\",0.015707963267948967]]",
+                      degrees[] = "GEOGCS[\"own degrees\",DATUM[\"own\",SPHEROID[\"ball\",6371000,0]],PRIMEM["
+                                  "\"Greenwich\",0],UNIT[\"degree\",0.017453292519943295]]",
+                      local[] = "LOCAL_CS[\"a hall\",UNIT[\"metre\",1]]";
+    static const struct {
+        const char *driver, *path, *wkt;
+        froe_crs_kind kind;
+        const char *name, *unit;
+    } cases[] = {
+        {"GPKG", "grads.gpkg", grads, FROE_CRS_OTHER, "own grads", "grad"},
+        {"GPKG", "degrees.gpkg", degrees, FROE_CRS_GEOGRAPHIC, "own degrees", "degree"},
+        {"GPKG", "local.gpkg", local, FROE_CRS_OTHER, "a hall", "metre"},
+        {"GPKG", "plane.gpkg", "LOCAL_CS[\"Undefined Cartesian SRS\",UNIT[\"metre\",1]]", FROE_CRS_UNKNOWN, "", ""},
+        {"GPKG", "none.gpkg", NULL, FROE_CRS_UNKNOWN, "", ""},
+    };
+    froe_read_options wrap = froe_read_defaults();
+    wrap.wrap = true;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        write_in(cases[i].driver, cases[i].path, cases[i].wkt);
+        froe_scene *scene = read_scene(cases[i].path, NULL);
+        const froe_crs crs = froe_scene_crs(scene);
+        if (crs.kind != cases[i].kind) fail_msg("%s: %d, '%s'", cases[i].path, (int)crs.kind, crs.name);
+        if (crs.kind) {
+            assert_string_equal(crs.name, cases[i].name);
+            assert_string_equal(crs.unit, cases[i].unit);
+            assert_string_equal(crs.code, "");
+        }
+        froe_scene_free(scene);
+        if (cases[i].kind == FROE_CRS_OTHER)
+            refuse_with(cases[i].path, &wrap, FROE_E_OPTIONS, "are no longitudes and latitudes in degrees");
+    }
+}
+
+/* Layers of a file are read together where all are in one system, or in none. */
+static void layers_in_different_systems_are_refused(void **state) {
+    (void)state;
+    static const struct {
+        const char *systems[2], *message;
+    } cases[] = {
+        {{"<LayerSRS>EPSG:4326</LayerSRS>", "<LayerSRS>EPSG:4326</LayerSRS>"}, NULL},
+        {{"", ""}, NULL},
+        {{"", "<LayerSRS>EPSG:4326</LayerSRS>"}, "of 'one' none, of 'two' WGS 84."},
+        {{"<LayerSRS>EPSG:4326</LayerSRS>", ""}, "of 'one' WGS 84, of 'two' none."},
+        {{"<LayerSRS>EPSG:4326</LayerSRS>", "<LayerSRS>EPSG:3857</LayerSRS>"}, "of 'two' WGS 84 / Pseudo-Mercator."},
+    };
+    write_text("points.csv", "x,y\n1,2\n");
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        FILE *file = fopen("layers.vrt", "w");
+        assert_non_null(file);
+        fputs("<OGRVRTDataSource>", file);
+        for (int k = 0; k < 2; k++)
+            fprintf(
+                file,
+                "<OGRVRTLayer name=\"%s\"><SrcDataSource relativeToVRT=\"1\">points.csv</SrcDataSource><SrcLayer>"
+                "points</SrcLayer><GeometryType>wkbPoint</GeometryType>%s<GeometryField encoding=\"PointFromColumns\" "
+                "x=\"x\" y=\"y\"/></OGRVRTLayer>",
+                k ? "two" : "one", cases[i].systems[k]);
+        fputs("</OGRVRTDataSource>", file);
+        fclose(file);
+        if (cases[i].message) {
+            refuse("layers.vrt", FROE_E_OPTIONS, cases[i].message);
+            continue;
+        }
+        froe_scene *scene = read_scene("layers.vrt", NULL);
+        assert_int_equal(froe_scene_object_count(scene), 2);
+        assert_int_equal(froe_scene_crs(scene).kind != FROE_CRS_UNKNOWN, i == 0);
+        froe_scene_free(scene);
+    }
+}
+
+/* Of several layers, each is filtered. */
+static void wrong_filters_are_told_in_a_line(void **state) {
+    (void)state;
+    froe_read_options o = froe_read_defaults();
+    o.where = "x >\r\n";
+    write_text("point.csv", "id,WKT\n1,POINT (1 2)\n");
+    refuse_with("point.csv", &o, FROE_E_OPTIONS, "point.csv: OGR reports 'SQL Expression Parsing Error: ");
+    GDALDatasetH data = new_data("KML", "two.kml");
+    for (int k = 0; k < 2; k++)
+        add_feature(GDALDatasetCreateLayer(data, k ? "one" : "two", NULL, wkbPoint, NULL), "POINT (1 2)", NULL);
+    GDALClose(data);
+    o.where = "nothing = 1";
+    refuse_with("two.kml", &o, FROE_E_OPTIONS, "nothing");
+}
+
+/* A member with the value "crs" is none of that name. */
+static void geojson_denies_its_system_by_a_member_alone(void **state) {
+    (void)state;
+    static const char format[] =
+        "{\"type\":\"FeatureCollection\",\"kind\":\"crs\",%s\"features\":[{\"type\":\"Feature\","
+        "\"properties\":{},\"geometry\":{\"type\":\"Point\",\"coordinates\":[1,2]}}]}";
+    static const struct {
+        const char *member;
+        froe_crs_kind kind;
+    } cases[] = {
+        {"", FROE_CRS_GEOGRAPHIC},
+        {"\"crs\" : null,", FROE_CRS_UNKNOWN},
+        {"\"crs\":{\"type\":\"name\",\"properties\":{\"name\":\"urn:ogc:def:crs:EPSG::3857\"}},", FROE_CRS_PROJECTED},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[600];
+        snprintf(text, sizeof text, format, cases[i].member);
+        VSILFILE *archive = VSIFOpenL("/vsizip/{denied.zip}/denied.geojson", "wb"); /* GDAL reads what is in archives */
+        assert_int_equal(VSIFWriteL(text, 1, strlen(text), archive), strlen(text));
+        VSIFCloseL(archive);
+        froe_scene *scene = read_scene("denied.zip", NULL);
+        if (froe_scene_crs(scene).kind != cases[i].kind)
+            fail_msg("%s: %s", cases[i].member, froe_scene_crs(scene).name);
+        froe_scene_free(scene);
+        unlink("denied.zip");
+    }
+}
+
+/* Surfaces of triangles, and polygons with rings of no vertices. */
+static void triangles_and_empty_rings_are_read(void **state) {
+    (void)state;
+    write_text("tin.csv",
+               "id,WKT\n1,\"TIN (((0 0,1 0,0 1,0 0)),((1 0,1 1,0 1,1 0)))\"\n2,\"TRIANGLE ((5 5,6 5,5 6,5 5))\"\n"
+               "3,\"POLYGON ((8 8,9 8,9 9,8 8),EMPTY)\"\n");
+    froe_read_report report;
+    froe_scene *scene = read_scene("tin.csv", &report);
+    assert_int_equal(froe_scene_object_count(scene), 12);
+    assert_true(has_edge(scene, 5, 5, 6, 5) && has_edge(scene, 8, 8, 9, 9));
+    froe_scene_free(scene);
+    static const char long_name[] = "a map with a name of more than 32 bytes.csv";
+    VSILFILE *packed = VSIFOpenL("/vsigzip/a map with a name of more than 32 bytes.csv.gz", "wb");
+    static const char text[] = "id,WKT\n1,\"LINESTRING (0 0,1 0)\"\n";
+    assert_true(packed && sizeof long_name > 32);
+    assert_int_equal(VSIFWriteL(text, 1, strlen(text), packed), strlen(text));
+    VSIFCloseL(packed);
+    scene = read_scene("a map with a name of more than 32 bytes.csv.gz", NULL);
+    assert_int_equal(froe_scene_object_count(scene), 1);
+    froe_scene_free(scene);
+    write_text("rows.tsv", "id\tWKT\n1\tLINESTRING (0 0,1 0)\n");
+    scene = read_scene("rows.tsv", NULL);
+    assert_int_equal(froe_scene_object_count(scene), 1);
+    froe_scene_free(scene);
+}
+
+static froe_status read_by(void *user, const froe_allocator *alloc) {
+    froe_read_options o = froe_read_defaults();
+    froe_scene *scene = NULL;
+    o.alloc = alloc;
+    const froe_status status = froe_read(user, &o, &scene, NULL, NULL);
+    froe_scene_free(scene);
+    return status;
+}
+
+static void every_allocation_may_fail(void **state) {
+    (void)state;
+    write_text("memory.csv",
+               "id,WKT\n1,\"GEOMETRYCOLLECTION (POINT (1 1),LINESTRING (0 0,1 0))\"\n2,\"POLYGON ((0 0,4 0,4 "
+               "4,0 0),(1 0,2 0,2 1,1 0))\"\n");
+    write_in("GPKG", "memory.gpkg", "LOCAL_CS[\"a hall\",UNIT[\"metre\",1]]");
+    assert_true(test_memory_each(read_by, "memory.csv") > 5);
+    assert_true(test_memory_each(read_by, "memory.gpkg") > 3);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(polygons_come_through_every_format),
@@ -299,6 +476,12 @@ int main(void) {
         cmocka_unit_test(every_feature_can_be_its_box),
         cmocka_unit_test(nested_collections_are_no_recursion),
         cmocka_unit_test(a_folder_of_several_layers_needs_the_name_of_one),
+        cmocka_unit_test(systems_are_of_degrees_or_of_something_else),
+        cmocka_unit_test(layers_in_different_systems_are_refused),
+        cmocka_unit_test(wrong_filters_are_told_in_a_line),
+        cmocka_unit_test(geojson_denies_its_system_by_a_member_alone),
+        cmocka_unit_test(triangles_and_empty_rings_are_read),
+        cmocka_unit_test(every_allocation_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -184,6 +184,76 @@ static void an_obj_is_read_with_its_images(void **state) {
     froe_scene_free(scene);
 }
 
+/* The name of an image may be anything that a line can hold; none of these is there. */
+static void odd_names_of_images_are_those_of_files(void **state) {
+    (void)state;
+    char long_name[400];
+    memset(long_name, 'n', sizeof long_name - 1), long_name[sizeof long_name - 1] = '\0';
+    const char *const names[] = {"*7", "*x", "*", "gone%", "gone%4", "gone%00.png", "gone%g1.png", long_name};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        FILE *file = fopen("odd.mtl", "w");
+        assert_non_null(file);
+        fprintf(file, "newmtl print\nKd 0 0 1\nmap_Kd %s\n", names[i]);
+        fclose(file);
+        write_text("odd.obj", "mtllib odd.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvt 1 1\nusemtl print\n"
+                              "f 1/1 2/2 3/3\nf 1 2 3\n");
+        froe_read_report report;
+        froe_scene *scene = read_scene("odd.obj", &report);
+        if (report.textures != 1 || report.unread != 1) fail_msg("%s: %d", names[i], (int)report.unread);
+        assert_int_equal(froe_scene_object_count(scene), 2);
+        froe_scene_free(scene);
+    }
+    froe_read_options boxes = froe_read_defaults();
+    froe_read_report report;
+    boxes.boxes = true;
+    froe_scene *scene = read_with("odd.obj", &boxes, &report); /* boxes have no colours, and images are not opened */
+    assert_int_equal(report.textures, 0);
+    froe_scene_free(scene);
+}
+
+static unsigned char *put_floats(unsigned char *at, const float *values, size_t count) {
+    memcpy(at, values, count * sizeof *values);
+    return at + count * sizeof *values;
+}
+
+/* A model of Quake: its image is uncompressed within the file, as numbers of a palette. */
+static void texels_within_a_model_are_its_colours(void **state) {
+    (void)state;
+    static const float scale[] = {1, 1, 1}, none[4] = {0};
+    unsigned char bytes[400] = "IDPO\6", *at = put_floats(bytes + 8, scale, 3);
+    at = put_floats(put_floats(at, none, 4), none, 3);         /* the origin, the radius, the eye */
+    static const unsigned counts[] = {1, 4, 4, 3, 1, 1, 0, 0}; /* skins, width, height, vertices, faces, frames */
+    for (size_t i = 0; i < 8; i++, at += 4) put_word(at, counts[i]);
+    at = put_floats(at, none, 1);                        /* size */
+    at += 4, memset(at, 251, 16), at[15] = 15, at += 16; /* one image, nearly of one colour */
+    for (unsigned i = 0; i < 3; i++, at += 12) put_word(at + 4, i % 2 * 2), put_word(at + 8, i / 2 * 2);
+    put_word(at, 1);
+    for (unsigned i = 0; i < 3; i++) put_word(at + 4 + 4 * i, i);
+    at += 16 + 4 + 8;
+    memcpy(at, "frame", 5), at += 16;
+    for (unsigned i = 0; i < 3; i++, at += 4) at[0] = (unsigned char)(i % 2), at[1] = (unsigned char)(i / 2);
+    write_bytes("quake.mdl", bytes, (size_t)(at - bytes));
+    froe_read_report report;
+    froe_scene *scene = read_scene("quake.mdl", &report);
+    assert_int_equal(froe_scene_object_count(scene), 1);
+    assert_int_equal(report.textures, 1);
+    assert_int_equal(report.unread, 0);
+    assert_true((colour_of(scene, 0) & 0xff) == 0xff && colour_of(scene, 0) != WHITE);
+    froe_scene_free(scene);
+}
+
+/* Colours of corners are of sRGB where no image and no glTF is. */
+static void colours_of_corners_are_averaged(void **state) {
+    (void)state;
+    write_text("corners.x",
+               "xof 0303txt 0032\nMesh m { 3; 0.0;0.0;0.0;, 1.0;0.0;0.0;, 0.0;1.0;0.0;; 1; 3;0,1,2;;\n"
+               "MeshVertexColors { 3; 0; 1.0;0.0;0.0;1.0;;, 1; 1.0;0.0;0.0;1.0;;, 2; 1.0;0.0;0.0;1.0;;; } }\n");
+    froe_scene *scene = read_scene("corners.x", NULL);
+    assert_int_equal(froe_scene_object_count(scene), 1);
+    assert_int_equal(colour_of(scene, 0), RED);
+    froe_scene_free(scene);
+}
+
 /* Large images come smaller: 600 x 300 in grey, the left half black, the right half white, with a palette. */
 static void a_large_image_has_its_means(void **state) {
     (void)state;
@@ -212,6 +282,12 @@ static void a_large_image_has_its_means(void **state) {
     assert_int_equal(colour_of(scene, 0), 0x000000ff);
     assert_int_equal(colour_of(scene, 2), GREEN);
     assert_int_equal(colour_of(scene, 4), 0x00ba00ff);
+    froe_scene_free(scene);
+    memset(bmp + HEAD, 9, WIDE * HIGH); /* no such entry: black */
+    write_bytes("large.bmp", bmp, sizeof bmp);
+    scene = read_scene("large.obj", &report);
+    assert_int_equal(report.unread, 0);
+    assert_int_equal(colour_of(scene, 4), 0x000000ff);
     froe_scene_free(scene);
 }
 
@@ -287,6 +363,9 @@ int main(void) {
         cmocka_unit_test(a_texture_may_be_moved_and_scaled),
         cmocka_unit_test(textures_that_are_missing_or_broken_are_counted),
         cmocka_unit_test(an_obj_is_read_with_its_images),
+        cmocka_unit_test(odd_names_of_images_are_those_of_files),
+        cmocka_unit_test(texels_within_a_model_are_its_colours),
+        cmocka_unit_test(colours_of_corners_are_averaged),
         cmocka_unit_test(a_large_image_has_its_means),
         cmocka_unit_test(rasters_of_every_sort_have_their_colours),
         cmocka_unit_test(every_allocation_may_fail),
