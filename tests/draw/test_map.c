@@ -236,6 +236,141 @@ static void the_small_map_shows_where_a_window_is(void **state) {
     froe_tree_free(tree);
 }
 
+/* A segment across a square, in a system of this kind and unit. */
+static froe_tree *square_in(froe_crs_kind kind, const char *unit, double x, double y, double size) {
+    const froe_crs crs = {.kind = kind, .name = "n", .wkt = "", .code = "", .unit = unit};
+    froe_scene *scene = scene_of(2);
+    add(scene, FROE_SEGMENT, 1, (const double[]){x, y, x + size, y + size}, NULL, NULL);
+    if (kind) assert_int_equal(froe_scene_set_crs(scene, &crs), FROE_OK);
+    return tree_of(scene, "density", 1);
+}
+
+static bool same_legends(froe_tree *a, froe_tree *b, const froe_draw_options *o) {
+    image_bytes p = picture_of(a, FROE_DRAW_SVG, o), q = picture_of(b, FROE_DRAW_SVG, o);
+    const bool same = p.count == q.count && !memcmp(p.bytes, q.bytes, p.count);
+    free(p.bytes), free(q.bytes);
+    froe_tree_free(a), froe_tree_free(b);
+    return same;
+}
+
+/* Of a unit only its name counts, but for metres, of which thousand are a kilometre, and degrees. */
+static void lengths_have_the_unit_of_the_scene(void **state) {
+    (void)state;
+    const froe_crs_kind plane = FROE_CRS_PROJECTED, globe = FROE_CRS_GEOGRAPHIC;
+    assert_true(same_legends(square_in(plane, "metre", 0, 0, 8), square_in(plane, "meter", 0, 0, 8), NULL));
+    assert_true(same_legends(square_in(plane, "", 0, 0, 8), square_in(FROE_CRS_UNKNOWN, NULL, 0, 0, 8), NULL));
+    assert_false(same_legends(square_in(plane, "metre", 0, 0, 8), square_in(plane, "foot", 0, 0, 8), NULL));
+    assert_false(same_legends(square_in(plane, "unit", 0, 0, 8), square_in(plane, "units", 0, 0, 80), NULL));
+    assert_false(same_legends(square_in(plane, "metre", 0, 0, 8e4), square_in(plane, "m", 0, 0, 8e4), NULL)); /* km */
+    assert_false(same_legends(square_in(globe, "degree", 0, 0, 1e-4), square_in(globe, "degree", 0, 0, 1), NULL));
+}
+
+/* East and west, north and south, and steps that divide the circle; near the poles nothing is squeezed. */
+static void degrees_are_named_by_their_halves(void **state) {
+    (void)state;
+    const froe_crs_kind globe = FROE_CRS_GEOGRAPHIC;
+    assert_false(
+        same_legends(square_in(globe, "degree", 0.25, 0.25, 0.5), square_in(globe, "degree", -0.75, -0.75, 0.5), NULL));
+    froe_draw_options o = froe_draw_defaults();
+    for (int i = 0; i < 7; i++) {
+        o.width = 60 + 40 * i;
+        assert_false(same_legends(square_in(globe, "degree", -180, -90, 180),
+                                  square_in(FROE_CRS_OTHER, "degree", -180, -90, 180), &o));
+    }
+    froe_tree *polar = square_in(globe, "degree", 10, 84, 2);
+    const froe_draw_options window = bare(200, 10, 84, 12, 86);
+    image_bytes png = picture_of(polar, FROE_DRAW_PNG, &window);
+    cairo_surface_t *image = image_of(png);
+    assert_int_equal(cairo_image_surface_get_height(image), 200);
+    cairo_surface_destroy(image);
+    free(png.bytes);
+    o = froe_draw_defaults(), o.lo[0] = 11.0000000001, o.lo[1] = 85, o.hi[0] = 11.0000000002, o.hi[1] = 85.0000000001;
+    png = picture_of(polar, FROE_DRAW_SVG, &o); /* steps with more than nine digits */
+    assert_null(strstr(png.bytes, "nan"));
+    free(png.bytes);
+    froe_tree_free(polar);
+}
+
+static void titles_may_be_empty_long_or_in_any_script(void **state) {
+    (void)state;
+    static char long_title[100];
+    memset(long_title, 'w', sizeof long_title - 1);
+    for (int format = 0; format < 2; format++) {
+        froe_tree *tree = tree_of(features(), "density", 1);
+        froe_draw_options o = froe_draw_defaults(), empty = o;
+        empty.title = "";
+        assert_same_picture(picture_of(tree, (froe_draw_format)format, &o),
+                            picture_of(tree, (froe_draw_format)format, &empty));
+        froe_tree_free(tree);
+    }
+    static const char *const titles[] = {long_title, "\xE6\x9D\xB1\xE4\xBA\xAC", "Z\xC3\xBCrich"};
+    for (size_t i = 0; i < 3; i++) {
+        froe_tree *tree = tree_of(features(), "density", 1);
+        froe_draw_options o = froe_draw_defaults();
+        int ink = 0, beside = 0;
+        o.title = titles[i], o.width = 400, o.legend = false;
+        image_bytes png = picture_of(tree, FROE_DRAW_PNG, &o);
+        cairo_surface_t *image = image_of(png);
+        for (int y = 0; y < 30; y++)
+            for (int x = 0; x < 400; x++) {
+                const bool dark = lightness(pixel(image, x, y)) < 500;
+                ink += dark, beside += dark && x >= 395;
+            }
+        if (ink < 5 || beside) fail_msg("title %zu: %d pixels, %d of them at the edge", i, ink, beside);
+        cairo_surface_destroy(image);
+        free(png.bytes);
+        froe_tree_free(tree);
+    }
+}
+
+/* Labels at every edge, where others are, and so many that not all can mind each other. */
+static void labels_keep_to_the_page(void **state) {
+    (void)state;
+    static const double at[][2] = {{20.1, 30},   {39.9, 30},   {30, 20.1}, {30, 39.9},
+                                   {20.1, 20.1}, {39.9, 39.9}, {30, 30}};
+    enum { SITES = sizeof at / sizeof *at, MANY = 2100 };
+    static froe_draw_mark marks[MANY];
+    for (int i = 0; i < MANY; i++) {
+        const double x = at[i % SITES][0], y = at[i % SITES][1];
+        marks[i] =
+            (froe_draw_mark){.lo = {x, y}, .hi = {x, y}, .kind = FROE_DRAW_MARK_LINE, .label = "A label\xE6\x9D\xB1"};
+    }
+    const int labelled = label_pixels(marks, SITES, 0, 800);
+    assert_int_equal(label_pixels(marks, MANY, 0, 2) + label_pixels(marks, MANY, 798, 800), 0);
+    for (int i = 0; i < SITES; i++) marks[i].label = "";
+    const int dots = label_pixels(marks, SITES, 0, 800);
+    if (labelled < dots + 100) fail_msg("%d pixels with labels, %d without", labelled, dots);
+    for (int i = 0; i < SITES; i++) marks[i].label = NULL;
+    assert_int_equal(label_pixels(marks, SITES, 0, 800), dots);
+    for (int i = 0; i < SITES; i++) { /* beyond the window in every direction: nothing is seen */
+        for (int k = 0; k < 2; k++) marks[i].hi[k] = marks[i].lo[k] = 30 + 40 * (at[i][k] > 30) - 40 * (at[i][k] < 30);
+        marks[i].label = "gone";
+    }
+    assert_int_equal(label_pixels(marks, SITES - 1, 0, 800), 0);
+    froe_draw_mark line = {.lo = {50, 50}, .hi = {60, 70}, .kind = FROE_DRAW_MARK_LINE, .label = "gone"};
+    assert_int_equal(label_pixels(&line, 1, 0, 800), 0);
+}
+
+/* Only lines of one label, one after the other, share it; only equal boxes are one place. */
+static void other_neighbours_have_labels_of_their_own(void **state) {
+    (void)state;
+    const froe_draw_mark marks[] = {
+        {.lo = {22, 25}, .hi = {24, 25}, .kind = FROE_DRAW_MARK_LINE, .label = "Here"},
+        {.lo = {27, 25}, .hi = {29, 25}, .kind = FROE_DRAW_MARK_LINE, .label = "There"},
+        {.lo = {22, 35}, .hi = {24, 36}, .kind = FROE_DRAW_MARK_BOX, .label = "There"},
+        {.lo = {27, 35}, .hi = {29, 36}, .kind = FROE_DRAW_MARK_BALL, .label = "There"},
+        {.lo = {27, 35}, .hi = {29, 37}, .kind = FROE_DRAW_MARK_BALL, .label = "There"},
+        {.lo = {27, 35, 0}, .hi = {29, 37, 1}, .kind = FROE_DRAW_MARK_BALL, .label = "There"},
+        {.lo = {34, 25}, .hi = {36, 25}, .kind = FROE_DRAW_MARK_LINE, .label = "There"},
+    };
+    int before = 0;
+    for (size_t count = 1; count <= sizeof marks / sizeof *marks; count++) {
+        const int ink = label_pixels(marks, count, 0, 800);
+        if (count != 6) assert_true(ink > before + 20);
+        before = ink;
+    }
+}
+
 static froe_status draw_map(void *user, const froe_allocator *alloc) {
     static const froe_draw_mark marks[] = {{.lo = {1, 1}, .hi = {1, 1}, .kind = FROE_DRAW_MARK_LINE, .label = "a"},
                                            {.lo = {1, 2}, .hi = {1, 2}, .kind = FROE_DRAW_MARK_LINE, .label = "b"}};
@@ -262,6 +397,11 @@ int main(void) {
         cmocka_unit_test(labels_at_the_right_edge_are_whole),
         cmocka_unit_test(marks_outside_of_the_window_are_counted),
         cmocka_unit_test(the_small_map_shows_where_a_window_is),
+        cmocka_unit_test(lengths_have_the_unit_of_the_scene),
+        cmocka_unit_test(degrees_are_named_by_their_halves),
+        cmocka_unit_test(titles_may_be_empty_long_or_in_any_script),
+        cmocka_unit_test(labels_keep_to_the_page),
+        cmocka_unit_test(other_neighbours_have_labels_of_their_own),
         cmocka_unit_test(every_allocation_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -41,6 +41,7 @@ static void options_out_of_range_are_refused_by_name(void **state) {
     REFUSED(flat, style, FROE_DRAW_EXPLODED, "exploded");
     REFUSED(solid, style, FROE_DRAW_FLAT, "flat");
     REFUSED(flat, style, FROE_DRAW_STYLE_COUNT, "style");
+    REFUSED(flat, style, (froe_draw_style)-1, "style");
     REFUSED(flat, show, 16, "show");
     REFUSED(flat, width, 0, "width");
     REFUSED(flat, width, 0.0 / 0.0, "width");
@@ -57,9 +58,16 @@ static void options_out_of_range_are_refused_by_name(void **state) {
     REFUSED(solid, explode_depth, 33, "explode_depth");
     REFUSED(solid, view[1], 0.0 / 0.0, "direction");
     REFUSED(flat, hi[0], 1.0 / 0.0, "window");
+    REFUSED(flat, lo[1], 0.0 / 0.0, "window");
+    REFUSED(flat, mark_count, 1, "Mark 0");
     REFUSED(flat, title, "\xff\xfe", "UTF-8");
     const froe_draw_mark far = {.hi = {1, 1.0 / 0.0, 1}};
     o = good, o.marks = &far, o.mark_count = 1;
+    assert_int_equal(draw(flat, "no.svg", &o, "Mark 0"), FROE_E_OPTIONS);
+    const froe_draw_mark low = {.lo = {-1.0 / 0.0}}, before_all = {.hi = {1, 1}, .kind = (froe_draw_mark_kind)-1};
+    o.marks = &low;
+    assert_int_equal(draw(flat, "no.svg", &o, "Mark 0"), FROE_E_OPTIONS);
+    o.marks = &before_all;
     assert_int_equal(draw(flat, "no.svg", &o, "Mark 0"), FROE_E_OPTIONS);
     const froe_draw_mark odd = {.hi = {1, 1, 1}, .kind = FROE_DRAW_MARK_KIND_COUNT}, scrawl = {.label = "\xff"};
     o.marks = &odd;
@@ -73,12 +81,16 @@ static void options_out_of_range_are_refused_by_name(void **state) {
     o.width = 30000;
     o.scale = 2;
     assert_int_equal(draw(flat, "no.png", &o, "pixels"), FROE_E_OPTIONS);
+    o.width = 100, o.height = 30000;
+    assert_int_equal(draw(flat, "no.png", &o, "pixels"), FROE_E_OPTIONS);
     assert_int_equal(draw(flat, "no.jpg", NULL, "no.jpg"), FROE_E_OPTIONS);
     assert_int_equal(draw(flat, "no", NULL, ".svg"), FROE_E_OPTIONS);
     assert_int_equal(draw(NULL, "no.svg", NULL, NULL), FROE_E_ARG);
     assert_int_equal(draw(flat, NULL, NULL, NULL), FROE_E_ARG);
     assert_int_equal(froe_draw_write(flat, FROE_DRAW_FORMAT_COUNT, keep_picture, NULL, NULL, NULL), FROE_E_OPTIONS);
+    assert_int_equal(froe_draw_write(flat, (froe_draw_format)-1, keep_picture, NULL, NULL, NULL), FROE_E_OPTIONS);
     assert_int_equal(froe_draw_write(flat, FROE_DRAW_SVG, NULL, NULL, NULL, NULL), FROE_E_ARG);
+    assert_int_equal(froe_draw_write(NULL, FROE_DRAW_SVG, keep_picture, NULL, NULL, NULL), FROE_E_ARG);
     assert_int_equal(files_here(), before);
     froe_tree_free(flat);
     froe_tree_free(solid);
@@ -208,31 +220,60 @@ static froe_status draw_to_memory(void *user, const froe_allocator *alloc) {
     return status;
 }
 
+/* A hull and a polygon of so many corners that lists of them grow, a box without thickness, and a point. */
+static froe_scene *large_figures(void) {
+    enum { CORNERS = 200 };
+    static double ring[3 * CORNERS], hull[3 * CORNERS];
+    const size_t starts[2] = {0, CORNERS};
+    for (int i = 0; i < CORNERS; i++) { /* corners on a parabola: none of them is within */
+        const double t = (i - CORNERS / 2) / 64.0;
+        ring[3 * i] = t, ring[3 * i + 1] = t * t, ring[3 * i + 2] = 0.5;
+        hull[3 * i] = t, hull[3 * i + 1] = t * t, hull[3 * i + 2] = i % 2;
+    }
+    froe_scene *scene = scene_of(3);
+    froe_objects o = froe_objects_defaults();
+    o.count = 1, o.starts = starts, o.coords = ring;
+    assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
+    o.kind = FROE_HULL, o.coords = hull;
+    assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
+    add(scene, FROE_BOX, 2, (const double[]){0, 0, 0, 1, 0, 1, 0, 1, 0, 0, 2, 1}, NULL, NULL);
+    add(scene, FROE_POINT, 1, (const double[]){0.25, 0.25, 0.5}, NULL, NULL);
+    return scene;
+}
+
 static void every_allocation_may_fail(void **state) {
     (void)state;
     froe_tree *flat = tree_of(random_segments(60, 0.4, 1, 0), "autopartition", 0);
     froe_tree *solid = tree_of(mixed_scene(3), "density", 1), *plane = tree_of(mixed_scene(2), "density", 1);
+    froe_tree *figures = tree_of(large_figures(), "density", 1);
     static const uint32_t accented[] = {0, 1, 2, 3, 4};
-    scenario scenarios[] = {{flat, froe_draw_defaults(), FROE_DRAW_SVG},
-                            {solid, froe_draw_defaults(), FROE_DRAW_PDF},
-                            {solid, froe_draw_defaults(), FROE_DRAW_PNG},
-                            {plane, froe_draw_defaults(), FROE_DRAW_SVG},
-                            {plane, froe_draw_defaults(), FROE_DRAW_SVG}};
+    scenario scenarios[] = {
+        {flat, froe_draw_defaults(), FROE_DRAW_SVG},    {solid, froe_draw_defaults(), FROE_DRAW_PDF},
+        {solid, froe_draw_defaults(), FROE_DRAW_PNG},   {plane, froe_draw_defaults(), FROE_DRAW_SVG},
+        {plane, froe_draw_defaults(), FROE_DRAW_SVG},   {flat, froe_draw_defaults(), FROE_DRAW_PNG},
+        {figures, froe_draw_defaults(), FROE_DRAW_SVG}, {figures, froe_draw_defaults(), FROE_DRAW_SVG},
+        {figures, froe_draw_defaults(), FROE_DRAW_SVG}};
     scenarios[3].options.accented = accented, scenarios[3].options.accented_count = 5;
     scenarios[3].options.title = "Five";
     for (int k = 0; k < 2; k++) { /* so near to the ball that its border is drawn as a ring of lines */
         scenarios[4].options.lo[k] = (k ? 0.6 : 0.35) - 1e-5;
         scenarios[4].options.hi[k] = (k ? 0.6 : 0.35) + 1e-5;
     }
+    scenarios[5].options.detail = 20, scenarios[5].options.max_depth = 0; /* cells are drawn as one */
+    scenarios[6].options.axis = 2, scenarios[6].options.show = FROE_DRAW_OBJECTS;
+    scenarios[7].options.style = FROE_DRAW_EXPLODED, scenarios[7].options.show = 15;
+    scenarios[8].options.accented = accented, scenarios[8].options.accented_count = 5;
+    scenarios[8].options.axis = 2, scenarios[8].options.at = 0.5;
     scenarios[2].options.style = FROE_DRAW_EXPLODED;
     scenarios[1].options.show = scenarios[2].options.show = 15;
-    for (int i = 0; i < 5; i++) {
+    for (size_t i = 0; i < sizeof scenarios / sizeof *scenarios; i++) {
         scenarios[i].options.width = 200;
         assert_true(test_memory_each(draw_to_memory, scenarios + i) > 10);
     }
     froe_tree_free(flat);
     froe_tree_free(solid);
     froe_tree_free(plane);
+    froe_tree_free(figures);
 }
 
 typedef struct patience {
