@@ -75,7 +75,7 @@ static bool all_finite(const double *x, int count) {
 static froe_status check_options(const froe_draw_options *o, int dim, froe_diagnostic *diag) {
     if (o->size != sizeof *o) return support_fail_defaults(diag, "froe_draw_defaults");
     if (dim > 3) return support_fail(diag, FROE_E_UNSUPPORTED, "Pictures exist in 2 and 3 dimensions, not in %d.", dim);
-    if (o->style < 0 || o->style >= FROE_DRAW_STYLE_COUNT)
+    if ((unsigned)o->style >= FROE_DRAW_STYLE_COUNT)
         return support_fail(diag, FROE_E_OPTIONS, "There is no style %d.", (int)o->style);
     if (o->style != FROE_DRAW_AUTO && (o->style == FROE_DRAW_FLAT) != (dim == 2))
         return support_fail(diag, FROE_E_OPTIONS, "Style '%s' does not suit a tree of dimension %d.",
@@ -87,8 +87,7 @@ static froe_status check_options(const froe_draw_options *o, int dim, froe_diagn
         if (!o->marks || !all_finite(o->marks[i].lo, 3) || !all_finite(o->marks[i].hi, 3))
             return support_fail(diag, FROE_E_OPTIONS, "Mark %zu of a picture is not finite.", i);
     for (size_t i = 0; i < o->mark_count; i++)
-        if (o->marks[i].kind < 0 || o->marks[i].kind >= FROE_DRAW_MARK_KIND_COUNT ||
-            !support_is_utf8(o->marks[i].label))
+        if ((unsigned)o->marks[i].kind >= FROE_DRAW_MARK_KIND_COUNT || !support_is_utf8(o->marks[i].label))
             return support_fail(diag, FROE_E_OPTIONS,
                                 "Mark %zu of a picture has an unknown kind, or a label that is not UTF-8.", i);
     if (o->accented_count && !o->accented)
@@ -203,7 +202,7 @@ froe_status froe_draw_write(const froe_tree *tree, froe_draw_format format, froe
                             const froe_draw_options *options, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
     if (!tree || !fn) return support_fail_null(diag, __func__);
-    if (format < 0 || format >= FROE_DRAW_FORMAT_COUNT)
+    if ((unsigned)format >= FROE_DRAW_FORMAT_COUNT)
         return support_fail(diag, FROE_E_OPTIONS, "There is no format %d.", (int)format);
     draw_output output;
     froe_status status = make(tree, format, options, &output, diag);

@@ -236,6 +236,31 @@ static void the_small_map_shows_where_a_window_is(void **state) {
     froe_tree_free(tree);
 }
 
+/* Points, balls and segments beside a window, in every direction; the last ones touch it. */
+static void what_is_beside_the_window_is_not_drawn(void **state) {
+    (void)state;
+    static const double ways[][2] = {{-1, 0}, {1, 0}, {0, -1}, {0, 1}, {0, 0}};
+    for (int kind = 0; kind < 3; kind++)
+        for (int i = 0; i < 5; i++) {
+            static const froe_kind kinds[] = {FROE_POINT, FROE_BALL, FROE_SEGMENT};
+            const double x = 5 + 20 * ways[i][0], y = 5 + 20 * ways[i][1];
+            froe_scene *scene = scene_of(2);
+            add(scene, kinds[kind], 1, (const double[]){x, y, x + 1, y},
+                kinds[kind] == FROE_BALL ? (const double[]){1} : NULL, NULL);
+            add(scene, FROE_SEGMENT, 2, (const double[]){5, -30, 5, -20, 20, 5, 30, 5}, NULL, NULL);
+            froe_tree *tree = tree_of(scene, "density", 1);
+            const froe_draw_options o = bare(100, 0, 0, 10, 10);
+            image_bytes png = picture_of(tree, FROE_DRAW_PNG, &o);
+            cairo_surface_t *image = image_of(png);
+            int ink = 0;
+            for (int at = 0; at < 100 * 100; at++) ink += lightness(pixel(image, at % 100, at / 100)) < 650;
+            if ((ink > 0) != (i == 4)) fail_msg("kind %d, way %d: %d pixels", kind, i, ink);
+            cairo_surface_destroy(image);
+            free(png.bytes);
+            froe_tree_free(tree);
+        }
+}
+
 /* A segment across a square, in a system of this kind and unit. */
 static froe_tree *square_in(froe_crs_kind kind, const char *unit, double x, double y, double size) {
     const froe_crs crs = {.kind = kind, .name = "n", .wkt = "", .code = "", .unit = unit};
@@ -397,6 +422,7 @@ int main(void) {
         cmocka_unit_test(labels_at_the_right_edge_are_whole),
         cmocka_unit_test(marks_outside_of_the_window_are_counted),
         cmocka_unit_test(the_small_map_shows_where_a_window_is),
+        cmocka_unit_test(what_is_beside_the_window_is_not_drawn),
         cmocka_unit_test(lengths_have_the_unit_of_the_scene),
         cmocka_unit_test(degrees_are_named_by_their_halves),
         cmocka_unit_test(titles_may_be_empty_long_or_in_any_script),
