@@ -28,6 +28,14 @@ typedef struct office {
     post posts[RANKS];
     size_t foreign; /* bytes that went from one to another */
     bool spoils;    /* ranges that go to thread 0 have more points than were sent */
+    /* Of the trade of this number (from 1 on; 0: of none) that brings thread 0 words of thread 1, those from word
+     * `kept` on are lost, or, where `changes`, that word becomes `word`. */
+    int spoilt_trade;
+    size_t kept;
+    bool changes;
+    uint64_t word;
+    int trades;
+    bool spoilt;
 } office;
 
 typedef struct member {
@@ -72,6 +80,17 @@ static void spoil_range(froe_shard_records *in) {
     memcpy(in->bytes + BEFORE, &r, sizeof r);
 }
 
+/* What thread 1 has sent, the last of the words, is not as it was. */
+static void spoil_words(office *o, froe_shard_records *in, size_t *count) {
+    if (!*count || ++o->trades != o->spoilt_trade || 8 * o->kept >= *count) return;
+    unsigned char *sent = in->bytes + in->count - *count;
+    o->spoilt = true;
+    if (o->changes)
+        memcpy(sent + 8 * o->kept, &o->word, sizeof o->word);
+    else
+        in->count -= *count - 8 * o->kept, *count = 8 * o->kept;
+}
+
 static froe_status trade(void *user, froe_status status, const froe_shard_records *out, const size_t *counts,
                          froe_shard_records *in, size_t *in_counts, froe_diagnostic *diag) {
     const member *m = user;
@@ -88,6 +107,7 @@ static froe_status trade(void *user, froe_status status, const froe_shard_record
         if (r != m->rank && m->rank == 0) o->foreign += in_counts[r];
     }
     if (o->spoils && m->rank == 0 && !status) spoil_range(in);
+    if (m->rank == 0 && o->ranks == 2 && !status) spoil_words(o, in, &in_counts[1]);
     return agree(m, status, diag);
 }
 
@@ -299,7 +319,13 @@ static void *work(void *given) {
 /* Lets threads ask questions of these kinds. `workers` have first, count and memory set. */
 static void run_workers(office *o, worker *workers, int ranks, const questions *q, int first_kind, int end_kind) {
     pthread_t threads[RANKS];
-    *o = (office){.ranks = ranks, .spoils = o->spoils};
+    const office asked = *o;
+    *o = (office){.ranks = ranks,
+                  .spoils = asked.spoils,
+                  .spoilt_trade = asked.spoilt_trade,
+                  .kept = asked.kept,
+                  .changes = asked.changes,
+                  .word = asked.word};
     pthread_mutex_init(&o->lock, NULL), pthread_cond_init(&o->turn, NULL);
     for (int r = 0; r < ranks; r++) {
         workers[r].member = (member){o, r};
@@ -518,6 +544,43 @@ static void a_range_of_more_points_than_have_come_is_refused(void **state) {
     free(q);
 }
 
+/* Asks questions of a kind while words are spoilt, and returns whether that trade has so many words. */
+static bool is_spoilt(const questions *q, int kind, office o) {
+    worker workers[2] = {{.first = 0, .count = 2}, {.first = 2, .count = 2}};
+    run_workers(&o, workers, 2, q, kind, kind + 1);
+    assert_int_equal(workers[0].status, workers[1].status);
+    if (!o.spoilt) assert_int_equal(workers[0].status, FROE_OK);
+    if (o.spoilt && !o.changes && workers[0].status != FROE_E_FORMAT)
+        fail_msg("kind %d, trade %d, %zu words: status %d", kind, o.spoilt_trade, o.kept, (int)workers[0].status);
+    if (workers[0].status == FROE_E_FORMAT)
+        assert_non_null(
+            strstr(workers[0].diag.message[0] ? workers[0].diag.message : workers[1].diag.message, "process"));
+    free_answers(workers, 2);
+    return o.spoilt;
+}
+
+/* Words that are lost are noticed wherever that happens; others instead of them end in a status. The first word stays:
+ * it says whether there is another round, which nobody can know without it. */
+static void words_that_are_spoilt_are_refused(void **state) {
+    (void)state;
+    questions *q = calloc(1, sizeof *q);
+    static const int kinds[] = {RANGES, ABOVE, NEAR + 1, RAY_ALL, COUNT_LOCATE};
+    assert_non_null(q);
+    make_questions(q, 2, 9);
+    build_shared(2, 4, 9);
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
+        for (int number = 1; number <= 3; number++) {
+            bool spoilt = true;
+            for (size_t kept = 1; kept < 16 && spoilt; kept++)
+                spoilt = is_spoilt(q, kinds[k], (office){.spoilt_trade = number, .kept = kept});
+            for (size_t at = 1; at < 8; at++)
+                (void)is_spoilt(
+                    q, kinds[k],
+                    (office){.spoilt_trade = number, .kept = at, .changes = true, .word = UINT64_MAX >> at});
+        }
+    free(q);
+}
+
 static void every_shard_has_an_owner_and_every_turn_begins_with_the_next(void **state) {
     (void)state;
     enum { SHARDS = 4096 };
@@ -549,6 +612,7 @@ static void what_is_no_process_is_refused(void **state) {
     assert_int_equal(froe_shards_share(shards, 3, 3, trade, NULL, &diag), FROE_E_ARG);
     assert_string_equal(diag.message, "There is no process 3 of 3.");
     assert_int_equal(froe_shards_share(shards, 0, 1, NULL, NULL, &diag), FROE_E_ARG);
+    assert_int_equal(froe_shards_share(NULL, 0, 1, trade, NULL, &diag), FROE_E_ARG);
     assert_int_equal(froe_shards_share(shards, 0, 1, trade, NULL, &diag), FROE_OK);
     froe_shards_close(shards);
 }
@@ -561,6 +625,7 @@ int main(void) {
         cmocka_unit_test(numbers_of_answers_are_sent_without_the_answers),
         cmocka_unit_test(a_shard_is_asked_once_for_all),
         cmocka_unit_test(a_range_of_more_points_than_have_come_is_refused),
+        cmocka_unit_test(words_that_are_spoilt_are_refused),
         cmocka_unit_test(every_shard_has_an_owner_and_every_turn_begins_with_the_next),
         cmocka_unit_test(what_is_no_process_is_refused),
     };
