@@ -2,6 +2,8 @@
  * are none: FROE_E_ARG or another status with a sentence, and nothing is changed. */
 #include "folders.h"
 #include <math.h>
+#include <signal.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include "support/refusals.h" /* last: others have variables called `why` */
@@ -35,6 +37,10 @@ static void batches_are_checked(void **state) {
     NULLS(froe_shard_records_append(NULL, corners, 8, &why));
     NULLS(froe_shard_records_append(&records, NULL, 8, &why));
     assert_int_equal(records.count, 0);
+    batch.kind = FROE_SEGMENT, batch.radii = NULL, batch.count = 0;
+    assert_int_equal(froe_shard_records_add(&records, 2, &batch, 0, &why), FROE_OK); /* none is no failure */
+    assert_int_equal(records.count, 0);
+    batch.count = 1;
     /* The same object by indices and without. */
     froe_shard_records plain = {0};
     const double ends[] = {0, 0, 2, 2};
@@ -65,7 +71,8 @@ static void samples_and_plans_are_checked(void **state) {
     assert_int_equal(froe_shard_sample_add(sample, records.bytes, records.count), FROE_E_ARG); /* of space */
     assert_int_equal(froe_shard_sample_add(sample, records.bytes, records.count - 8), FROE_E_ARG);
     assert_true(froe_shard_sample_bound(NULL, 1) == UINT64_MAX && froe_shard_sample_bound(sample, 0) == UINT64_MAX);
-    froe_shard_sample_cut(NULL, 0);
+    froe_shard_sample_cut(NULL, 0), froe_shard_sample_cut(sample, UINT64_MAX);
+    assert_int_equal(froe_shard_sample_add(sample, NULL, 0), FROE_OK);
     assert_null(froe_shard_sample_words(NULL, &count));
     assert_null(froe_shard_sample_words(sample, NULL));
     assert_int_equal(froe_shard_sample_new(3, NULL, &other), FROE_OK);
@@ -81,11 +88,80 @@ static void samples_and_plans_are_checked(void **state) {
     NULLS(froe_shard_plan_new(sample, 1, 0, NULL, &why));
     expect(froe_shard_plan_new(sample, 5000, 0, &plan, &why), FROE_E_ARG, "at most 4096 shards");
     assert_int_equal(froe_shard_plan_count(NULL), 0);
-    const froe_shards_report report = froe_shard_report(NULL, NULL);
-    assert_int_equal(report.shards, 0);
+    assert_int_equal(froe_shard_report(NULL, NULL).shards, 0);
     froe_shard_plan_free(NULL);
     froe_shard_sample_free(sample), froe_shard_sample_free(other), froe_shard_sample_free(NULL);
     froe_shard_records_free(&records);
+}
+
+static void shards_are_checked(void **state) {
+    (void)state;
+    static const double corners[] = {0, 0, 1, 1};
+    froe_shard_records records = {0};
+    froe_shard_sample *sample;
+    froe_shard_plan *plan;
+    froe_shard_entry entry;
+    const froe_shards_options good = froe_shards_defaults();
+    froe_shards_options o = good;
+    froe_objects batch = froe_objects_defaults();
+    batch.kind = FROE_SEGMENT, batch.count = 1, batch.coords = corners;
+    assert_int_equal(froe_shard_records_add(&records, 2, &batch, 0, &why), FROE_OK);
+    assert_int_equal(froe_shard_sample_new(2, NULL, &sample), FROE_OK);
+    assert_int_equal(froe_shard_sample_add(sample, records.bytes, records.count), FROE_OK);
+    assert_int_equal(froe_shard_plan_new(sample, 1, 0, &plan, &why), FROE_OK);
+    NULLS(froe_shard_build(NULL, plan, 0, NULL, &o, ".", &entry, &why));
+    NULLS(froe_shard_build(&records, NULL, 0, NULL, &o, ".", &entry, &why));
+    NULLS(froe_shard_build(&records, plan, 0, NULL, NULL, ".", &entry, &why));
+    NULLS(froe_shard_build(&records, plan, 0, NULL, &o, NULL, &entry, &why));
+    NULLS(froe_shard_build(&records, plan, 0, NULL, &o, ".", NULL, &why));
+    expect(froe_shard_build(&records, plan, 1, NULL, &o, ".", &entry, &why), FROE_E_ARG, "There is no shard 1.");
+    o.size = 1;
+    expect(froe_shard_build(&records, plan, 0, NULL, &o, ".", &entry, &why), FROE_E_OPTIONS, "froe_shards_defaults");
+    expect(froe_shard_build(&records, plan, 0, NULL, &good, "absent", &entry, &why), FROE_E_IO,
+           "absent/shard-0000.froe");
+    NULLS(froe_shard_manifest_write(plan, NULL, ".", NULL, &why));
+    NULLS(froe_shard_manifest_write(plan, &entry, NULL, NULL, &why));
+    assert_int_equal(froe_shard_report(plan, NULL).shards, 0);
+    froe_shard_plan_free(plan), froe_shard_sample_free(sample);
+    /* Objects of groups, and no scene that has them. */
+    static const uint32_t groups[] = {3}, faces[] = {7};
+    for (int i = 0; i < 3; i++) {
+        froe_shard_records of_groups = {0};
+        batch.groups = i == 0 ? groups : NULL, batch.faces = i == 1 ? faces : NULL,
+        batch.group = i == 2 ? 3 : FROE_NONE;
+        assert_int_equal(froe_shard_records_add(&of_groups, 2, &batch, 0, &why), FROE_OK);
+        assert_int_equal(froe_shard_sample_new(2, NULL, &sample), FROE_OK);
+        assert_int_equal(froe_shard_sample_add(sample, of_groups.bytes, of_groups.count), FROE_OK);
+        assert_int_equal(froe_shard_plan_new(sample, 1, 0, &plan, &why), FROE_OK);
+        if (i == 1)
+            assert_int_equal(froe_shard_build(&of_groups, plan, 0, NULL, &good, ".", &entry, &why), FROE_OK);
+        else
+            expect(froe_shard_build(&of_groups, plan, 0, NULL, &good, ".", &entry, &why), FROE_E_UNSUPPORTED,
+                   "Objects have groups, and there is no scene that has them.");
+        froe_shard_plan_free(plan), froe_shard_sample_free(sample), froe_shard_records_free(&of_groups);
+    }
+    froe_shard_records_free(&records);
+}
+
+/* A disk that is full at once, and one that is full within the first block. */
+static void buckets_on_a_full_disk_are_told(void **state) {
+    (void)state;
+    struct rlimit limit;
+    static char bytes[1 << 20];
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &limit), 0);
+    signal(SIGXFSZ, SIG_IGN);
+    for (rlim_t most = 0; most < 2000; most += 1000) {
+        const struct rlimit few = {most, limit.rlim_max};
+        froe_shard_buckets *buckets;
+        assert_int_equal(froe_shard_buckets_new(".", 2, NULL, &buckets, &why), FROE_OK);
+        assert_int_equal(setrlimit(RLIMIT_FSIZE, &few), 0);
+        froe_status status = FROE_OK;
+        for (int i = 0; i < 64 && !status; i++) status = froe_shard_buckets_add(buckets, 0, bytes, sizeof bytes, &why);
+        assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
+        expect(status, FROE_E_IO, "cannot be written: File too large");
+        froe_shard_buckets_free(buckets);
+    }
+    signal(SIGXFSZ, SIG_DFL);
 }
 
 static void buckets_are_checked(void **state) {
@@ -123,10 +199,14 @@ static void drafts_are_checked(void **state) {
     static char far[5000];
     memset(far, 'a', sizeof far - 1);
     far[300] = 0; /* a name that no file has */
-    const char *const places[] = {"", "absent/d.froes", "..", "file/d.froes", far, "a/.."};
+    const char *const places[] = {"", "absent/d.froes", "..", "absent/.", "absent/..", "file/d.froes", far, "a/.."};
     fclose(fopen("file", "w"));
     for (size_t i = 0; i < sizeof places / sizeof *places; i++)
         expect(froe_shard_draft_begin(places[i], NULL, &draft, &why), FROE_E_IO, ": ");
+    assert_int_equal(froe_shard_draft_begin("d.froes", NULL, &draft, &why), FROE_OK);
+    NULLS(froe_shard_draft_place(draft, NULL, &why));
+    assert_int_equal(froe_shard_draft_end(draft, FROE_E_IO, &why), FROE_E_IO);
+    assert_true(access("d.froes", F_OK) && access(".d.froes.building", F_OK));
     far[300] = 'a';
     expect(froe_shard_draft_begin(far, NULL, &draft, &why), FROE_E_IO, "name too long");
 }
@@ -153,6 +233,9 @@ static void builders_are_checked(void **state) {
     NULLS(froe_shards_add(builder, NULL, &why));
     batch.group = 0;
     expect(froe_shards_add(builder, &batch, &why), FROE_E_UNSUPPORTED, "roups");
+    static const uint32_t groups[] = {0};
+    batch.group = FROE_NONE, batch.groups = groups;
+    expect(froe_shards_add(builder, &batch, &why), FROE_E_UNSUPPORTED, "roups");
     froe_scene *space;
     assert_int_equal(froe_scene_new(3, NULL, &space), FROE_OK);
     NULLS(froe_shards_add_scene(builder, NULL, &why));
@@ -166,6 +249,70 @@ static void builders_are_checked(void **state) {
 static bool stop(void *user, double done) {
     (void)user, (void)done;
     return false;
+}
+
+static bool skip_pair(void *user, const froe_found_pair *pair) {
+    (void)user, (void)pair;
+    return false;
+}
+
+/* A folder by a plan for objects that are not all there: a shard without objects has no query. */
+static void empty_shards_are_asked_nothing(void **state) {
+    (void)state;
+    enum { OBJECTS = 6 };
+    static const double left[] = {0, 0, 0, 1}, right[] = {9, 0, 9, 1};
+    const froe_shards_options o = froe_shards_defaults();
+    froe_shard_records records = {0}, planned = {0};
+    froe_shard_sample *sample;
+    froe_shard_plan *plan;
+    froe_shard_draft *draft;
+    froe_shard_entry entries[2];
+    froe_shards *s;
+    froe_query *query;
+    froe_finds finds = {0};
+    froe_objects batch = froe_objects_defaults();
+    batch.kind = FROE_SEGMENT, batch.count = 1;
+    for (uint64_t i = 0; i < OBJECTS; i++) {
+        batch.coords = left;
+        assert_int_equal(froe_shard_records_add(&records, 2, &batch, i, &why), FROE_OK);
+        assert_int_equal(froe_shard_records_add(&planned, 2, &batch, i, &why), FROE_OK);
+        batch.coords = right;
+        assert_int_equal(froe_shard_records_add(&planned, 2, &batch, OBJECTS + i, &why), FROE_OK);
+    }
+    assert_int_equal(froe_shard_sample_new(2, NULL, &sample), FROE_OK);
+    assert_int_equal(froe_shard_sample_add(sample, planned.bytes, planned.count), FROE_OK);
+    assert_int_equal(froe_shard_plan_new(sample, 2, 0, &plan, &why), FROE_OK);
+    assert_int_equal(froe_shard_plan_count(plan), 2);
+    assert_int_equal(froe_shard_draft_begin("empty.froes", NULL, &draft, &why), FROE_OK);
+    for (uint32_t i = 0; i < 2; i++) {
+        assert_int_equal(
+            froe_shard_build(&records, plan, i, NULL, &o, froe_shard_draft_folder(draft), entries + i, &why), FROE_OK);
+        froe_shard_records_free(&records);
+    }
+    assert_int_equal(froe_shard_manifest_write(plan, entries, froe_shard_draft_folder(draft), NULL, &why), FROE_OK);
+    assert_int_equal(froe_shard_draft_end(draft, FROE_OK, &why), FROE_OK);
+    froe_shard_plan_free(plan), froe_shard_sample_free(sample), froe_shard_records_free(&planned);
+    assert_int_equal(froe_shards_open("empty.froes", NULL, &s, &why), FROE_OK);
+    uint32_t empty = 0;
+    for (uint32_t i = 0; i < froe_shards_about(s).shards; i++) {
+        const froe_tree *tree;
+        assert_int_equal(froe_shards_tree(s, i, &tree, &why), FROE_OK);
+        if (tree) continue;
+        expect(froe_shards_query(s, i, &query, &why), FROE_E_ARG, "with objects.");
+        empty++;
+    }
+    assert_int_equal(empty, 1);
+    assert_int_equal(froe_shards_check(s, NULL, &why), FROE_OK);
+    assert_int_equal(froe_shards_locate(s, (const double[]){0, 0.5}, 1, NULL, &finds, &why), FROE_OK);
+    assert_int_equal(finds.starts[1], OBJECTS);
+    froe_finds_free(&finds), froe_finds_free(&finds), froe_finds_free(NULL);
+    assert_int_equal(froe_shards_pairs(s, true, NULL, skip_pair, NULL, &why), FROE_OK);
+    froe_batch_options b = froe_batch_defaults();
+    b.progress = stop;
+    expect(froe_shards_check(s, &b, &why), FROE_E_CANCELLED, "Cancelled");
+    b.progress = NULL;
+    assert_int_equal(froe_shards_check(s, &b, &why), FROE_OK);
+    froe_shards_close(s);
 }
 
 static void questions_are_checked(void **state) {
@@ -201,6 +348,14 @@ static void questions_are_checked(void **state) {
     NULLS(froe_shards_ray_all(s, x, NULL, 1, INFINITY, NULL, &finds, &why));
     NULLS(froe_shards_near(s, NULL, 1, 1, INFINITY, NULL, &finds, &why));
     NULLS(froe_shards_locate_count(s, x, 1, NULL, NULL, &why));
+    NULLS(froe_shards_vertical_count(s, NULL, 1, 1, NULL, &count, &why));
+    NULLS(froe_shards_ray_count(s, NULL, x, 1, INFINITY, NULL, &count, &why));
+    NULLS(froe_shards_ray_count(s, x, NULL, 1, INFINITY, NULL, &count, &why));
+    NULLS(froe_shards_near_count(s, NULL, 1, 1, INFINITY, NULL, &count, &why));
+    NULLS(froe_shards_groups(s, NULL, 1, NULL, &finds, &why));
+    NULLS(froe_shards_groups_range(s, NULL, 1, FROE_MEETS, NULL, &finds, &why));
+    NULLS(froe_shards_pairs(NULL, true, NULL, skip_pair, NULL, &why));
+    NULLS(froe_shards_pairs(s, true, NULL, NULL, NULL, &why));
     assert_int_equal(froe_shards_locate_count(s, x, 0, NULL, &count, &why), FROE_OK);
     NULLS(froe_shards_tree(NULL, 0, &tree, &why));
     NULLS(froe_shards_tree(s, 0, NULL, &why));
@@ -226,9 +381,15 @@ static void questions_are_checked(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(batches_are_checked),  cmocka_unit_test(samples_and_plans_are_checked),
-        cmocka_unit_test(buckets_are_checked),  cmocka_unit_test(drafts_are_checked),
-        cmocka_unit_test(builders_are_checked), cmocka_unit_test(questions_are_checked),
+        cmocka_unit_test(batches_are_checked),
+        cmocka_unit_test(samples_and_plans_are_checked),
+        cmocka_unit_test(buckets_are_checked),
+        cmocka_unit_test(drafts_are_checked),
+        cmocka_unit_test(builders_are_checked),
+        cmocka_unit_test(questions_are_checked),
+        cmocka_unit_test(shards_are_checked),
+        cmocka_unit_test(buckets_on_a_full_disk_are_told),
+        cmocka_unit_test(empty_shards_are_asked_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
