@@ -201,7 +201,7 @@ static bool cut_places(froe_shard_plan *plan, const places *p, size_t count, uin
 static uint64_t shards_for(uint64_t weight, uint64_t memory) {
     const uint64_t each = memory / 4 * 3, wanted = each ? weight / each + 1 : UINT64_MAX;
     if (wanted <= FROE_SHARDS_MOST) return wanted;
-    return memory && weight / memory < FROE_SHARDS_MOST ? FROE_SHARDS_MOST : 0;
+    return weight / memory < FROE_SHARDS_MOST ? FROE_SHARDS_MOST : 0;
 }
 
 static froe_status fail_little_memory(uint64_t weight, uint64_t memory, froe_diagnostic *diag) {

@@ -238,6 +238,70 @@ static void every_changed_byte_of_a_manifest_is_noticed(void **state) {
     free(text);
 }
 
+/* Lines that no program writes, with a right checksum. */
+static void manifests_of_no_folder_are_refused(void **state) {
+    (void)state;
+    static const char *const bodies[] = {
+        "dimension 9\nshard 1 1 2272 0123456789abcdef 0 0 0 0 0 0 0 0 0 1 1 1 1 1 1 1 1 1\n",
+        "dimension 1\nshard 1 1 2272 0123456789abcdef 0 1\n",
+        "dimension 2\nshard 0\n",
+        "dimension 2\nshard 1 1 2272 0123456789abcdef 0 0 inf 1\n",
+        "dimension 2\nshard 1 1 2272 0123456789abcdef 0 0 1e999 1\n",
+        "dimension 2\nshard 1 1 2272 0123456789abcdef 0 0 nan 1\n",
+        "dimension 2\ncut 2 5\nshard 1 1 2272 0123456789abcdef 0 0 1 1\nshard 1 1 2272 0123456789abcdef 6 0 7 1\n",
+        "dimension 2\ncut 0 5\nshard 1 1 2272 0123456789abcdef 0 0 1 1\n",
+        "dimension 2\nshard 1 1 2272 0123456789abcdef 0 0 1 1\nshard 1 1 2272 0123456789abcdef 6 0 7 1\n",
+        "dimension 2\nshard 1 1 2272 0123456789abcdef 0 0 1 1\nshard 0\n",
+    };
+    const froe_allocator alloc = support_allocator(NULL);
+    for (size_t i = 0; i <= sizeof bodies / sizeof *bodies; i++) {
+        static char text[1 << 16];
+        shards_manifest m;
+        int used = snprintf(text, sizeof text, "froe shards 1\n");
+        const size_t first = (size_t)used;
+        if (i < sizeof bodies / sizeof *bodies) {
+            used += snprintf(text + used, sizeof text - (size_t)used, "%s", bodies[i]);
+        } else { /* deeper than any tree */
+            used += snprintf(text + used, sizeof text - (size_t)used, "dimension 2\n");
+            for (int k = 0; k < 2000; k++)
+                used += snprintf(text + used, sizeof text - (size_t)used, "cut 0 %d\n", 4000 - k);
+        }
+        const uint64_t sums[] = {shards_manifest_sum(text, (size_t)used),
+                                 shards_manifest_sum(text + first, (size_t)used - first)};
+        for (int k = 0; k < 2; k++) {
+            const int end =
+                snprintf(text + used, sizeof text - (size_t)used, "end %016llx\n", (unsigned long long)sums[k]);
+            assert_int_equal(shards_manifest_parse(text, (size_t)(used + end), "m", &alloc, &m, NULL), FROE_E_FORMAT);
+        }
+    }
+}
+
+/* A manifest that is no file or too large, and a shard that is damaged in a folder with a long name. */
+static void what_is_no_manifest_is_named(void **state) {
+    (void)state;
+    froe_shards *shards;
+    const froe_tree *tree;
+    froe_diagnostic diag;
+    const char *folder = "a folder whose name is so long that the sentence has only its end of it.froes";
+    char path[200];
+    assert_int_equal(mkdir("odd.froes", 0777), 0);
+    assert_int_equal(mkdir("odd.froes/froe.shards", 0777), 0);
+    assert_int_equal(froe_shards_open("odd.froes", NULL, &shards, &diag), FROE_E_IO);
+    assert_non_null(strstr(diag.message, "odd.froes/froe.shards: "));
+    assert_int_equal(rmdir("odd.froes/froe.shards"), 0);
+    fclose(fopen("odd.froes/froe.shards", "w"));
+    assert_int_equal(truncate("odd.froes/froe.shards", (1 << 24) + 1), 0);
+    assert_int_equal(froe_shards_open("odd.froes", NULL, &shards, &diag), FROE_E_FORMAT);
+    assert_string_equal(diag.message, "odd.froes/froe.shards: It is too large for a manifest.");
+    assert_int_equal(build(folder, OLD_OBJECTS, &diag), FROE_OK);
+    snprintf(path, sizeof path, "%s/shard-0000.froe", folder);
+    assert_int_equal(truncate(path, 100), 0);
+    assert_int_equal(froe_shards_open(folder, NULL, &shards, NULL), FROE_OK);
+    assert_int_equal(froe_shards_tree(shards, 0, &tree, &diag), FROE_E_FORMAT);
+    assert_non_null(strstr(diag.message, "shard-0000.froe"));
+    froe_shards_close(shards);
+}
+
 /* The manifest of the folder calls a shard empty, with a right checksum; `gone`: its file is not there, either. */
 static froe_status check_with_empty(uint32_t shard, bool gone) {
     char path[64];
@@ -272,6 +336,8 @@ int main(void) {
         cmocka_unit_test(so_does_a_loss_of_power),
         cmocka_unit_test(each_call_may_fail),
         cmocka_unit_test(a_full_disk_leaves_the_old_folder_and_nothing_beside_it),
+        cmocka_unit_test(manifests_of_no_folder_are_refused),
+        cmocka_unit_test(what_is_no_manifest_is_named),
         cmocka_unit_test(every_changed_byte_of_a_manifest_is_noticed),
         cmocka_unit_test(a_shard_that_the_manifest_calls_empty_is_found),
     };

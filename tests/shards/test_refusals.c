@@ -87,6 +87,16 @@ static void samples_and_plans_are_checked(void **state) {
     NULLS(froe_shard_plan_new(NULL, 1, 0, &plan, &why));
     NULLS(froe_shard_plan_new(sample, 1, 0, NULL, &why));
     expect(froe_shard_plan_new(sample, 5000, 0, &plan, &why), FROE_E_ARG, "at most 4096 shards");
+    froe_shard_sample *heavy;
+    static double many[3 * 3 * 5000];
+    assert_int_equal(froe_shard_sample_new(3, NULL, &heavy), FROE_OK);
+    for (size_t i = 0; i < sizeof many / sizeof *many; i++) many[i] = (double)(i * 37 % 101);
+    froe_shard_records load = {0};
+    batch.count = 5000, batch.coords = many;
+    assert_int_equal(froe_shard_records_add(&load, 3, &batch, 0, &why), FROE_OK);
+    assert_int_equal(froe_shard_sample_add(heavy, load.bytes, load.count), FROE_OK);
+    expect(froe_shard_plan_new(heavy, 0, 3, &plan, &why), FROE_E_LIMIT, "A folder has at most 4096 shards");
+    froe_shard_sample_free(heavy), froe_shard_records_free(&load);
     assert_int_equal(froe_shard_plan_count(NULL), 0);
     assert_int_equal(froe_shard_report(NULL, NULL).shards, 0);
     froe_shard_plan_free(NULL);
@@ -251,6 +261,61 @@ static bool stop(void *user, double done) {
     return false;
 }
 
+typedef struct patience {
+    int left, heard;
+} patience;
+static bool lose_patience(void *user, double done) {
+    patience *p = user;
+    (void)done;
+    p->heard++;
+    return p->left-- > 0;
+}
+
+/* A scene without groups, of objects of every kind with faces of their own, in two shards; cancelled at each report. */
+static void scenes_become_folders_or_nothing(void **state) {
+    (void)state;
+    enum { OBJECTS = 60 };
+    one_object *list = lattice_objects(2, FROE_KIND_COUNT, OBJECTS, 9, 6);
+    froe_shards_options o = froe_shards_defaults();
+    froe_shards_builder *builder;
+    froe_shards *s;
+    froe_scene *scene;
+    patience p = {.left = 1000000};
+    assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+    for (uint32_t i = 0; i < OBJECTS; i++) {
+        size_t starts[2];
+        froe_objects batch = batch_of(list + i, starts);
+        const uint32_t face = OBJECTS - i;
+        batch.faces = &face;
+        assert_int_equal(froe_scene_add(scene, &batch, &why), FROE_OK);
+    }
+    free(list);
+    o.shards = 2, o.progress = lose_patience, o.user = &p;
+    int reports = 1;
+    for (int left = -1; left < reports; left++) {
+        p = (patience){.left = left < 0 ? 1000000 : left};
+        froe_status status = froe_shards_begin("scene.froes", 2, &o, &builder, &why);
+        assert_int_equal(status, FROE_OK);
+        status = froe_shards_add_scene(builder, scene, &why);
+        if (!status && left < 0) expect(froe_shards_add_scene(builder, scene, &why), FROE_E_ARG, "A scene is all");
+        if (status)
+            froe_shards_abandon(builder);
+        else
+            status = froe_shards_finish(builder, NULL, &why);
+        if (left >= 0) {
+            expect(status, FROE_E_CANCELLED, "Cancelled");
+            assert_int_equal(access(".scene.froes.building", F_OK), -1);
+            continue;
+        }
+        assert_int_equal(status, FROE_OK);
+        reports = p.heard;
+        assert_true(reports > 2);
+    }
+    assert_int_equal(froe_shards_open("scene.froes", NULL, &s, &why), FROE_OK);
+    assert_int_equal(froe_shards_check(s, NULL, &why), FROE_OK);
+    froe_shards_close(s), froe_scene_free(scene);
+}
+
 static bool skip_pair(void *user, const froe_found_pair *pair) {
     (void)user, (void)pair;
     return false;
@@ -390,6 +455,7 @@ int main(void) {
         cmocka_unit_test(shards_are_checked),
         cmocka_unit_test(buckets_on_a_full_disk_are_told),
         cmocka_unit_test(empty_shards_are_asked_nothing),
+        cmocka_unit_test(scenes_become_folders_or_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
