@@ -26,7 +26,6 @@ void froe_shard_record_box(const void *record, double *lo, double *hi) {
 }
 
 int shards_record_compare(const shards_record *a, const shards_record *b) {
-    if (a->tag != b->tag) return a->tag < b->tag ? -1 : 1;
     if (a->words != b->words) return a->words < b->words ? -1 : 1;
     return memcmp(a, b, shards_record_bytes(a));
 }

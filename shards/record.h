@@ -79,7 +79,7 @@ static inline void shards_object_box(const shards_object *o, double *lo, double 
         }
     if (o->kind == FROE_BALL) shards_widen_box(o->dim, o->radius, lo, hi);
 }
-/** A total order of records: by tag, then by their bytes. 0: they are equal. */
+/** A total order of records of one tag: by their lengths, then by their bytes. 0: they are equal. */
 int shards_record_compare(const shards_record *a, const shards_record *b);
 /** About how many bytes building a tree takes for an object, with its record. */
 uint64_t shards_record_weight(const shards_record *record);

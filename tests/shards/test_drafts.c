@@ -131,6 +131,35 @@ static void without_locks_a_draft_belongs_to_who_made_it(void **state) {
     lock_error = 0;
 }
 
+/* What is where the draft is to be is no folder; a draft in the topmost folder; one that others have taken away. */
+static void drafts_that_cannot_be_are_told(void **state) {
+    (void)state;
+    froe_shard_draft *draft;
+    froe_diagnostic diag;
+    fclose(fopen(".blocked.froes.building", "w"));
+    assert_int_equal(froe_shard_draft_begin("blocked.froes", NULL, &draft, &diag), FROE_E_IO);
+    assert_non_null(strstr(diag.message, "blocked.froes: "));
+    assert_int_equal(access(".blocked.froes.building", F_OK), 0);
+    const froe_status status = froe_shard_draft_begin("/froe-test-of-drafts.froes", NULL, &draft, &diag);
+    if (status) {
+        assert_int_equal(status, FROE_E_IO); /* nobody but root may write there */
+    } else {
+        assert_string_equal(froe_shard_draft_folder(draft), "/.froe-test-of-drafts.froes.building");
+        assert_int_equal(froe_shard_draft_end(draft, FROE_E_CANCELLED, NULL), FROE_E_CANCELLED);
+        assert_int_equal(access("/.froe-test-of-drafts.froes.building", F_OK), -1);
+    }
+    for (int again = 0; again < 2; again++) {
+        assert_int_equal(froe_shard_draft_begin("gone.froes", NULL, &draft, NULL), FROE_OK);
+        assert_true(put_file(froe_shard_draft_folder(draft), 1));
+        assert_int_equal(system("rm -rf .gone.froes.building"), 0);
+        if (again) assert_int_equal(system("mkdir .gone.froes.building"), 0);
+        const froe_status ended = froe_shard_draft_end(draft, again ? FROE_E_CANCELLED : FROE_OK, &diag);
+        assert_int_equal(ended, again ? FROE_E_CANCELLED : FROE_E_IO);
+        assert_int_equal(access("gone.froes", F_OK), -1);
+    }
+    assert_int_equal(system("rm -rf .gone.froes.building .blocked.froes.building"), 0);
+}
+
 /* Files of a draft, which are there as long as it is. */
 static bool fill(const char *folder) {
     bool whole = true;
@@ -198,6 +227,7 @@ int main(void) {
         cmocka_unit_test(a_stranger_that_came_meanwhile_stays),
         cmocka_unit_test(a_lock_that_is_kept_on_the_old_folder_is_told),
         cmocka_unit_test(a_folder_that_was_replaced_is_removed_in_parts),
+        cmocka_unit_test(drafts_that_cannot_be_are_told),
         cmocka_unit_test(without_locks_a_draft_belongs_to_who_made_it),
         cmocka_unit_test(programs_at_the_same_time_do_not_touch_drafts_of_each_other),
     };

@@ -40,6 +40,25 @@ static void order_and_threads_make_no_difference(void **state) {
     }
 }
 
+/* Objects of one tag lie in the order of their bytes: of a segment, a point and a longer hull, in any order. */
+static void equal_tags_are_in_one_order(void **state) {
+    (void)state;
+    enum { EQUAL = 6 };
+    one_object list[EQUAL] = {{.kind = FROE_SEGMENT, .corners = 2, .at = {0, 0, 1, 1}, .tag = 7},
+                              {.kind = FROE_POINT, .corners = 1, .at = {3, 3}, .tag = 7},
+                              {.kind = FROE_HULL, .corners = 3, .at = {0, 0, 1, 1, 0, 1}, .tag = 7},
+                              {.kind = FROE_SEGMENT, .corners = 2, .at = {0, 0, 1, 2}, .tag = 7},
+                              {.kind = FROE_POINT, .corners = 1, .at = {3, 4}, .tag = 7},
+                              {.kind = FROE_POINT, .corners = 1, .at = {3, 4}, .tag = 6}};
+    const froe_shards_options o = froe_shards_defaults();
+    assert_int_equal(build_folder("tags.froes", 2, list, EQUAL, &o, NULL, NULL), FROE_OK);
+    for (uint64_t seed = 1; seed < 8; seed++) {
+        shuffle(list, EQUAL, seed);
+        assert_int_equal(build_folder("shuffled.froes", 2, list, EQUAL, &o, NULL, NULL), FROE_OK);
+        assert_equal_folders("tags.froes", "shuffled.froes", 1);
+    }
+}
+
 static int by_hash(const void *a, const void *b) {
     const uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
     return (x > y) - (x < y);
@@ -391,6 +410,7 @@ static void strangers_in_the_way_stay(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(equal_tags_are_in_one_order),
         cmocka_unit_test(order_and_threads_make_no_difference),
         cmocka_unit_test(samples_of_many_objects_do_not_depend_on_their_order),
         cmocka_unit_test(memory_is_used_up_where_a_folder_has_no_more_shards),
