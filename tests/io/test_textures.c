@@ -4,6 +4,7 @@
 #include "support/memory.h"
 #include <gdal.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 /* A PNG of two rows of two texels: red, green; blue, and white that is clear. */
 static const unsigned char four_png[] = {137, 80, 78,  71, 13, 10, 26, 10, 0,   0,   0,   13,  73,  72,  68,  82,
@@ -55,7 +56,7 @@ static void write_glb(const char *path, gltf g) {
         memcpy(buffer + 60 + 3 * i, shade, sizeof shade);
     }
     const size_t data = sizeof buffer + sizeof four_png;
-    char image[200] = "\"bufferView\":3,\"mimeType\":\"image/png\"";
+    char image[500] = "\"bufferView\":3,\"mimeType\":\"image/png\"";
     if (g.image) snprintf(image, sizeof image, "\"uri\":\"%s\"", g.image);
     size_t count = (size_t)snprintf(
         (char *)bytes + 20, sizeof bytes - 20,
@@ -202,13 +203,20 @@ static void odd_names_of_images_are_those_of_files(void **state) {
         if (report.textures != 1 || report.unread != 1) fail_msg("%s: %d", names[i], (int)report.unread);
         assert_int_equal(froe_scene_object_count(scene), 2);
         froe_scene_free(scene);
+        write_glb("odd.glb", (gltf){.image = names[i]});
+        scene = read_scene("odd.glb", &report);
+        if (report.textures != 1 || report.unread != 1) fail_msg("%s: %d", names[i], (int)report.unread);
+        froe_scene_free(scene);
     }
     froe_read_options boxes = froe_read_defaults();
-    froe_read_report report;
     boxes.boxes = true;
-    froe_scene *scene = read_with("odd.obj", &boxes, &report); /* boxes have no colours, and images are not opened */
-    assert_int_equal(report.textures, 0);
-    froe_scene_free(scene);
+    static const char *const paths[] = {"odd.obj", "odd.glb"};
+    for (int i = 0; i < 2; i++) { /* boxes have no colours, and images are not opened */
+        froe_read_report report;
+        froe_scene *scene = read_with(paths[i], &boxes, &report);
+        assert_int_equal(report.textures, 0);
+        froe_scene_free(scene);
+    }
 }
 
 static unsigned char *put_floats(unsigned char *at, const float *values, size_t count) {
@@ -331,6 +339,27 @@ static void rasters_of_every_sort_have_their_colours(void **state) {
     }
 }
 
+/* The file of an image ends before its last texel. */
+static void rasters_that_are_cut_off_are_counted(void **state) {
+    (void)state;
+    static const struct {
+        int bands;
+        GDALDataType type;
+    } cases[] = {{1, GDT_Byte}, {4, GDT_Byte}, {1, GDT_UInt16}, {4, GDT_UInt16}};
+    static const double levels[4] = {1, 2, 3, 4};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        froe_read_report report;
+        struct stat info;
+        write_raster("raster.tif", 200, 200, cases[i].bands, cases[i].type, levels);
+        assert_int_equal(stat("raster.tif", &info), 0);
+        assert_int_equal(truncate("raster.tif", info.st_size / 2), 0);
+        froe_scene *scene = read_scene("raster.obj", &report);
+        assert_int_equal(report.textures, 1);
+        if (report.unread != 1) fail_msg("raster %zu is read", i);
+        froe_scene_free(scene);
+    }
+}
+
 static froe_status read_by(void *user, const froe_allocator *alloc) {
     froe_read_options o = froe_read_defaults();
     froe_scene *scene = NULL;
@@ -352,6 +381,7 @@ static void every_allocation_may_fail(void **state) {
     assert_true(test_memory_each(read_by, "inside.glb") > 5);
     assert_true(test_memory_each(read_by, "beside.glb") > 5);
     assert_true(test_memory_each(read_by, "four.obj") > 5);
+    assert_true(test_memory_each(read_by, "quake.mdl") > 5);
 }
 
 int main(void) {
@@ -368,6 +398,7 @@ int main(void) {
         cmocka_unit_test(colours_of_corners_are_averaged),
         cmocka_unit_test(a_large_image_has_its_means),
         cmocka_unit_test(rasters_of_every_sort_have_their_colours),
+        cmocka_unit_test(rasters_that_are_cut_off_are_counted),
         cmocka_unit_test(every_allocation_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
