@@ -61,19 +61,6 @@ static void options_out_of_range_are_refused_by_name(void **state) {
     REFUSED(flat, lo[1], 0.0 / 0.0, "window");
     REFUSED(flat, mark_count, 1, "Mark 0");
     REFUSED(flat, title, "\xff\xfe", "UTF-8");
-    const froe_draw_mark far = {.hi = {1, 1.0 / 0.0, 1}};
-    o = good, o.marks = &far, o.mark_count = 1;
-    assert_int_equal(draw(flat, "no.svg", &o, "Mark 0"), FROE_E_OPTIONS);
-    const froe_draw_mark low = {.lo = {-1.0 / 0.0}}, before_all = {.hi = {1, 1}, .kind = (froe_draw_mark_kind)-1};
-    o.marks = &low;
-    assert_int_equal(draw(flat, "no.svg", &o, "Mark 0"), FROE_E_OPTIONS);
-    o.marks = &before_all;
-    assert_int_equal(draw(flat, "no.svg", &o, "Mark 0"), FROE_E_OPTIONS);
-    const froe_draw_mark odd = {.hi = {1, 1, 1}, .kind = FROE_DRAW_MARK_KIND_COUNT}, scrawl = {.label = "\xff"};
-    o.marks = &odd;
-    assert_int_equal(draw(flat, "no.svg", &o, "Mark 0"), FROE_E_OPTIONS);
-    o.marks = &scrawl;
-    assert_int_equal(draw(flat, "no.svg", &o, "Mark 0"), FROE_E_OPTIONS);
     o = good, o.accented_count = 1;
     assert_int_equal(draw(flat, "no.svg", &o, "accented"), FROE_E_OPTIONS);
 #undef REFUSED
@@ -94,6 +81,26 @@ static void options_out_of_range_are_refused_by_name(void **state) {
     assert_int_equal(files_here(), before);
     froe_tree_free(flat);
     froe_tree_free(solid);
+}
+
+static void marks_out_of_range_are_refused_by_number(void **state) {
+    (void)state;
+    froe_tree *flat = tree_of(mixed_scene(2), "density", 1);
+    froe_draw_options o = froe_draw_defaults();
+    const froe_draw_mark far = {.hi = {1, 1.0 / 0.0, 1}};
+    o.marks = &far, o.mark_count = 1;
+    assert_int_equal(draw(flat, "no.svg", &o, "Mark 0"), FROE_E_OPTIONS);
+    const froe_draw_mark low = {.lo = {-1.0 / 0.0}}, before_all = {.hi = {1, 1}, .kind = (froe_draw_mark_kind)-1};
+    o.marks = &low;
+    assert_int_equal(draw(flat, "no.svg", &o, "Mark 0"), FROE_E_OPTIONS);
+    o.marks = &before_all;
+    assert_int_equal(draw(flat, "no.svg", &o, "Mark 0"), FROE_E_OPTIONS);
+    const froe_draw_mark odd = {.hi = {1, 1, 1}, .kind = FROE_DRAW_MARK_KIND_COUNT}, scrawl = {.label = "\xff"};
+    o.marks = &odd;
+    assert_int_equal(draw(flat, "no.svg", &o, "Mark 0"), FROE_E_OPTIONS);
+    o.marks = &scrawl;
+    assert_int_equal(draw(flat, "no.svg", &o, "Mark 0"), FROE_E_OPTIONS);
+    froe_tree_free(flat);
 }
 
 static void a_tree_of_higher_dimension_has_no_picture(void **state) {
@@ -320,6 +327,7 @@ static void cancelling_writes_nothing(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(options_out_of_range_are_refused_by_name),
+        cmocka_unit_test(marks_out_of_range_are_refused_by_number),
         cmocka_unit_test(a_tree_of_higher_dimension_has_no_picture),
         cmocka_unit_test(a_file_that_cannot_be_written_leaves_the_old_one),
         cmocka_unit_test(devices_and_links_are_written_through),

@@ -380,6 +380,20 @@ static void empty_shards_are_asked_nothing(void **state) {
     froe_shards_close(s);
 }
 
+static void counts_groups_and_pairs_are_checked(froe_shards *s) {
+    static const double x[] = {0, 0, 1, 1};
+    froe_finds finds = {0};
+    uint64_t count;
+    NULLS(froe_shards_vertical_count(s, NULL, 1, 1, NULL, &count, &why));
+    NULLS(froe_shards_ray_count(s, NULL, x, 1, INFINITY, NULL, &count, &why));
+    NULLS(froe_shards_ray_count(s, x, NULL, 1, INFINITY, NULL, &count, &why));
+    NULLS(froe_shards_near_count(s, NULL, 1, 1, INFINITY, NULL, &count, &why));
+    NULLS(froe_shards_groups(s, NULL, 1, NULL, &finds, &why));
+    NULLS(froe_shards_groups_range(s, NULL, 1, FROE_MEETS, NULL, &finds, &why));
+    NULLS(froe_shards_pairs(NULL, true, NULL, skip_pair, NULL, &why));
+    NULLS(froe_shards_pairs(s, true, NULL, NULL, NULL, &why));
+}
+
 static void questions_are_checked(void **state) {
     (void)state;
     enum { OBJECTS = 20 };
@@ -413,15 +427,8 @@ static void questions_are_checked(void **state) {
     NULLS(froe_shards_ray_all(s, x, NULL, 1, INFINITY, NULL, &finds, &why));
     NULLS(froe_shards_near(s, NULL, 1, 1, INFINITY, NULL, &finds, &why));
     NULLS(froe_shards_locate_count(s, x, 1, NULL, NULL, &why));
-    NULLS(froe_shards_vertical_count(s, NULL, 1, 1, NULL, &count, &why));
-    NULLS(froe_shards_ray_count(s, NULL, x, 1, INFINITY, NULL, &count, &why));
-    NULLS(froe_shards_ray_count(s, x, NULL, 1, INFINITY, NULL, &count, &why));
-    NULLS(froe_shards_near_count(s, NULL, 1, 1, INFINITY, NULL, &count, &why));
-    NULLS(froe_shards_groups(s, NULL, 1, NULL, &finds, &why));
-    NULLS(froe_shards_groups_range(s, NULL, 1, FROE_MEETS, NULL, &finds, &why));
-    NULLS(froe_shards_pairs(NULL, true, NULL, skip_pair, NULL, &why));
-    NULLS(froe_shards_pairs(s, true, NULL, NULL, NULL, &why));
     assert_int_equal(froe_shards_locate_count(s, x, 0, NULL, &count, &why), FROE_OK);
+    counts_groups_and_pairs_are_checked(s);
     NULLS(froe_shards_tree(NULL, 0, &tree, &why));
     NULLS(froe_shards_tree(s, 0, NULL, &why));
     expect(froe_shards_tree(s, 3, &tree, &why), FROE_E_ARG, "no shard 3");
