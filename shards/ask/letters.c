@@ -100,6 +100,8 @@ froe_status shards_take_questions(shards_letter *c, const shards_call *call, sha
     out->count = out->limit = head[1];
     out->alone = take(c, out->count * sizeof *out->alone);
     if (!out->alone) return shards_letter_cut(diag);
+    for (size_t i = 0; i < out->count; i++) /* bytes of another process need not be those of a bool */
+        if (((const unsigned char *)out->alone)[i] > 1) return shards_letter_cut(diag);
     if (!q->ranges) {
         out->points = take(c, out->count * q->width * sizeof(double));
         out->directions = q->directions ? take(c, out->count * dim * sizeof(double)) : NULL;
