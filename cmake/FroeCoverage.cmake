@@ -1,7 +1,7 @@
 # What scripts/coverage counts: branches of everything but the tests, by clang. Counters are not atomic, because tests
 # would take eight times as long: threads that meet at a counter lose a count, and may make a way seem taken.
-# Counters stand in the file of counts itself, which is mapped (%c in FroeTests.cmake): what is killed, or ends by _exit(),
-# leaves its counts, too.
+# Counters may stand in a mapped file of counts (%c in FroeTests.cmake): what is killed, or ends by _exit(), leaves its
+# counts, too.
 set(coverage_flags -fprofile-instr-generate -fcoverage-mapping "SHELL:-mllvm -runtime-counter-relocation")
 foreach(target froe_support froe_input froe_core froe_io_core froe_draw_core froe_cli_linked froe_cli_opened froe_program)
   if(TARGET ${target})

@@ -41,8 +41,13 @@ function(froe_test area name)
   math(EXPR limit "30 * ${slower} * ${seconds}")
   set(counts "") # which branches this test takes: scripts/coverage
   if(FROE_COVERAGE)
-    # All programs of a test share a file, which they map (%c): what is killed leaves its counts, too.
-    set(counts ";LLVM_PROFILE_FILE=set:${PROJECT_BINARY_DIR}/counts/${area}-${name}-%c%m.profraw")
+    # All programs of a test share a file. Those of command lines map it (%c), so that what is killed leaves its counts,
+    # too; of conditions by themselves (MC/DC) a mapped file knows nothing.
+    set(each %m)
+    if(area STREQUAL cli)
+      set(each %c%m)
+    endif()
+    set(counts ";LLVM_PROFILE_FILE=set:${PROJECT_BINARY_DIR}/counts/${area}-${name}-${each}.profraw")
   endif()
   add_test(NAME ${area}/${name} COMMAND ${ARGN} WORKING_DIRECTORY ${scratch})
   set_tests_properties(${area}/${name} PROPERTIES LABELS ${area} TIMEOUT ${limit} ${first}
