@@ -23,10 +23,10 @@ build: deps-build ## the libraries and the program, build/bin/froe
 demo: build ## drawings, answers, motion and partitions on one page: build/demo/index.html
 	@$(BUILD)/bin/froe demo -o $(BUILD)/demo
 
-test: deps-test ## everything the tests can find out, without benches
+test: deps-test ## all tests, without benches and without what documents show (ctest -L docs)
 	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=Release -DFROE_TESTS=ON
 	@cmake --build $(BUILD) --parallel $(JOBS)
-	@ctest --test-dir $(BUILD) --output-on-failure --parallel $(JOBS)
+	@ctest --test-dir $(BUILD) --output-on-failure --parallel $(JOBS) -LE '^docs$$'
 
 install: build ## into PREFIX (/usr/local); DESTDIR is honoured
 	@scripts/install $(BUILD) $(PREFIX)
