@@ -260,7 +260,7 @@ static void places_that_cannot_be_taken_are_told(void **state) {
     assert_int_equal(froe_export_map(tree, "device.fgb", FROE_EXPORT_FRAGMENTS, NULL, &why), FROE_E_IO);
     assert_string_equal(why.message, "device.fgb: The file cannot be written: No space left on device.");
     unlink("device.fgb");
-    assert_int_equal(system("rm -rf side.*"), 0); /* of an earlier run */
+    assert_int_equal(system("rm -rf side.*"), 0);                /* of an earlier run */
     static const char *const sides[] = {"side.dbf", "side.qix"}; /* written, and removed */
     for (int i = 0; i < 2; i++) {
         char message[100];
