@@ -220,10 +220,12 @@ static int set_value(place found, const char *text) {
         return set_choice(found.option, field, text);
     case CLI_REALS:
         return set_reals(found.option, field, text);
-    default: /* a flag */
-        *(bool *)field = true;
-        return 0;
+    case CLI_FLAG:
+    case CLI_END:
+        break;
     }
+    *(bool *)field = true;
+    return 0;
 }
 
 /* ------------------------------------------------------------------ words -- */

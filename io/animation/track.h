@@ -34,7 +34,8 @@ size_t io_track_piece(const double *numbers, const io_track *track, double time)
 void io_track_at(const double *numbers, const io_track *track, size_t piece, double time, double *out);
 /** Is it one value for ever? */
 bool io_track_rests(const double *numbers, const io_track *track);
-/** How far the value is from that of the first key at most, from the key before this one to this one. */
+/** How far the value is from that of the first key at most, from the key before this one to this one.
+ * REQUIRES: key > 0. */
 double io_track_apart(const double *numbers, const io_track *track, size_t key);
 /** Does it jump at the key? */
 bool io_track_jumps(const double *numbers, const io_track *track, size_t key);

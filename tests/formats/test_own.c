@@ -1,13 +1,41 @@
 /* Scenes from files by the core alone: froe_read_own() and froe_reads_own(). */
 #include "support/scenes.h"
 
+typedef struct read_text {
+    const char *path, *text, *format;
+    int dim;
+    size_t objects;
+} read_text;
+
+static void check_reads(const read_text *files, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        froe_read_report report;
+        write_text(files[i].path, files[i].text);
+        assert_true(froe_reads_own(files[i].path));
+        froe_scene *scene = read_scene(files[i].path, &report);
+        assert_string_equal(report.format, files[i].format);
+        assert_int_equal(froe_scene_dim(scene), files[i].dim);
+        assert_int_equal(froe_scene_object_count(scene), files[i].objects);
+        froe_scene_free(scene);
+    }
+}
+
+typedef struct refused_text {
+    const char *text;
+    froe_status status;
+    const char *words;
+} refused_text;
+
+static void check_refusals(const char *path, const refused_text *files, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        write_text(path, files[i].text);
+        refuse(path, files[i].status, files[i].words);
+    }
+}
+
 static void each_format_that_needs_no_library_is_read(void **state) {
     (void)state;
-    static const struct {
-        const char *path, *text, *format;
-        int dim;
-        size_t objects;
-    } files[] = {
+    static const read_text files[] = {
         {"own.csv", "x,y,r\n0,1,2\n3,4,5\n", "CSV balls", 2, 2},
         {"own.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nl 3 4\n", "OBJ", 3, 3},
         {"own.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "OFF", 3, 1},
@@ -26,16 +54,7 @@ static void each_format_that_needs_no_library_is_read(void **state) {
         {"cloud.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", "OBJ", 3, 3},
         {"own", " # one\n# OFF\n\nOFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n", "OFF", 3, 1},
     };
-    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
-        froe_read_report report;
-        write_text(files[i].path, files[i].text);
-        assert_true(froe_reads_own(files[i].path));
-        froe_scene *scene = read_scene(files[i].path, &report);
-        assert_string_equal(report.format, files[i].format);
-        assert_int_equal(froe_scene_dim(scene), files[i].dim);
-        assert_int_equal(froe_scene_object_count(scene), files[i].objects);
-        froe_scene_free(scene);
-    }
+    check_reads(files, sizeof files / sizeof *files);
 }
 
 /* The mark is no part of the text: a word, a number or a header behind it is read as without it. */
@@ -267,11 +286,7 @@ static void numbers_of_ply_have_eight_types(void **state) {
 
 static void broken_off_is_refused_with_its_line(void **state) {
     (void)state;
-    static const struct {
-        const char *text;
-        froe_status status;
-        const char *words;
-    } files[] = {
+    static const refused_text files[] = {
         {"4OFF\n1 0 0\n0 0 0 0\n", FROE_E_UNSUPPORTED, "Vertices with more than 3 coordinates are not read."},
         {"nOFF\n4\n1 0 0\n", FROE_E_UNSUPPORTED, "Vertices with more than 3 coordinates are not read."},
         {"OFF BINARY\n", FROE_E_UNSUPPORTED, "Binary OFF is not read."},
@@ -288,10 +303,7 @@ static void broken_off_is_refused_with_its_line(void **state) {
         {"OFF\n1 1 0\n0 0 0\n2 0 x\n", FROE_E_FORMAT, "line 4: An index is not a number."},
         {"OFF\n1 1 0\n0 0 0\n2 0 1\n", FROE_E_FORMAT, "line 4: A face names a vertex that does not exist."},
     };
-    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
-        write_text("broken.off", files[i].text);
-        refuse("broken.off", files[i].status, files[i].words);
-    }
+    check_refusals("broken.off", files, sizeof files / sizeof *files);
 }
 
 /* Tabs and carriage returns between numbers; faces without corners; colours that end in no number. */
@@ -345,11 +357,7 @@ static void what_obj_has_beside_elements_is_passed_over(void **state) {
 
 static void headers_of_csv_say_what_rows_are(void **state) {
     (void)state;
-    static const struct {
-        const char *path, *text, *format;
-        int dim;
-        size_t objects;
-    } files[] = {
+    static const read_text files[] = {
         {"tabs.tsv", "x\ty\n1\t2\n", "CSV points", 2, 1},
         {"ends.csv", "from_x,from_y,x,y\n1,2,3,4\n", "CSV points", 2, 1}, /* beside x,y the other columns are none */
         {"boxes.csv", "from_x,lo_x,lo_y,hi_x,hi_y,r,hull\n9,0,0,1,1,q,q\n", "CSV boxes", 2, 1},
@@ -359,15 +367,7 @@ static void headers_of_csv_say_what_rows_are(void **state) {
          "CSV boxes", 8, 1},
         {"blank.csv", "x,y\n1,2\n \t\n\r\n3,4\n  ", "CSV points", 2, 2},
     };
-    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
-        froe_read_report report;
-        write_text(files[i].path, files[i].text);
-        froe_scene *scene = read_scene(files[i].path, &report);
-        assert_string_equal(report.format, files[i].format);
-        assert_int_equal(froe_scene_dim(scene), files[i].dim);
-        assert_int_equal(froe_scene_object_count(scene), files[i].objects);
-        froe_scene_free(scene);
-    }
+    check_reads(files, sizeof files / sizeof *files);
     write_text("names.csv", "x,y,name,name\n1,2,first,second\n"); /* the first column of that name counts */
     froe_scene *scene = read_scene("names.csv", NULL);
     assert_string_equal(froe_scene_group(scene, froe_scene_object(scene, 0).group).name, "first");
@@ -376,11 +376,7 @@ static void headers_of_csv_say_what_rows_are(void **state) {
 
 static void broken_csv_is_refused_with_its_row(void **state) {
     (void)state;
-    static const struct {
-        const char *text;
-        froe_status status;
-        const char *words;
-    } files[] = {
+    static const refused_text files[] = {
         {"x,y,x\n1,2,3\n", FROE_E_FORMAT, "The header names x, y, x."},
         {"x,z\n1,2\n", FROE_E_FORMAT, "The header names x, z."},
         {"lo_x,lo_y,hi_x,hi_z\n1,2,3,4\n", FROE_E_FORMAT, "of the same two or more axes"},
@@ -394,10 +390,7 @@ static void broken_csv_is_refused_with_its_row(void **state) {
         {"hull,x,y\n1,inf,0\n1,1,1\n2,0,0\n", FROE_E_INPUT, "row 1: Coordinate x of corner 0 is inf"},
         {"x,y\n", FROE_E_INPUT, "no objects"},
     };
-    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
-        write_text("other.csv", files[i].text);
-        refuse("other.csv", files[i].status, files[i].words);
-    }
+    check_refusals("other.csv", files, sizeof files / sizeof *files);
     static const char zero[] = "x,\0y\n1,2\n";
     write_bytes("other.csv", zero, sizeof zero - 1);
     refuse("other.csv", FROE_E_FORMAT, "byte 2 is zero");

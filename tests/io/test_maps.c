@@ -1,7 +1,6 @@
 /* Plane maps: the same features through every format of OGR that can be written here,
  * and by hand those that cannot; order, names, sides, curves, and what is counted. */
 #include "support.h"
-#include "support/memory.h"
 #include <cpl_vsi.h>
 #include <gdal.h>
 #include <ogr_api.h>
@@ -444,23 +443,14 @@ static void triangles_and_empty_rings_are_read(void **state) {
     froe_scene_free(scene);
 }
 
-static froe_status read_by(void *user, const froe_allocator *alloc) {
-    froe_read_options o = froe_read_defaults();
-    froe_scene *scene = NULL;
-    o.alloc = alloc;
-    const froe_status status = froe_read(user, &o, &scene, NULL, NULL);
-    froe_scene_free(scene);
-    return status;
-}
-
 static void every_allocation_may_fail(void **state) {
     (void)state;
     write_text("memory.csv",
                "id,WKT\n1,\"GEOMETRYCOLLECTION (POINT (1 1),LINESTRING (0 0,1 0))\"\n2,\"POLYGON ((0 0,4 0,4 "
                "4,0 0),(1 0,2 0,2 1,1 0))\"\n");
     write_in("GPKG", "memory.gpkg", "LOCAL_CS[\"a hall\",UNIT[\"metre\",1]]");
-    assert_true(test_memory_each(read_by, "memory.csv") > 5);
-    assert_true(test_memory_each(read_by, "memory.gpkg") > 3);
+    assert_true(test_memory_each(read_with_memory, "memory.csv") > 5);
+    assert_true(test_memory_each(read_with_memory, "memory.gpkg") > 3);
 }
 
 int main(void) {

@@ -1,7 +1,6 @@
 /* test_textures.c: images by GDAL, and the colours of faces in models by assimp: glTF with images inside and beside it,
  * wrapped in every way, tinted and transparent; Collada; colours of corners. */
 #include "support.h"
-#include "support/memory.h"
 #include <gdal.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -360,15 +359,6 @@ static void rasters_that_are_cut_off_are_counted(void **state) {
     }
 }
 
-static froe_status read_by(void *user, const froe_allocator *alloc) {
-    froe_read_options o = froe_read_defaults();
-    froe_scene *scene = NULL;
-    o.alloc = alloc;
-    const froe_status status = froe_read(user, &o, &scene, NULL, NULL);
-    froe_scene_free(scene);
-    return status;
-}
-
 /* Without memory for its texels an image is one that cannot be read. */
 static void every_allocation_may_fail(void **state) {
     (void)state;
@@ -378,10 +368,10 @@ static void every_allocation_may_fail(void **state) {
     write_text("four.mtl", "newmtl print\nmap_Kd four.png\n");
     write_text("four.obj", "mtllib four.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nvt 0.1 0.6\nvt 0.4 0.6\nvt 0.4 0.9\n"
                            "usemtl print\nf 1/1 2/2 3/3\n");
-    assert_true(test_memory_each(read_by, "inside.glb") > 5);
-    assert_true(test_memory_each(read_by, "beside.glb") > 5);
-    assert_true(test_memory_each(read_by, "four.obj") > 5);
-    assert_true(test_memory_each(read_by, "quake.mdl") > 5);
+    assert_true(test_memory_each(read_with_memory, "inside.glb") > 5);
+    assert_true(test_memory_each(read_with_memory, "beside.glb") > 5);
+    assert_true(test_memory_each(read_with_memory, "four.obj") > 5);
+    assert_true(test_memory_each(read_with_memory, "quake.mdl") > 5);
 }
 
 int main(void) {

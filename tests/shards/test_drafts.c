@@ -142,7 +142,7 @@ static void drafts_that_cannot_be_are_told(void **state) {
     assert_int_equal(access(".blocked.froes.building", F_OK), 0);
     const froe_status status = froe_shard_draft_begin("/froe-test-of-drafts.froes", NULL, &draft, &diag);
     if (status) {
-        assert_int_equal(status, FROE_E_IO); /* nobody but root may write there */
+        assert_int_equal(status, FROE_E_IO); /* the folder is of root alone */
     } else {
         assert_string_equal(froe_shard_draft_folder(draft), "/.froe-test-of-drafts.froes.building");
         assert_int_equal(froe_shard_draft_end(draft, FROE_E_CANCELLED, NULL), FROE_E_CANCELLED);

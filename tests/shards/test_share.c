@@ -560,7 +560,7 @@ static bool is_spoilt(const questions *q, int kind, office o) {
 }
 
 /* Words that are lost are noticed wherever that happens; others instead of them end in a status. The first word stays:
- * it says whether there is another round, which nobody can know without it. */
+ * without it a process cannot tell whether there is another round. */
 static void words_that_are_spoilt_are_refused(void **state) {
     (void)state;
     questions *q = calloc(1, sizeof *q);
