@@ -70,7 +70,7 @@ test("forty models take no more memory than ten", async () => {
         return held(page);
     };
     const before = await load(10), after = await load(30);
-    assertHeld(before, after);
+    assertHeld(before, after, 30);
     await page.close();
 });
 

@@ -149,7 +149,7 @@ for (const room of ["partition", "ask", "move"])
             return held(page);
         };
         const before = await load(10), after = await load(30);
-        assertHeld(before, after);
+        assertHeld(before, after, 30);
         await page.close();
     });
 
