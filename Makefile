@@ -91,8 +91,9 @@ comma := ,
 sanitize: deps-test ## the tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	@cmake --preset asan-ubsan >/dev/null
 	@cmake --build --preset asan-ubsan --parallel $(JOBS)
-	@ctest --preset asan-ubsan --parallel $(JOBS) $(if $(TURN),-I $(TURN)$(comma)$(comma)2) -LE '^(claims|docs|project)$$' \
+	@ctest --preset asan-ubsan --parallel $(JOBS) $(if $(TURN),-I $(TURN)$(comma)$(comma)2) -LE '^(claims|docs|project|fuzz)$$' \
 	    -E '^(cli/demo|conformance/(floats|hashes|pictures))$$'
+	@ctest --preset asan-ubsan --parallel $(JOBS) -L '^fuzz$$'
 
 soak: deps-test ## decisions that are checked, for HOURS=n hours of one processor; tests/soak/ledger.tsv goes on
 	@cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=Release -DFROE_TESTS=ON
