@@ -146,6 +146,15 @@ export async function cancelled(page) {
     return page.$eval(".status", (status) => status.textContent);
 }
 
+const pause = (milliseconds) => new Promise((resume) => setTimeout(resume, milliseconds));
+/** Waits until something holds, for 20 s at most: other tests may keep the processors busy. */
+export async function until(holds) {
+    for (let tries = 0; !await holds(); tries++) {
+        assert.ok(tries < 400, `never: ${holds}`);
+        await pause(50);
+    }
+}
+
 /** What a page holds, once nothing is held that need not be: { heap, nodes, workers }. Documents of pictures come and go, so
  * the least counts of some seconds are what stays. */
 export async function held(page) {
@@ -155,7 +164,7 @@ export async function held(page) {
         const { JSHeapUsedSize } = await page.metrics(), { nodes } = await session.send("Memory.getDOMCounters");
         least.heap = Math.min(least.heap, JSHeapUsedSize);
         least.nodes = Math.min(least.nodes, nodes);
-        await new Promise((resume) => setTimeout(resume, 300));
+        await pause(300);
     }
     await session.detach();
     return { ...least, workers: page.workers().length };

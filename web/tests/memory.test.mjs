@@ -51,15 +51,22 @@ test("a hundred files read, built, asked, drawn and moved take no more memory th
 test("what is forgotten is freed, in any order", async () => {
     setFlagsFromString("--expose-gc");
     const collect = runInNewContext("gc"), froe = await fresh();
+    let forgotten = 0;
+    const registry = new FinalizationRegistry(() => forgotten++);
     const once = () => {
         const partition = froe.generateMotion("moving", 300).partition(), tree = froe.generate("segments", 20000).build();
         tree.query([0, 0, 1, 1]);
+        for (const it of [partition, tree]) registry.register(it);
         return [partition.time, tree.scene.objectCount];
     };
     const round = async () => {
         for (let i = 0; i < 4; i++) once();
-        collect();
-        await new Promise((done) => setTimeout(done, 5)); // finalizers run between two turns
+        forgotten = 0;
+        for (let tries = 0; forgotten < 8 && tries < 400; tries++) {
+            collect();
+            await new Promise((done) => setTimeout(done, 5)); // finalizers run between two turns
+        }
+        assert.equal(forgotten, 8);
     };
     for (let i = 0; i < 3; i++) await round();
     const before = froe.memory;

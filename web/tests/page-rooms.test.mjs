@@ -3,10 +3,10 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { after, before, test as register } from "node:test";
-import { assertHeld, cancelled, cancelNext, drawn, dropped, held, launch, open, said, serve, SHOWN, shown } from "./browser.mjs";
+import { assertHeld, cancelled, cancelNext, drawn, dropped, held, launch, open, said, serve, SHOWN, shown, until } from "./browser.mjs";
 
 const data = (name) => readFileSync(new URL(`../../data/${name}`, import.meta.url));
-const test = (name, body) => register(name, { timeout: 120000 }, body);
+const test = (name, body) => register(name, { timeout: 240000 }, body);
 let site, chromium;
 before(async () => { site = await serve(); chromium = await launch(); });
 after(async () => { await chromium?.stop(); site?.stop(); });
@@ -98,8 +98,7 @@ test("a scene that comes late does not replace one that was chosen after it", as
         await page.evaluate((room) => { location.hash = room === "ask" ? "#move" : "#ask"; }, room);
         await page.waitForFunction(SHOWN[room === "ask" ? "move" : "ask"]);
         await page.evaluate(() => globalThis.release());
-        await new Promise((resume) => setTimeout(resume, 500));
-        assert.equal(page.workers().length, 1, `${room} goes on after it was left`);
+        await until(() => page.workers().length === 1); // the room that was left does not go on
         await page.close();
     }
 });
@@ -162,8 +161,7 @@ test("a picture keeps what is drawn where the window becomes another one", async
         await shown(page, room);
         for (const [width, height] of [[320, 480], [200, 480], [1600, 500], [1280, 800]]) {
             await page.setViewport({ width, height });
-            await new Promise((resume) => setTimeout(resume, 100));
-            assert.ok(await page.evaluate(() => [...document.querySelectorAll(".stage canvas")].every((it) => it.clientWidth > 0)), `${room} ${width}`);
+            await until(() => page.evaluate((width) => innerWidth === width && [...document.querySelectorAll(".stage canvas")].every((it) => it.clientWidth > 0), width));
         }
     }
     assert.deepEqual(page.wrong, []);
@@ -175,11 +173,8 @@ test("the timeline is as sharp after its window became another one", async () =>
     await shown(page, "move");
     await page.setViewport({ width: 500, height: 700 });
     await page.waitForFunction(() => document.querySelector(".density").clientWidth < 450);
-    await new Promise((resume) => setTimeout(resume, 200));
-    const { width, drawn } = await page.$eval(".density", (it) => ({ width: it.width - it.clientWidth,
-        drawn: it.getContext("2d").getImageData(0, 0, it.width, it.height).data.some((byte) => byte) }));
-    assert.equal(width, 0);
-    assert.ok(drawn);
+    await until(() => page.$eval(".density", (it) => it.width === it.clientWidth &&
+        it.getContext("2d").getImageData(0, 0, it.width, it.height).data.some((byte) => byte)));
     await page.close();
 });
 
@@ -208,9 +203,7 @@ for (const [where, coordinates] of [["far from the origin", [[1e15, 1e15], [1e15
         await shown(page, "ask");
         await dropped(page, { "far.geojson": Buffer.from(JSON.stringify({ type: "FeatureCollection", features: [{ type: "Feature", properties: {}, geometry: line }] })) });
         await page.waitForFunction(() => /^1 object;/.test(document.querySelector(".status").textContent) && document.querySelector("[data-asked]"));
-        await new Promise((resume) => setTimeout(resume, 300));
-        const filled = await page.$eval(".map canvas", (it) => [-8, 8].map((x) => it.getContext("2d").getImageData(it.width / 2 + x, it.height / 2, 1, 1).data[3] > 0));
-        assert.deepEqual(filled, [true, true]);
+        await until(() => page.$eval(".map canvas", (it) => [-8, 8].every((x) => it.getContext("2d").getImageData(it.width / 2 + x, it.height / 2, 1, 1).data[3] > 0)));
         await page.close();
     });
 
