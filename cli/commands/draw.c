@@ -81,7 +81,8 @@ static const cli_part parts[] = {CLI_TREE_PART(draw_args),
 
 /* Layers of a list parted by commas. */
 static int set_show(const cli_draw *library, const char *list, uint32_t *show) {
-    while (list && *list) {
+    if (!list) return 0;
+    do {
         const size_t length = strcspn(list, ",");
         uint32_t found = 0;
         for (uint32_t bit = 1; !found && bit <= FROE_DRAW_OBJECTS; bit <<= 1) {
@@ -93,7 +94,7 @@ static int set_show(const cli_draw *library, const char *list, uint32_t *show) {
                             list);
         *show |= found;
         list += length + (list[length] == ',');
-    }
+    } while (*list);
     return 0;
 }
 

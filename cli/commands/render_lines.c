@@ -94,7 +94,7 @@ int render_add_styles(const char *list, render_styles *styles) {
         const size_t length = strcspn(list, ", ");
         const char *equals = memchr(list, '=', length);
         froe_line_style style = froe_line_style_defaults();
-        if (!equals || !set_look(equals + 1, list + length, &style))
+        if (!equals || equals + 1 == list + length || !set_look(equals + 1, list + length, &style))
             return cli_fail(CLI_USE, NULL,
                             "--line-style: '%.*s' is not like crease=0.6, hidden=0.4:888888 or hidden=0.4:888888:4:2.",
                             (int)length, list);
