@@ -33,7 +33,7 @@ static bool read_value(char **at, geojson_value *out) {
     out->kind = GEOJSON_WHOLE;
     out->number = 0;
     const char *const digits = first + (*first == '-');
-    for (const char *c = digits; c < *at; c++) { /* at most 18 of them, which an integer holds; more may end in a fraction */
+    for (const char *c = digits; c < *at; c++) { /* an integer holds 18; more may come before a fraction */
         if ((unsigned char)(*c - '0') >= 10 || c - digits == 18) return false;
         out->number = 10 * out->number + (*c - '0');
     }
