@@ -41,10 +41,10 @@ function(froe_test area name)
   math(EXPR limit "30 * ${slower} * ${seconds}")
   set(counts "") # which branches this test takes: scripts/coverage
   if(FROE_COVERAGE)
-    # All programs of a test share a file. Those of command lines map it (%c), so that what is killed leaves its counts,
-    # too; of conditions by themselves (MC/DC) a mapped file knows nothing.
+    # All programs of a test share a file. Those of command lines and of folders of shards map it (%c), so that what is
+    # killed, or ends by _exit(), leaves its counts, too; of conditions by themselves (MC/DC) a mapped file knows nothing.
     set(each %m)
-    if(area STREQUAL cli)
+    if(area MATCHES "^(cli|shards)$")
       set(each %c%m)
     endif()
     set(counts ";LLVM_PROFILE_FILE=set:${PROJECT_BINARY_DIR}/counts/${area}-${name}-${each}.profraw")
