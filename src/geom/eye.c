@@ -165,7 +165,9 @@ void geom_meeting_round(num_context *context, const geom_eye *eye, const geom_li
 }
 
 /* The share where an EDGE through p and q, seen from a point, meets uv, if pairs of doubles can tell how it is to be
- * rounded. With sizes as sums of coordinates, a product of three vectors is off by less than 2^-96 of theirs. */
+ * rounded. With sizes as sums of coordinates, a product of three vectors is off by less than 2^-96 of theirs. The share
+ * is from 0 to 1, and `low` is at most the product of the sizes, so the error is at least 2^-94: only shares above 2^-42
+ * are rounded. */
 static bool round_share(const geom_eye *eye, const geom_line *line, const double *u, const double *v, double *out) {
     num_pair ray[4][3], n[3];
     const double *const points[4] = {line->u, line->v, u, v};
@@ -181,7 +183,7 @@ static bool round_share(const geom_eye *eye, const geom_line *line, const double
     const double low = fabs(bottom.hi);
     const double error = 0x1p-94 * size[0] * size[1] * (size[2] + size[3]) / low + 0x1p-96 * t.hi;
     *out = t.hi + (t.lo - error);
-    return *out == t.hi + (t.lo + error) && t.hi > 0x1p-200 && t.hi < 2 && low > 0x1p-600;
+    return *out == t.hi + (t.lo + error);
 }
 
 double geom_share_round(num_context *context, const geom_eye *eye, const geom_line *line, const double *u,

@@ -34,7 +34,7 @@ static inline double filter_lift(double most) {
  * is no less than 2^-548. */
 static inline double filter_raise(double lift, double most) {
     int exponent;
-    if (lift < 0x1p800 || !(most > 0) || most >= 0x1p200) return 1;
+    if (lift < 0x1p800 || !(most > 0)) return 1;
     frexp(most, &exponent);
     return ldexp(1, 200 - exponent);
 }

@@ -68,13 +68,13 @@ static void number_planes(const froe_tree *t, uint32_t *known, uint32_t *numbers
 /* Lets cuts share planes, where there are at least twice as many cuts as planes. False: no memory. */
 static bool share_planes(froe_query *q, query_planes *p) {
     const froe_tree *t = q->tree;
-    const size_t names = (size_t)t->scene->object_count + t->scene->vertex_count;
+    const size_t names = 1 + (size_t)t->scene->object_count + t->scene->vertex_count; /* there may be none */
     uint32_t *known = support_calloc(&q->alloc, names, sizeof *known);
     uint32_t *numbers = support_calloc(&q->alloc, t->cut_count, sizeof *numbers);
     const bool room = known && numbers;
     p->count = t->cut_count;
     if (room) number_planes(t, known, numbers, &p->count);
-    support_free(&q->alloc, known, names ? names * sizeof *known : 1);
+    support_free(&q->alloc, known, names * sizeof *known);
     if (room && p->count <= t->cut_count / 2) {
         p->numbers = numbers;
     } else {

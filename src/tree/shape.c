@@ -240,7 +240,8 @@ static bool close_cut(clip *c, shape *cut) {
         }
         if (!close_face(c)) return false;
     }
-    if (c->dim == 2 || !cut) return true;
+    if (!cut) return true;
+    /* one way: three edges of a solid shape are cut at least, but rounding may leave two points of them */
     size_t first = out->starts.data[faces - 1], end = out->loops.count > first ? out->starts.data[faces] : first;
     return copy_cut(c, out->loops.data + first, end - first, cut);
 }

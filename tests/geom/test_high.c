@@ -323,8 +323,39 @@ static void filters_are_right_at_small_gaps(void **state) {
         }
 }
 
+/* Is 0 certainly inside of the simplex of differences of its corners from 0? */
+static bool is_inside(int dim, const double *corners) {
+    const double origin[FROE_MAX_DIM] = {0};
+    const geom_body simplex = {.form = FROE_HULL, .dim = dim, .count = (uint32_t)dim + 1, .coords = corners},
+                    point = {.form = FROE_POINT, .dim = dim, .count = 1, .coords = origin};
+    const geom_convex a = geom_convex_of(&simplex), b = geom_convex_of(&point);
+    geom_guess guess = {.simplex = {.count = dim + 1}, .scale = 1};
+    for (uint32_t i = 0; i <= (uint32_t)dim; i++) guess.simplex.a[i] = i;
+    return geom_guess_inside(&guess, &a, &b);
+}
+
+/* A simplex around 0 that is more and more flat along one axis: at some time doubles are sure no more, and they never
+ * are again, although the inverse of its edges grows beyond all that their error bounds allow. */
+static void flat_simplices_are_left_to_exact_numbers(void **state) {
+    (void)state;
+    for (int dim = 4; dim <= FROE_MAX_DIM; dim++) {
+        bool sure = true;
+        for (int flat = 0; flat < 80; flat++) {
+            double corners[(FROE_MAX_DIM + 1) * FROE_MAX_DIM] = {0};
+            for (int k = 0; k < dim; k++) corners[k] = -1, corners[(k + 1) * dim + k] = 1;
+            for (int i = 0; i <= dim; i++) corners[i * dim] = ldexp(corners[i * dim], -flat);
+            const bool now = is_inside(dim, corners);
+            assert_true(sure || !now);
+            sure = now;
+            if (flat < 20) assert_true(sure);
+        }
+        assert_false(sure);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(flat_simplices_are_left_to_exact_numbers),
         cmocka_unit_test_setup_teardown(polytopes_meet_as_they_do_in_rationals, setup, teardown),
         cmocka_unit_test_setup_teardown(grown_by_radii_they_meet_as_in_rationals, setup, teardown),
         cmocka_unit_test_setup_teardown(distances_are_those_of_rationals, setup, teardown),

@@ -240,6 +240,40 @@ static froe_status showing(void *user, const froe_allocator *alloc) {
     return status;
 }
 
+/* Triangles in planes that touch a ball: the cell within has as many faces as there are planes. */
+static froe_tree *round_cell(void) {
+    enum { PLANES = 24 };
+    double corners[9 * PLANES];
+    size_t starts[PLANES + 1] = {0};
+    for (int i = 0; i < PLANES; i++) {
+        const double z = 1 - (2 * i + 1.0) / PLANES, turn = 2.4 * i, r = sqrt(1 - z * z);
+        const double n[3] = {r * cos(turn), r * sin(turn), z}, u[3] = {-sin(turn), cos(turn), 0};
+        const double v[3] = {-z * cos(turn), -z * sin(turn), r}, away[3][2] = {{-1, -1}, {1, -1}, {0, 1}};
+        for (int c = 0; c < 3; c++)
+            for (int k = 0; k < 3; k++)
+                corners[9 * i + 3 * c + k] = 0.5 + 0.4 * n[k] + 0.01 * (away[c][0] * u[k] + away[c][1] * v[k]);
+        starts[i + 1] = 3 * (size_t)(i + 1);
+    }
+    return trees_of_polygons(corners, starts, PLANES, "autopartition");
+}
+
+static bool count_corners(void *user, const froe_cell *cell) {
+    size_t *most = user;
+    if (cell->leaf && cell->corners > *most) *most = cell->corners;
+    return true;
+}
+
+static void memory_may_end_at_cells_of_many_faces(void **state) {
+    (void)state;
+    const double lo[3] = {0, 0, 0}, hi[3] = {1, 1, 1};
+    froe_tree *tree = round_cell();
+    size_t most = 0;
+    assert_int_equal(froe_tree_cells(tree, lo, hi, count_corners, &most, NULL), FROE_OK);
+    assert_true(most > 28); /* of a solid with f faces at most 2 f - 4: more than 16 faces */
+    assert_true(test_memory_each(showing, tree) > 15);
+    froe_tree_free(tree);
+}
+
 static void any_allocation_may_fail(void **state) {
     (void)state;
     for (int dim = 2; dim <= 3; dim++) {
@@ -422,6 +456,7 @@ int main(void) {
         cmocka_unit_test(visitors_stop_and_bad_boxes_are_refused),
         cmocka_unit_test(a_chain_of_many_cuts_needs_no_stack),
         cmocka_unit_test(any_allocation_may_fail),
+        cmocka_unit_test(memory_may_end_at_cells_of_many_faces),
         cmocka_unit_test(pieces_add_up_to_their_objects),
         cmocka_unit_test(made_edges_lie_in_their_cuts),
         cmocka_unit_test(threads_read_corners_together),

@@ -298,6 +298,25 @@ static void sealing_depends_on_the_shape_alone(void **state) {
     for (int i = 0; i < WAYS; i++) froe_tree_free(tree[i]);
 }
 
+/* A chain of cuts, each below the last, so that more nodes wait than an array begins with. */
+static froe_status sealing_a_chain(void *user, const froe_allocator *alloc) {
+    enum { DEPTH = 40 };
+    tree_draft draft;
+    froe_tree *tree = NULL;
+    uint32_t node = 0;
+    froe_status status = draft_new(alloc, 2, 0, &draft);
+    if (status) return status;
+    for (uint32_t i = 0; i < DEPTH && !status; i++) {
+        const froe_cut cut = {.kind = FROE_CUT_AXIS, .value = -(double)i};
+        status = draft_split(&draft, node, &cut, 0, &node);
+    }
+    if (!status) status = draft_seal(&draft, NULL, 0, user, &meta, &tree);
+    draft_free(&draft);
+    if (!status) assert_int_equal(froe_tree_report(tree).height, DEPTH);
+    froe_tree_free(tree);
+    return status;
+}
+
 static froe_status sealing(void *user, const froe_allocator *alloc) {
     (void)user;
     froe_scene *scene = NULL;
@@ -313,6 +332,9 @@ static froe_status sealing(void *user, const froe_allocator *alloc) {
 static void any_allocation_may_fail(void **state) {
     (void)state;
     assert_true(test_memory_each(sealing, NULL) > 30);
+    froe_scene *scene = trees_scene(2, FROE_SEGMENT, OBJECTS, 0, 1, 3);
+    assert_true(test_memory_each(sealing_a_chain, scene) > 10);
+    froe_scene_free(scene);
 }
 
 static void a_deep_chain_needs_no_stack(void **state) {

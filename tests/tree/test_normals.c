@@ -91,20 +91,37 @@ static void a_point_is_a_hull_too(void **state) {
     assert_true(apart);
 }
 
+/* Two hulls, of which `user` has the dimension, and how many cuts it takes until nothing is left between them. */
+typedef struct round_hulls {
+    num_context *context;
+    int dim;
+    size_t vectors;
+} round_hulls;
+
 static froe_status in_memory(void *user, const froe_allocator *alloc) {
     static sets s;
+    round_hulls *hulls = user;
     fuzz_source r = {7};
     bool apart;
-    normals m = {.context = ((normals *)user)->context, .alloc = *alloc};
-    s.dim = 2;
-    make_spheres(&s, &r, 5);
-    froe_status status = take(&m, &s) ? normals_apart(&m, &apart) : FROE_E_MEMORY;
+    normals m = {.context = hulls->context, .alloc = *alloc};
+    s.dim = hulls->dim;
+    froe_status status = FROE_OK;
+    for (int i = 0; i < 40 && !status; i++) {
+        make_spheres(&s, &r, i);
+        status = take(&m, &s) ? normals_apart(&m, &apart) : FROE_E_MEMORY;
+        if (m.vectors.count > hulls->vectors) hulls->vectors = m.vectors.count;
+    }
     normals_free(&m);
     return status;
 }
 
+/* Among other calls, those for the rays of a cone that many differences bound. */
 static void any_allocation_may_fail(void **state) {
-    assert_true(test_memory_each(in_memory, *state) > 3);
+    for (int dim = 2; dim <= 3; dim++) {
+        round_hulls hulls = {((normals *)*state)->context, dim, 0};
+        assert_true(test_memory_each(in_memory, &hulls) > 3);
+        if (dim == 3) assert_true(hulls.vectors > 8);
+    }
 }
 
 static int begin(void **state) {

@@ -343,8 +343,7 @@ static int meets_triangle(const geom_ray *ray, const geom_body *body, geom_hit *
 }
 
 bool geom_ray_meets(num_context *context, const geom_ray *ray, const geom_body *body, geom_hit *first) {
-    if (body->count == 3 && body->form == FROE_POLYGON && ray->dim == 3 && context->first == NUM_FILTER &&
-        num_rounding_trusted()) {
+    if (body->count == 3 && body->form == FROE_POLYGON && context->first == NUM_FILTER && num_rounding_trusted()) {
         const int sure = num_filtered_call(context, meets_triangle(ray, body, first));
         if (sure != NUM_UNSURE) return sure;
     }

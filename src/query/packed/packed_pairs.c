@@ -57,22 +57,16 @@ static bool crossing_here(pairing *p, const double *const a[2], const double *co
     return true;
 }
 
-static bool precedes(const double *a, const double *b) {
-    return a[0] < b[0] || (a[0] == b[0] && a[1] < b[1]);
-}
-
 static bool segment_holds(pairing *p, const double *const s[2], const double *x) {
     return query_segment_meets_box(&p->q->numbers, s[0], s[1], x, x);
 }
 
-/* The first common point of two objects that meet, but do not cross, is an end of one of them. */
+/* The first common point of two objects that meet, but do not cross, is an end of one of them. Ends are in order, so it
+ * is where one of the objects begins, or where one ends if they have nothing else in common. */
 static bool end_here(pairing *p, const double *const a[2], const double *const b[2]) {
-    const double *first = NULL;
-    for (int i = 0; i < 2; i++) {
-        if ((!first || precedes(a[i], first)) && segment_holds(p, b, a[i])) first = a[i];
-        if ((!first || precedes(b[i], first)) && segment_holds(p, a, b[i])) first = b[i];
-    }
-    return is_here(p, first);
+    if (segment_holds(p, b, a[0])) return is_here(p, a[0]);
+    if (segment_holds(p, a, b[0])) return is_here(p, b[0]);
+    return is_here(p, segment_holds(p, b, a[1]) ? a[1] : b[1]);
 }
 
 /* ------------------------------------------------------------------- pairs -- */

@@ -48,7 +48,7 @@ void space_batch_free(space_ray_state *rays, const froe_allocator *alloc) {
 /* Begins the next ray; *flies false: none is left. */
 static froe_status launch_ray(ray_batch *f, space_ray_state *r, bool *flies) {
     *flies = false;
-    while (f->next < f->count && !*flies) {
+    while (f->next < f->count) {
         r->at = f->next++;
         r->ray.dim = 3;
         const double *origin = f->origins + 3 * r->at, *direction = f->directions + 3 * r->at;
@@ -146,7 +146,7 @@ static froe_status answer_in_turns(ray_batch *f, space_ray_state *rays) {
         if (did != SPACE_END) continue;
         answer_ray(f, r);
         status = launch_ray(f, r, &flies);
-        if (flies || status) continue;
+        if (flies) continue;
         if (i == --flying) {
             i = 0;
             continue;

@@ -18,7 +18,7 @@ static void begin_point(froe_query *q, const froe_range *point) {
 /* Those of a list. */
 static froe_status test_list(froe_query *q, const tree_objects *list, const double *x, froe_diagnostic *diag) {
     const froe_scene *s = q->tree->scene;
-    bool memory = false;
+    bool memory = false; /* of which only halfspaces need some */
     if (!query_expect(q, list->count)) return support_fail_memory(diag);
     for (uint32_t i = 0; i < list->count; i++) {
         const uint32_t object = tree_object(list, i);
@@ -32,7 +32,7 @@ static froe_status test_list(froe_query *q, const tree_objects *list, const doub
         }
         if (holds) query_found(q, object);
     }
-    return memory ? support_fail_memory(diag) : FROE_OK;
+    return FROE_OK;
 }
 
 /* A point as a range. */

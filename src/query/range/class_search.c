@@ -69,14 +69,13 @@ static bool push_run(class_search *s, uint32_t first, uint32_t end) {
 static bool range_meets_cube(const class_search *s, const double *corner, int level) {
     double least[FROE_MAX_DIM], lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
     bool meets = true;
-    if (level > CUBE_SIGN) return true;
     for (int k = 0; k < s->p->dim; k++) least[k] = cube_corner(corner[k], level);
     cube_bounds(s->p->dim, least, level, lo, hi);
     for (int k = 0; k < s->p->dim; k++) meets &= lo[k] <= s->hi[k] && s->lo[k] <= hi[k];
     return meets;
 }
 
-/* Searches a run of cells, as far as the range meets the least cube around it: the first cell and the others, if it is
+/* Searches a run of cells, which lie in one cube and so on one side of 0 along each axis, as far as the range meets the least cube around it: the first cell and the others, if it is
  * that cube, otherwise those in the first of the 2^dim parts of the cube and those in the others. */
 static bool search_run(class_search *s, uint32_t first, uint32_t end) {
     const query_classes *p = s->p;

@@ -168,6 +168,7 @@ static const char *packed_wrong(const comparison *c, const trace_place *place, u
     uint32_t ring[2] = {place->ring[0], place->ring[place->count - 1]}, found[2];
     if (place->count == 2) {
         packed_ring(c->tree, c->context, place->node, c->object, found);
+        /* one way: packed_ring() is right, which is not relied on here */
         if (found[0] != ring[0] || found[1] != ring[1]) return "a piece of the wrong shape";
     }
     return packed_refuted(c->context, c->tree, place->node, i, ring);

@@ -18,14 +18,14 @@ static int sign_along(normals *m, const normals_ray *ray, const geom_vector *d) 
 
 /* -------------------------------------------------------------------- rays -- */
 
-/* Adds one x other, unless some difference speaks against it, or it is 0. */
-static bool add_ray(normals *m, uint32_t one, uint32_t other) {
+/* Adds one x other, for which there is room, unless some difference speaks against it, or it is 0. */
+static void add_ray(normals *m, uint32_t one, uint32_t other) {
     normals_ray ray = {.one = one, .other = other};
     for (uint32_t i = 3; i < m->vectors.count; i++)
-        if (i != one && i != other && sign_along(m, &ray, m->vectors.data + i) < 0) return true;
+        if (i != one && i != other && sign_along(m, &ray, m->vectors.data + i) < 0) return;
     int k = 0;
     while (k < 3 && !sign_along(m, &ray, &(geom_vector){origin, axes[k]})) k++;
-    if (k == 3) return true;
+    if (k == 3) return;
     const geom_vector *a = m->vectors.data + one, *b = m->vectors.data + other;
     double most = 0, *x = ray.image;
     for (k = 0; k < 3; k++) {
@@ -35,26 +35,24 @@ static bool add_ray(normals *m, uint32_t one, uint32_t other) {
     }
     bool fit = most > 0x1p-900 && most < 0x1p900;
     for (k = 0; k < 3; k++) x[k] = fit ? x[k] / most : 0;
-    return array_push(&m->alloc, &m->rays, ray);
+    m->rays.data[m->rays.count++] = ray;
 }
 
 /* One x other and other x one. */
-static bool add_rays(normals *m, uint32_t one, uint32_t other) {
-    bool room = true;
-    for (int turn = 0; turn < 2 && room; turn++) room = add_ray(m, turn ? other : one, turn ? one : other);
-    return room;
+static void add_rays(normals *m, uint32_t one, uint32_t other) {
+    add_ray(m, one, other);
+    add_ray(m, other, one);
 }
 
 /* Cuts off what has a negative product with d. Any extreme ray of what is left is an old one, or lies across d and
- * another vector (an axis, where all differences lie in a plane). */
+ * another vector (an axis, where all differences lie in a plane). False: no memory. */
 static bool cut_off(normals *m, geom_vector d) {
     uint32_t kept = 0, last = (uint32_t)m->vectors.count;
     for (uint32_t i = 0; i < m->rays.count; i++)
         if (sign_along(m, m->rays.data + i, &d) >= 0) m->rays.data[kept++] = m->rays.data[i];
     m->rays.count = kept;
-    if (!array_push(&m->alloc, &m->vectors, d)) return false;
-    for (uint32_t i = m->dim == 2 ? 2 : 0; i < (m->dim == 2 ? 3 : last); i++)
-        if (!add_rays(m, i, last)) return false;
+    if (!array_push(&m->alloc, &m->vectors, d) || !array_reserve(&m->alloc, &m->rays, 2 * last)) return false;
+    for (uint32_t i = m->dim == 2 ? 2 : 0; i < (m->dim == 2 ? 3 : last); i++) add_rays(m, i, last);
     return true;
 }
 
@@ -121,12 +119,9 @@ froe_status normals_apart(normals *m, bool *apart) {
     }
     if (flat(m)) return FROE_OK;
     /* the cone of all normals: the axes, in both directions */
-    for (int k = 0; k < 3; k++)
-        if (!array_push(&m->alloc, &m->vectors, (geom_vector){origin, axes[k]})) return FROE_E_MEMORY;
-    for (uint32_t i = 0; i < (uint32_t)m->dim; i++) {
-        uint32_t j = m->dim == 2 ? 2 : (i + 1) % 3;
-        if (!add_rays(m, i, j)) return FROE_E_MEMORY;
-    }
+    if (!array_reserve(&m->alloc, &m->vectors, 3) || !array_reserve(&m->alloc, &m->rays, 6)) return FROE_E_MEMORY;
+    for (int k = 0; k < 3; k++) m->vectors.data[m->vectors.count++] = (geom_vector){origin, axes[k]};
+    for (uint32_t i = 0; i < (uint32_t)m->dim; i++) add_rays(m, i, m->dim == 2 ? 2 : (i + 1) % 3);
     while (m->rays.count && !*apart) {
         geom_vector worst;
         if (!find_worst(m, &worst))

@@ -113,7 +113,7 @@ froe_status packer_place_for(tree_packer *p, uint32_t node, const tree_packer *s
     if (!array_reserve(&p->alloc, &p->nodes, nodes) || !array_reserve(&p->alloc, &p->owners, owners))
         return FROE_E_MEMORY;
     froe_status status = take_blocks(p, subtree->block_count, subtree->piece_count);
-    if (status) return status;
+    if (status) return status; /* one way: the tree was made with room for the blocks of all subtrees */
     p->nodes.count += nodes;
     p->owners.count += owners;
     return FROE_OK;
