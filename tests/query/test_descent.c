@@ -156,6 +156,47 @@ static void flat_scenes_have_leaves(void **state) {
     check("point", point, false);
 }
 
+/* Cuts that floats cannot hold: one far beyond the scene, and sums of which the later, finer planes are not small: they
+ * move the first one, or turn it. Between them is one that floats can hold. */
+static void cuts_that_floats_cannot_hold_are_passed_exactly(void **state) {
+    static const tree_meta meta = {.method = "by hand", .leaf = 300};
+    static const double far[2] = {1, 0.5}, plain[2] = {0.5, 1};
+    static const double moved[6] = {1, -1, 0, 0, 0, 0x1p48}, turned[6] = {1, 1, 1, 0x1p52, 0, 0};
+    static const froe_cut cuts[] = {{.kind = FROE_CUT_PLANE, .value = 5, .normal = far},
+                                    {.kind = FROE_CUT_FINE, .id = {2}, .normal = moved},
+                                    {.kind = FROE_CUT_PLANE, .value = 0.75, .normal = plain},
+                                    {.kind = FROE_CUT_FINE, .id = {2}, .normal = turned}};
+    static double points[2 * POINTS];
+    (void)state;
+    world w = {.name = "by hand", .dim = 2, .scene = square(0, 0, 1), .tree_count = 1};
+    tree_draft draft;
+    froe_tree *tree;
+    froe_query *q;
+    num_context exact;
+    const query_descent *d;
+    uint32_t node = 0, child, known = 0;
+    assert_int_equal(draft_new(NULL, 2, 0, &draft), FROE_OK);
+    for (size_t i = 0; i < sizeof cuts / sizeof *cuts; i++, node = child + i % 2) /* below, above, below */
+        assert_int_equal(draft_split(&draft, node, cuts + i, 0, &child), FROE_OK);
+    assert_int_equal(draft_seal(&draft, NULL, 0, w.scene, &meta, &tree), FROE_OK);
+    draft_free(&draft);
+    assert_int_equal(froe_query_new(tree, &q, NULL), FROE_OK);
+    assert_int_equal(num_context_new(NULL, &exact), FROE_OK);
+    for (uint64_t i = 0; i < POINTS; i++) { /* some a little beside the lines */
+        double *x = points + 2 * i;
+        x[0] = trees_unit(6, 2 * i), x[1] = trees_unit(6, 2 * i + 1);
+        if (i % 3 == 1) x[1] = x[0] - 0x1p-5 + (trees_unit(7, i) - 0.5) * 0x1p-40;
+        if (i % 3 == 2) x[1] = 1 - 1.5 * x[0] + (trees_unit(7, i) - 0.5) * 0x1p-40;
+    }
+    w.trees = &tree, w.queries = &q;
+    compare(&w, 0, points, &exact);
+    assert_int_equal(query_descent_of(q, &d, NULL), FROE_OK);
+    for (uint32_t i = 0; i < d->cut_count; i++) known += !isnan(d->cuts[i].c);
+    assert_int_equal(known, 1);
+    num_context_free(&exact);
+    froe_query_free(q), froe_tree_free(tree), froe_scene_free(w.scene);
+}
+
 static froe_status find(void *user, const froe_allocator *alloc) {
     froe_scene *scene = NULL;
     froe_tree *tree = NULL;
@@ -186,6 +227,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(points_come_to_their_leaves),
         cmocka_unit_test(flat_scenes_have_leaves),
+        cmocka_unit_test(cuts_that_floats_cannot_hold_are_passed_exactly),
         cmocka_unit_test(leaves_survive_every_failing_allocation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -33,6 +33,85 @@ static froe_scene *nested(void) {
     return scene;
 }
 
+/* Triangles around one point, each with the sides of its neighbours: most borders are those of two groups. */
+static froe_scene *shared_fan(void) {
+    froe_scene *scene;
+    assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+    for (int i = 0; i < 2 * MANY; i++) {
+        double c[2][2];
+        for (int end = 0; end < 2; end++) {
+            const double turn = 6.283185307179586 * ((i + end) % (2 * MANY)) / (2 * MANY);
+            c[end][0] = 0.5 + 0.4 * cos(turn), c[end][1] = 0.5 + 0.4 * sin(turn);
+        }
+        const double ring[12] = {0.5, 0.5, c[0][0], c[0][1], c[0][0], c[0][1], c[1][0], c[1][1], c[1][0], c[1][1], 0.5, 0.5};
+        add_to(scene, add_group(scene), FROE_SEGMENT, 3, ring, NULL);
+    }
+    return scene;
+}
+
+/* Adds a ring of segments as a group. */
+static void add_ring(froe_scene *scene, const double (*corners)[2], size_t count) {
+    const uint32_t group = add_group(scene);
+    for (size_t i = 0; i < count; i++) {
+        const double *u = corners[i], *v = corners[(i + 1) % count], ends[4] = {u[0], u[1], v[0], v[1]};
+        add_to(scene, group, FROE_SEGMENT, 1, ends, NULL);
+    }
+}
+
+/* Squares one in the other around all that is asked for, small triangles within, a comb of many sides on one line, and
+ * a triangle with a longer side on that line. */
+static froe_scene *yard(void) {
+    enum { TEETH = 20 };
+    double comb[TEETH + 3][2];
+    froe_scene *scene;
+    assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+    for (int i = 0; i < MANY; i++) {
+        const double lo = -0.1 - 0.01 * i, hi = 1.1 + 0.01 * i, x = 0.05 * i, y = 0.8;
+        add_ring(scene, (const double[][2]){{lo, lo}, {hi, lo}, {hi, hi}, {lo, hi}}, 4);
+        add_ring(scene, (const double[][2]){{x, y}, {x + 0.01, y}, {x, y + 0.01}}, 3);
+    }
+    for (int i = 0; i <= TEETH; i++) comb[i][0] = 0.25 + i / 40.0, comb[i][1] = 0.25;
+    comb[TEETH + 1][0] = 0.75, comb[TEETH + 2][0] = 0.25, comb[TEETH + 1][1] = comb[TEETH + 2][1] = 0.5;
+    add_ring(scene, (const double(*)[2])comb, TEETH + 3);
+    add_ring(scene, (const double[][2]){{0.125, 0.25}, {0.875, 0.25}, {0.5, 0.375}}, 3);
+    return scene;
+}
+
+static const tree_meta meta = {.method = "by hand", .leaf = 1};
+
+/* Points in a row, or segments one above the other, below cuts between them or through them: each cut takes off the
+ * last one, so that all of them wait where the first is asked for. */
+static froe_tree *chain(froe_kind kind) {
+    enum { DEPTH = 40 };
+    froe_scene *scene;
+    tree_draft draft;
+    froe_tree *tree;
+    uint32_t node = 0, child;
+    assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+    assert_int_equal(draft_new(NULL, 2, 0, &draft), FROE_OK);
+    for (int i = 0; i < DEPTH; i++) {
+        const double at[4] = {kind == FROE_POINT ? i + 1.5 : 0, i + 1, 1, i + 1};
+        assert_int_equal(trees_add(scene, kind, 1, at, NULL, NULL), FROE_OK);
+    }
+    if (kind == FROE_SEGMENT) { /* one cut without a list */
+        const froe_cut cut = {.kind = FROE_CUT_AXIS, .axis = 1, .value = 0.5 + DEPTH};
+        assert_int_equal(draft_split(&draft, node, &cut, 0, &child), FROE_OK);
+        node = child;
+    }
+    for (uint32_t i = DEPTH; i-- > 0; node = child) {
+        const froe_cut across = {.kind = FROE_CUT_AXIS, .value = i + 1}, along = {.kind = FROE_CUT_OBJECT, .id = {i}};
+        assert_int_equal(draft_split(&draft, node, kind == FROE_POINT ? &across : &along, 0, &child), FROE_OK);
+        const uint32_t lists = kind == FROE_POINT ? child + 1 : node;
+        assert_int_equal(draft_list(&draft, lists), FROE_OK);
+        assert_int_equal(draft_piece(&draft, lists, i, NULL, 0), FROE_OK);
+    }
+    assert_int_equal(draft_seal(&draft, NULL, 0, scene, &meta, &tree), FROE_OK);
+    assert_int_equal(froe_tree_audit(tree, NULL, NULL), FROE_OK);
+    draft_free(&draft);
+    froe_scene_free(scene);
+    return tree;
+}
+
 typedef struct asking {
     const froe_tree *tree;
     int question;
@@ -59,6 +138,32 @@ static froe_status ask_middle(froe_query *q, told *t) {
     return status;
 }
 
+/* A window around most objects, among cubes of all sizes. */
+static froe_status ask_cubes(froe_query *q, told *t) {
+    double box[2 * FROE_MAX_DIM];
+    froe_list list;
+    froe_range r = froe_range_defaults();
+    const int dim = q->tree->scene->dim;
+    for (int k = 0; k < dim; k++) box[k] = 0.01 + 0.01 * k, box[dim + k] = 0.9 - 0.01 * k;
+    r.points = box, r.walk = FROE_WALK_CLASSES;
+    const froe_status status = froe_query_range(q, &r, &list, NULL);
+    tell_list(t, status, &list);
+    return status;
+}
+
+/* All that a ray up from below meets. */
+static froe_status ask_ray_up(froe_query *q, told *t) {
+    static const double from[2] = {0.5, -1}, up[2] = {0, 1};
+    froe_hits all;
+    const froe_status status = froe_query_ray_all(q, from, up, INFINITY, &all, NULL);
+    for (size_t h = 0; !status && h < all.count; h++) tell(t, &all.hits[h].object, sizeof all.hits[h].object);
+    return status;
+}
+
+/* What has no number among the questions: those after them. */
+static froe_status (*const others[])(froe_query *q, told *t) = {ask_all_neighbours, ask_middle, ask_cubes, ask_ray_up};
+enum { ALL_NEIGHBOURS = QUESTIONS, MIDDLE, CUBES, RAY_UP, END };
+
 static froe_status ask_with(void *user, const froe_allocator *alloc) {
     asking *a = user;
     froe_tree tree = *a->tree;
@@ -67,18 +172,21 @@ static froe_status ask_with(void *user, const froe_allocator *alloc) {
     tree.alloc = *alloc;
     froe_status status = froe_query_new(&tree, &q, NULL);
     if (status) return status;
-    status = a->question == QUESTIONS       ? ask_all_neighbours(q, &t)
-             : a->question == QUESTIONS + 1 ? ask_middle(q, &t)
-                                            : ask_question(q, a->question, &t);
+    status = a->question < QUESTIONS ? ask_question(q, a->question, &t) : others[a->question - QUESTIONS](q, &t);
     if (!status && !a->expected) a->expected = t;
     if (!status) assert_true(t == a->expected);
     froe_query_free(q);
     return status;
 }
 
+static void ask_this(froe_tree *tree, int question) {
+    assert_true(test_memory_each(ask_with, &(asking){tree, question, 0}) > 5);
+    froe_tree_free(tree);
+}
+
 static void ask_everything(froe_tree *tree, int step) {
     size_t calls = 0;
-    for (int question = 0; question < QUESTIONS + 2; question++)
+    for (int question = 0; question < CUBES; question++)
         if (question < QUESTIONS_PLAIN || question >= QUESTIONS || question % step == 0)
             calls += test_memory_each(ask_with, &(asking){tree, question, 0});
     assert_true(calls > 200);
@@ -92,6 +200,18 @@ static void memory_may_end_among_many_groups(void **state) {
         ask_everything(trees_build(scene, balls ? "density" : "index", 4), 29);
         ask_everything(trees_build(scene, balls ? "kd" : "autopartition", 1), 29);
         froe_scene_free(scene);
+    }
+}
+
+/* Joins of groups with many groups, and areas with borders of two. */
+static void memory_may_end_among_many_areas(void **state) {
+    static const int plain[] = {1, 4, 7}; /* groups of points, joins, relations */
+    (void)state;
+    froe_scene *scenes[] = {shared_fan(), yard()};
+    for (int s = 0; s < 2; s++) {
+        for (int i = 0; i < 3; i++) ask_this(trees_build(scenes[s], "autopartition", 1), plain[i]);
+        ask_this(trees_build(scenes[s], "index", 4), MIDDLE);
+        froe_scene_free(scenes[s]);
     }
 }
 
@@ -109,11 +229,17 @@ static void memory_may_end_where_many_nodes_wait(void **state) {
     ask_everything(trees_grow(3, FROE_POLYGON, 16, 0, 0.5, "autopartition", 1), 29);
     ask_everything(trees_grow(3, FROE_POLYGON, 80, 0, 0.5, "index", 2), 29);
     ask_everything(trees_grow(6, FROE_BOX, 20, 0, 0.5, "density", 1), 11);
+    ask_this(trees_grow(2, FROE_SEGMENT, 400, 0, 0.05, "kd", 1), CUBES);
+    ask_this(trees_grow(3, FROE_BOX, 400, 0, 0.2, "density", 1), CUBES);
+    ask_this(trees_grow(2, FROE_SEGMENT, 400, 0, 0.05, "index", 6), ALL_NEIGHBOURS);
+    ask_this(chain(FROE_POINT), ALL_NEIGHBOURS);
+    ask_this(chain(FROE_SEGMENT), RAY_UP);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(memory_may_end_among_many_groups),
+        cmocka_unit_test(memory_may_end_among_many_areas),
         cmocka_unit_test(memory_may_end_among_many_covers),
         cmocka_unit_test(memory_may_end_where_many_nodes_wait),
     };

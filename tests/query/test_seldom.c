@@ -404,6 +404,160 @@ static void segments_are_found_above_cuts_that_are_not_quite_on_one_line(void **
     froe_scene_free(scene);
 }
 
+/* Moves a horizontal cut, and with it the cells beside it. */
+static void move_cut(froe_tree *tree, uint32_t node, double to) {
+    const double from = tree->nodes[node].u.value;
+    uint32_t stack[64] = {node};
+    tree->nodes[node].u.value = to;
+    for (size_t count = 1; count;) {
+        const tree_node *n = tree->nodes + stack[--count];
+        if (!tree_is_leaf(n)) {
+            stack[count++] = n->child, stack[count++] = n->child + 1;
+            continue;
+        }
+        packed_box cell;
+        packed_header *block = (packed_header *)(uintptr_t)packed_block(tree, n);
+        if (block->lo[1] == from) block->lo[1] = to;
+        packed_cell(tree, block, &cell);
+        if (block->scale > 0) block->scale = packed_scale(&cell);
+    }
+}
+
+/* A cut that is moved by a unit in the last place, between all coordinates, makes its line of the table crooked: what
+ * is met above and below points is what was met before. */
+static void segments_are_found_across_lines_that_were_made_crooked(void **state) {
+    enum { POINTS = 400 };
+    static double points[POINTS][2];
+    static uint32_t found[2][2][POINTS];
+    (void)state;
+    froe_tree *tree = trees_grow(2, FROE_SEGMENT, 600, 0, 0.03, "index", 2);
+    for (size_t i = 0; i < POINTS; i++)
+        for (size_t k = 0; k < 2; k++) points[i][k] = trees_unit(24, 2 * i + k);
+    for (int moved = 0; moved < 2; moved++) {
+        size_t crooked = 0;
+        if (moved)
+            for (uint32_t i = 1; i < tree->node_count; i++) { /* of two cuts at one place the later one */
+                tree_node *n = tree->nodes + i;
+                bool again = false;
+                for (uint32_t j = 0; j < i && !again && !tree_is_leaf(n) && n->axis == 1; j++)
+                    again = !tree_is_leaf(tree->nodes + j) && tree->nodes[j].axis == 1 &&
+                            tree->nodes[j].u.value == n->u.value;
+                if (again) move_cut(tree, i, nextafter(n->u.value, 2));
+            }
+        froe_diagnostic why;
+        if (froe_tree_audit(tree, NULL, &why)) fail_msg("%s", why.message);
+        tree_table_free(&tree->alloc, tree->packed.table);
+        assert_int_equal(tree_table_new(tree, &tree->packed.table), FROE_OK);
+        for (uint32_t i = 0; i <= tree->packed.table->cells[1]; i++) crooked += tree->packed.table->crooked[1][i];
+        assert_int_equal(crooked > 2, moved);
+        froe_query *q;
+        assert_int_equal(froe_query_new(tree, &q, NULL), FROE_OK);
+        for (int up = 0; up < 2; up++)
+            assert_int_equal(froe_batch_vertical(q, points[0], POINTS, up ? 1 : -1, NULL, found[moved][up], NULL),
+                             FROE_OK);
+        froe_query_free(q);
+    }
+    assert_memory_equal(found[0], found[1], sizeof found[0]);
+    froe_tree_free(tree);
+}
+
+/* Objects that touch in the upper sides of cells, where the next cell begins: each pair is told once. */
+static void pairs_that_touch_in_sides_of_cells_are_told_once(void **state) {
+    enum { LINES = 17 };
+    (void)state;
+    froe_scene *scene;
+    size_t counts[2];
+    static const char *const methods[] = {"index", "autopartition"};
+    assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+    for (int i = 0; i < LINES; i++)
+        for (int j = 0; j < LINES; j++) { /* T-shapes, which end in lines of halves, quarters and so on, and touch */
+            const double x = i, y = j, post[4] = {x, y - 0.25, x, y + 0.25}, arm[4] = {x - 0.375, y, x, y},
+                         roof[4] = {x - 0.25, y + 0.5, x + 0.25, y + 0.5}, below[4] = {x, y + 0.375, x, y + 0.5};
+            add_to(scene, FROE_NONE, FROE_SEGMENT, 1, post, NULL);
+            add_to(scene, FROE_NONE, FROE_SEGMENT, 1, arm, NULL);
+            add_to(scene, FROE_NONE, FROE_SEGMENT, 1, roof, NULL);
+            add_to(scene, FROE_NONE, FROE_SEGMENT, 1, below, NULL);
+        }
+    for (int m = 0; m < 2; m++) {
+        froe_pairs all;
+        froe_query *q = ask(trees_build(scene, methods[m], 4));
+        assert_int_equal(froe_batch_pair_array(q, true, NULL, &all, NULL), FROE_OK);
+        counts[m] = all.count;
+        froe_pairs_free(&all);
+        end_query(q);
+    }
+    assert_int_equal(counts[0], 2 * LINES * LINES);
+    assert_int_equal(counts[1], 2 * LINES * LINES);
+    froe_scene_free(scene);
+}
+
+/* A map of so many leaves that windows wait for memory: they count what lies in them. */
+static void windows_of_a_large_map_hold_what_lies_in_them(void **state) {
+    enum { SIDE = 256, WINDOWS = 64 };
+    static double coords[SIDE * SIDE][4], boxes[WINDOWS][4];
+    (void)state;
+    froe_scene *scene;
+    froe_answers all;
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        coords[i][0] = i % SIDE, coords[i][1] = i / SIDE;
+        coords[i][2] = coords[i][0] + 0.5, coords[i][3] = coords[i][1] + 0.25;
+    }
+    for (int i = 0; i < WINDOWS; i++) {
+        boxes[i][0] = 3 * i - 0.25, boxes[i][1] = 200 - 2 * i - 0.25;
+        boxes[i][2] = boxes[i][0] + i % 5, boxes[i][3] = boxes[i][1] + 3;
+    }
+    assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+    assert_int_equal(trees_add(scene, FROE_SEGMENT, SIDE * SIDE, coords[0], NULL, NULL), FROE_OK);
+    froe_query *q = ask(trees_build(scene, "index", 4));
+    assert_true(q->tree->packed.block_count >= 1 << 14);
+    assert_int_equal(froe_batch_boxes(q, boxes[0], WINDOWS, NULL, &all, NULL), FROE_OK);
+    for (int i = 0; i < WINDOWS; i++) {
+        size_t met = 0;
+        for (int c = 0; c < SIDE * SIDE; c++) { /* a segment and a window meet as their bounds do, or it is long */
+            const double *s = coords[c], *b = boxes[i];
+            if (s[0] > b[2] || s[2] < b[0] || s[1] > b[3] || s[3] < b[1]) continue;
+            const double lo = fmax(s[0], b[0]), hi = fmin(s[2], b[2]), y = s[1] + 0.5 * (lo - s[0]), z = y + 0.5 * (hi - lo);
+            met += y <= b[3] && z >= b[1];
+        }
+        froe_list one;
+        froe_range r = froe_range_defaults();
+        r.points = boxes[i];
+        assert_int_equal(all.starts[i + 1] - all.starts[i], met);
+        assert_int_equal(froe_query_range(q, &r, &one, NULL), FROE_OK);
+        assert_int_equal(one.count, met);
+    }
+    froe_answers_free(&all);
+    end_query(q);
+    froe_scene_free(scene);
+}
+
+/* Triangles whose sides all come near a square, and which begin or end outside of all of its scene. */
+static void areas_that_begin_outside_of_the_question_are_not_within(void **state) {
+    static const double square[16] = {0, 0, 1, 0, 1, 0, 1, 1, 1, 1, 0, 1, 0, 1, 0, 0};
+    (void)state;
+    froe_scene *scene, *asked;
+    assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+    assert_int_equal(froe_scene_new(2, NULL, &asked), FROE_OK);
+    add_to(asked, add_group(asked), FROE_SEGMENT, 4, square, NULL);
+    for (int i = 0; i < 4; i++) { /* the last one is within */
+        const double far = i == 3 ? 0.875 : 2, corners[3][2] = {{0.5, far}, {0.25, 0.5}, {0.75, 0.5}};
+        double ring[3][4];
+        for (int k = 0; k < 3; k++)
+            for (int c = 0; c < 4; c++) ring[k][c] = corners[(i + k + c / 2) % 3][c % 2];
+        add_to(scene, add_group(scene), FROE_SEGMENT, 3, ring[0], NULL);
+    }
+    froe_query *q = ask(trees_build(scene, "autopartition", 1)), *questions = ask(trees_build(asked, "kd", 1));
+    for (froe_relation r = FROE_MEETS; r <= FROE_COVERS; r++) {
+        froe_answers all;
+        assert_int_equal(froe_batch_groups_join(q, questions, r, NULL, &all, NULL), FROE_OK);
+        assert_int_equal(all.starts[1], r == FROE_MEETS ? 4 : r == FROE_WITHIN ? 1 : 0);
+        if (r == FROE_WITHIN) assert_int_equal(all.ids[0], 3);
+        froe_answers_free(&all);
+    }
+    end_query(q), end_query(questions);
+    froe_scene_free(scene), froe_scene_free(asked);
+}
+
 /* Batches make room for what they have found so far, up to many millions of answers. */
 static void batches_have_millions_of_answers(void **state) {
     enum { OBJECTS = 3000, COUNT = 6000 };
@@ -479,6 +633,10 @@ int main(void) {
         cmocka_unit_test(groups_are_found_in_deep_trees_of_oblique_cuts),
         cmocka_unit_test(batches_of_groups_without_borders_are_single_questions),
         cmocka_unit_test(segments_are_found_above_cuts_that_are_not_quite_on_one_line),
+        cmocka_unit_test(segments_are_found_across_lines_that_were_made_crooked),
+        cmocka_unit_test(pairs_that_touch_in_sides_of_cells_are_told_once),
+        cmocka_unit_test(windows_of_a_large_map_hold_what_lies_in_them),
+        cmocka_unit_test(areas_that_begin_outside_of_the_question_are_not_within),
         cmocka_unit_test(batches_have_millions_of_answers),
         cmocka_unit_test(rays_that_never_end_meet_what_they_meet_before_a_far_end),
     };

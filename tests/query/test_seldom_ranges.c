@@ -138,19 +138,20 @@ static void an_eps_without_a_margin_adds_nothing(void **state) {
                                       {0, 0, 1, 0}, {0, 0, -1, 0}, {0, 0, 0, 1}, {0, 0, 0, -1}};
     static const double half[] = {0.5, 0, 0.5, 0, 0.5, 0, 0.5, 0}, flat[] = {0.5, -0.5, 0.5, 0, 0.5, 0, 0.5, 0};
     static const double apart[] = {0, -1, 0, -1, 0, -1, 0, -1}, huge[8] = {0, 0, 0, 0, 64, 64, 64, 64};
+    static const double wide[] = {64, 0, 64, 0, 64, 0, 64, 0};
     (void)state;
     for (size_t objects = 0; objects <= 80; objects += 80)
-        for (int which = 0; which < 6; which++) {
+        for (int which = 0; which < 7; which++) {
             froe_query *q = ask(trees_grow(4, FROE_BOX, objects, 0, 0.9, "density", 2));
             froe_list found;
             size_t count = 0;
             for (int eps = 0; eps < 2; eps++) {
                 froe_range r = froe_range_defaults();
-                r.shape = which < 5 ? FROE_SHAPE_HALFSPACES : FROE_SHAPE_BOX;
-                r.points = which < 5 ? cube[0] : huge;
-                r.offsets = which == 1 ? flat : which == 2 || which == 3 ? apart : half;
+                r.shape = which != 5 ? FROE_SHAPE_HALFSPACES : FROE_SHAPE_BOX;
+                r.points = which != 5 ? cube[0] : huge;
+                r.offsets = which == 1 ? flat : which == 2 || which == 3 ? apart : which == 6 ? wide : half;
                 r.count = which == 3 ? 2 : 8;
-                r.eps = !eps ? 0 : which == 0 || which == 5 ? 0x1p1023 : 0.125;
+                r.eps = !eps ? 0 : which == 0 || which >= 5 ? 0x1p1023 : 0.125;
                 if (which == 4) r.eps = eps ? INFINITY : 0;
                 const froe_status status = froe_query_range(q, &r, &found, NULL);
                 assert_int_equal(status, which == 4 && eps ? FROE_E_INPUT : FROE_OK);
@@ -164,12 +165,101 @@ static void an_eps_without_a_margin_adds_nothing(void **state) {
                 bool meets = true;
                 scene_object_bounds(q->tree->scene, i, lo, hi);
                 for (int k = 0; k < 4; k++)
-                    meets = meets && lo[k] <= (which == 5 ? 64 : 0.5) && hi[k] >= (which == 1 && k == 0 ? 0.5 : 0);
+                    meets = meets && lo[k] <= (which >= 5 ? 64 : 0.5) && hi[k] >= (which == 1 && k == 0 ? 0.5 : 0);
                 met += meets;
             }
             assert_int_equal(count, met);
             end_query(q);
         }
+}
+
+/* A segment to the largest double, past which its rounded bounds reach, in a deep tree: all walks find the same. */
+static void segments_may_end_at_the_largest_double(void **state) {
+    (void)state;
+    froe_query *q = ask(trees_grow(2, FROE_SEGMENT, 4000, 0, 0.02, "kd", 1));
+    size_t count = 0;
+    for (int axis = 0; axis < 2; axis++)
+        for (int walk = 0; walk < FROE_WALK_COUNT; walk++) {
+            double ends[4] = {0.1, 0.1, 0.1, 0.1};
+            froe_list found;
+            froe_range r = froe_range_defaults();
+            ends[axis] = 0, ends[2 + axis] = 0x1.fffffffffffffp1023;
+            r.shape = FROE_SHAPE_SEGMENT, r.points = ends, r.walk = (froe_walk)walk;
+            const froe_status status = froe_query_range(q, &r, &found, NULL);
+            if (status == FROE_E_UNSUPPORTED) continue;
+            assert_int_equal(status, FROE_OK);
+            if (!walk) count = found.count;
+            assert_true(found.count > 10);
+            assert_int_equal(found.count, count);
+        }
+    end_query(q);
+}
+
+/* Boxes one in the other, of all sizes up to one that reaches as far as doubles do, in five dimensions: the cell around
+ * a small range has one of them already, and refers to others. */
+static void one_of_many_boxes_around_a_small_range_is_enough(void **state) {
+    enum { BOXES = 40 };
+    (void)state;
+    for (int dim = 2; dim <= 5; dim += 3) {
+        froe_scene *scene;
+        assert_int_equal(froe_scene_new(dim, NULL, &scene), FROE_OK);
+        for (int i = 0; i < BOXES; i++) {
+            double box[2 * FROE_MAX_DIM];
+            for (int k = 0; k < dim; k++) {
+                const double r = i ? ldexp(1, 8 - i) : 0x1.fffffffffffffp1023;
+                box[k] = i ? 1.0 / 3 - r : -r, box[dim + k] = i ? 1.0 / 3 + r : r;
+            }
+            assert_int_equal(trees_add(scene, FROE_BOX, 1, box, NULL, NULL), FROE_OK);
+        }
+        froe_query *q = ask(trees_build(scene, "density", 4));
+        for (int size = 0; size < BOXES; size++) {
+            double box[2 * FROE_MAX_DIM];
+            froe_list found;
+            uint32_t one = FROE_NONE;
+            froe_range r = froe_range_defaults();
+            for (int k = 0; k < dim; k++) box[k] = box[dim + k] = 1.0 / 3 + ldexp(0.75, 8 - size);
+            r.points = box, r.walk = FROE_WALK_CLASSES;
+            assert_int_equal(froe_query_range(q, &r, &found, NULL), FROE_OK);
+            assert_int_equal(found.count, size ? size + 1 : 1);
+            assert_int_equal(froe_query_any(q, &r, &one, NULL), FROE_OK);
+            assert_true(one <= (uint32_t)size);
+        }
+        end_query(q);
+        froe_scene_free(scene);
+    }
+}
+
+/* One is found if there is any: also where a range holds a whole cell, and the first that are listed there are not. */
+static void one_is_found_where_any_is(void **state) {
+    static const struct {
+        const char *method;
+        froe_kind kind;
+        uint32_t leaf;
+        double size;
+    } cases[] = {{"index", FROE_POLYGON, 6, 0.3}, {"density", FROE_BALL, 2, 0.2}, {"density", FROE_HULL, 2, 0.3}};
+    (void)state;
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        froe_query *q = ask(trees_grow(3, cases[c].kind, 120, 0, cases[c].size, cases[c].method, cases[c].leaf));
+        size_t counts[2] = {0, 0};
+        for (uint64_t i = 0; i < 4000; i++) {
+            double box[6];
+            froe_list found;
+            uint32_t one = FROE_NONE;
+            froe_range r = froe_range_defaults();
+            for (int k = 0; k < 3; k++) {
+                box[k] = trees_unit(8, 6 * i + (uint64_t)k) * 1.2 - 0.1;
+                box[3 + k] = box[k] + 0.5 * pow(trees_unit(9, 6 * i), 2) * trees_unit(9, 6 * i + 1 + (uint64_t)k);
+            }
+            r.points = box, r.walk = (froe_walk)(i % 3);
+            assert_int_equal(froe_query_range(q, &r, &found, NULL), FROE_OK);
+            const size_t count = found.count;
+            assert_int_equal(froe_query_any(q, &r, &one, NULL), FROE_OK);
+            assert_int_equal(one != FROE_NONE, count > 0);
+            counts[count > 0]++;
+        }
+        assert_true(counts[0] > 100 && counts[1] > 100);
+        end_query(q);
+    }
 }
 
 /* --------------------------------------------------------------------------- memory -- */
@@ -212,7 +302,7 @@ static froe_status ask_alone(void *user, const froe_allocator *alloc) {
     size_t sum = 0;
     froe_status status = FROE_OK;
     tree.alloc = *alloc;
-    for (int which = 0; which < 13 && !status; which++) {
+    for (int which = 0; which < 14 && !status; which++) {
         froe_query *q;
         froe_list found = {NULL, 0};
         froe_neighbours near = {NULL, 0};
@@ -231,14 +321,23 @@ static froe_status ask_alone(void *user, const froe_allocator *alloc) {
         if (which == 1) r.walk = FROE_WALK_CLASSES;
         if (which >= 2 && which < 5)
             r.shape = shapes[which - 2], r.points = simplex, r.radius = 0.1, r.count = (size_t)dim + 1, r.eps = 0.01;
-        if (which < 5) status = froe_query_range(q, &r, &found, NULL);
+        double normals[2 * FROE_MAX_DIM * FROE_MAX_DIM] = {0}, offsets[2 * FROE_MAX_DIM];
+        if (which == 13) { /* the box of the scene, with an eps */
+            for (int k = 0; k < dim; k++) {
+                normals[k * dim + k] = 1, normals[(dim + k) * dim + k] = -1;
+                offsets[k] = hi[k], offsets[dim + k] = -lo[k];
+            }
+            r.shape = FROE_SHAPE_HALFSPACES, r.points = normals, r.offsets = offsets, r.count = 2 * (size_t)dim;
+            r.eps = 0.01;
+        }
+        if (which < 5 || which == 13) status = froe_query_range(q, &r, &found, NULL);
         if (status == FROE_E_UNSUPPORTED) status = FROE_OK;
         if (which == 5) status = froe_query_near(q, x, 9, INFINITY, &near, NULL);
         if (which == 6 && dim <= 3) status = froe_query_ray_all(q, x, way, INFINITY, &hits, NULL);
         if (which == 7) status = froe_query_locate(q, x, &found, NULL);
         if (which == 8 && dim == 2) status = froe_query_vertical(q, x, 1, &object, NULL);
         if (which == 9 && groups) status = froe_query_groups(q, simplex, &found, NULL);
-        if (which >= 10 && groups)
+        if (which >= 10 && which < 13 && groups)
             status = froe_batch_groups_join(q, q, (froe_relation)(which - 10), NULL, &many, NULL);
         if (!status) sum += found.count + near.count + hits.count + object;
         if (!status && many.starts) sum += many.starts[many.queries];
@@ -279,6 +378,9 @@ int main(void) {
         cmocka_unit_test(classes_refer_to_large_cells_across_small_ones),
         cmocka_unit_test(halfspaces_find_hulls_of_many_corners),
         cmocka_unit_test(an_eps_without_a_margin_adds_nothing),
+        cmocka_unit_test(segments_may_end_at_the_largest_double),
+        cmocka_unit_test(one_of_many_boxes_around_a_small_range_is_enough),
+        cmocka_unit_test(one_is_found_where_any_is),
         cmocka_unit_test(any_question_may_lack_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -146,7 +146,9 @@ froe_status query_region_sides(const query_region *r, num_context *numbers, cons
     if (!r->areas->borders || !query_in_scene(t->tree->scene, p)) return FROE_OK;
     for (size_t i = 0; i < count && !touching; i++) touching = lines[i].border && is_on(numbers, lines + i, p);
     t->groups.inside.count = t->groups.touched.count = 0;
-    if (query_leaf_find(t, p, &leaf) || query_areas_enter(t, r->areas, &leaf, p)) return FROE_E_MEMORY;
+    /* one way: while areas were made leaves were found, and all that this needs is kept */
+    if (query_leaf_find(t, p, &leaf)) return FROE_E_MEMORY;
+    if (query_areas_enter(t, r->areas, &leaf, p)) return FROE_E_MEMORY;
     if (touching && !t->groups.from) { /* the set of a cell, which does not say from where */
         t->groups.inside.count = 0;
         t->groups.from = r->areas->outside;

@@ -26,6 +26,7 @@ static bool serves(reference_search *v, uint32_t node, const double *x) {
     const froe_scene *s = v->q->tree->scene;
     const tree_objects list = tree_list(v->q->tree, node);
     query_leaf leaf;
+    /* one way: a mean of finite corners, which only rounding beside the largest double could take beyond it */
     if (!isfinite(x[0]) || !isfinite(x[1])) return false;
     v->status = query_leaf_find(v->q, x, &leaf);
     if (v->status || leaf.place != query_leaf_place(v->q->tree, node) || leaf.on_cut) return false;

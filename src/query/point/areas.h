@@ -84,7 +84,7 @@ froe_status query_areas_travel(froe_query *query, const query_areas *areas, cons
                                froe_diagnostic *diag);
 /** Fills query->groups for a point in the closed cell of a leaf. FROE_E_MEMORY. */
 froe_status query_areas_enter(froe_query *query, const query_areas *areas, const query_leaf *leaf, const double *point);
-/** Prefetches what points in these leaves will read. */
+/** Prefetches what points in these leaves will read. REQUIRES: there are borders. */
 void query_areas_ask(const query_areas *areas, const query_leaf *leaves, size_t count);
 /** The groups of a point whose leaf is known, unless it is outside of the scene: query->groups.inside. */
 froe_status query_groups_in(froe_query *query, const query_areas *areas, const double *point, const query_leaf *leaf,

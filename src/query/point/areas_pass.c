@@ -110,7 +110,6 @@ froe_status query_areas_enter(froe_query *q, const query_areas *areas, const que
 /* Prefetches all slots first, then the beginnings of all leaves: so no load waits for another. */
 void query_areas_ask(const query_areas *areas, const query_leaf *leaves, size_t count) {
     enum { CACHE_LINE = 64, LEAF_BYTES = 384 }; /* bytes */
-    if (!areas->borders) return;
     for (size_t i = 0; i < count; i++) __builtin_prefetch(areas->slots + leaves[i].place);
     for (size_t i = 0; i < count; i++) {
         const uint32_t slot = areas->slots[leaves[i].place];

@@ -38,6 +38,7 @@ froe_status query_groups_prepare(froe_query *query, const query_areas **out, fro
 
 froe_status query_groups_at(froe_query *q, const query_areas *areas, const double *point, froe_diagnostic *diag) {
     query_leaf leaf = {0};
+    /* one way: while areas were made leaves were found, and all that this needs is kept */
     if (areas->borders && query_leaf_find(q, point, &leaf)) return support_fail_memory(diag);
     return query_groups_in(q, areas, point, &leaf, diag);
 }
