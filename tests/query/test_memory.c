@@ -58,22 +58,33 @@ static void add_ring(froe_scene *scene, const double (*corners)[2], size_t count
     }
 }
 
-/* Squares one in the other around all that is asked for, small triangles within, a comb of many sides on one line, and
- * a triangle with a longer side on that line. */
+/* Squares one in the other around all that is asked for. */
+static froe_scene *rings(void) {
+    froe_scene *scene;
+    assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+    for (int i = 0; i < MANY; i++) {
+        const double lo = -0.1 - 0.01 * i, hi = 1.1 + 0.01 * i;
+        add_ring(scene, (const double[][2]){{lo, lo}, {hi, lo}, {hi, hi}, {lo, hi}}, 4);
+    }
+    return scene;
+}
+
+/* A square around small triangles, a comb of many sides on one line, and triangles with a longer side on that line. */
 static froe_scene *yard(void) {
     enum { TEETH = 20 };
     double comb[TEETH + 3][2];
     froe_scene *scene;
     assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+    add_ring(scene, (const double[][2]){{-0.1, -0.1}, {1.1, -0.1}, {1.1, 1.1}, {-0.1, 1.1}}, 4);
     for (int i = 0; i < MANY; i++) {
-        const double lo = -0.1 - 0.01 * i, hi = 1.1 + 0.01 * i, x = 0.05 * i, y = 0.8;
-        add_ring(scene, (const double[][2]){{lo, lo}, {hi, lo}, {hi, hi}, {lo, hi}}, 4);
+        const double x = 0.05 * i, y = 0.8;
         add_ring(scene, (const double[][2]){{x, y}, {x + 0.01, y}, {x, y + 0.01}}, 3);
     }
     for (int i = 0; i <= TEETH; i++) comb[i][0] = 0.25 + i / 40.0, comb[i][1] = 0.25;
     comb[TEETH + 1][0] = 0.75, comb[TEETH + 2][0] = 0.25, comb[TEETH + 1][1] = comb[TEETH + 2][1] = 0.5;
     add_ring(scene, (const double(*)[2])comb, TEETH + 3);
-    add_ring(scene, (const double[][2]){{0.125, 0.25}, {0.875, 0.25}, {0.5, 0.375}}, 3);
+    for (int i = 0; i < 2; i++) /* beginning before the comb, or in its first side */
+        add_ring(scene, (const double[][2]){{i ? 0.26 : 0.125, 0.25}, {0.875, 0.25}, {0.5, 0.375}}, 3);
     return scene;
 }
 
@@ -89,16 +100,18 @@ static froe_tree *chain(froe_kind kind) {
     uint32_t node = 0, child;
     assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
     assert_int_equal(draft_new(NULL, 2, 0, &draft), FROE_OK);
-    for (int i = 0; i < DEPTH; i++) {
+    for (int i = 0; i <= DEPTH; i++) {
         const double at[4] = {kind == FROE_POINT ? i + 1.5 : 0, i + 1, 1, i + 1};
         assert_int_equal(trees_add(scene, kind, 1, at, NULL, NULL), FROE_OK);
     }
     if (kind == FROE_SEGMENT) { /* one cut without a list */
         const froe_cut cut = {.kind = FROE_CUT_AXIS, .axis = 1, .value = 0.5 + DEPTH};
         assert_int_equal(draft_split(&draft, node, &cut, 0, &child), FROE_OK);
+        assert_int_equal(draft_list(&draft, child + 1), FROE_OK);
+        assert_int_equal(draft_piece(&draft, child + 1, DEPTH, NULL, 0), FROE_OK);
         node = child;
     }
-    for (uint32_t i = DEPTH; i-- > 0; node = child) {
+    for (uint32_t i = DEPTH + (kind == FROE_POINT); i-- > 0; node = child) {
         const froe_cut across = {.kind = FROE_CUT_AXIS, .value = i + 1}, along = {.kind = FROE_CUT_OBJECT, .id = {i}};
         assert_int_equal(draft_split(&draft, node, kind == FROE_POINT ? &across : &along, 0, &child), FROE_OK);
         const uint32_t lists = kind == FROE_POINT ? child + 1 : node;
@@ -160,9 +173,33 @@ static froe_status ask_ray_up(froe_query *q, told *t) {
     return status;
 }
 
+/* The groups around a small box. */
+static froe_status ask_covers(froe_query *q, told *t) {
+    static const double box[4] = {0.5, 0.5, 0.6, 0.6};
+    froe_list list;
+    froe_range r = froe_range_defaults();
+    r.points = box;
+    const froe_status status = froe_query_groups_range(q, &r, FROE_COVERS, &list, NULL);
+    tell_list(t, status, &list);
+    return status;
+}
+
+/* The groups that each group meets, and that lie in it. */
+static froe_status ask_groups_of_groups(froe_query *q, told *t) {
+    froe_answers a;
+    const froe_batch_options o = on_one_thread();
+    froe_status status = FROE_OK;
+    for (froe_relation r = FROE_MEETS; r <= FROE_WITHIN && !status; r++) {
+        status = froe_batch_groups_join(q, q, r, &o, &a, NULL);
+        tell_answers(t, status, &a);
+    }
+    return status;
+}
+
 /* What has no number among the questions: those after them. */
-static froe_status (*const others[])(froe_query *q, told *t) = {ask_all_neighbours, ask_middle, ask_cubes, ask_ray_up};
-enum { ALL_NEIGHBOURS = QUESTIONS, MIDDLE, CUBES, RAY_UP, END };
+static froe_status (*const others[])(froe_query *q, told *t) = {ask_all_neighbours, ask_middle, ask_cubes,
+                                                                ask_ray_up,         ask_covers, ask_groups_of_groups};
+enum { ALL_NEIGHBOURS = QUESTIONS, MIDDLE, CUBES, RAY_UP, COVERS, GROUPS };
 
 static froe_status ask_with(void *user, const froe_allocator *alloc) {
     asking *a = user;
@@ -203,15 +240,17 @@ static void memory_may_end_among_many_groups(void **state) {
     }
 }
 
-/* Joins of groups with many groups, and areas with borders of two. */
 static void memory_may_end_among_many_areas(void **state) {
-    static const int plain[] = {1, 4, 7}; /* groups of points, joins, relations */
+    static const struct {
+        froe_scene *(*make)(void);
+        const char *method;
+        int leaf, question;
+    } cases[] = {{shared_fan, "kd", 100, MIDDLE}, {rings, "kd", 1, COVERS}, {yard, "autopartition", 4, GROUPS}};
     (void)state;
-    froe_scene *scenes[] = {shared_fan(), yard()};
-    for (int s = 0; s < 2; s++) {
-        for (int i = 0; i < 3; i++) ask_this(trees_build(scenes[s], "autopartition", 1), plain[i]);
-        ask_this(trees_build(scenes[s], "index", 4), MIDDLE);
-        froe_scene_free(scenes[s]);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        froe_scene *scene = cases[i].make();
+        ask_this(trees_build(scene, cases[i].method, (uint32_t)cases[i].leaf), cases[i].question);
+        froe_scene_free(scene);
     }
 }
 

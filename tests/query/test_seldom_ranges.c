@@ -92,7 +92,13 @@ static void classes_refer_to_large_cells_across_small_ones(void **state) {
             froe_range r = froe_range_defaults();
             r.points = box, r.walk = (froe_walk)walk;
             const froe_status status = froe_query_range(q, &r, &found, NULL);
-            if (status != FROE_E_UNSUPPORTED) assert_same_ids(found.ids, found.count, expected, count);
+            if (status == FROE_E_UNSUPPORTED) continue;
+            assert_same_ids(found.ids, found.count, expected, count);
+            uint32_t one = FROE_NONE;
+            bool is_one = !count;
+            assert_int_equal(froe_query_any(q, &r, &one, NULL), FROE_OK);
+            for (size_t k = 0; k < count; k++) is_one = is_one || expected[k] == one;
+            assert_true(is_one);
         }
     }
     end_query(q);
@@ -227,6 +233,39 @@ static void one_of_many_boxes_around_a_small_range_is_enough(void **state) {
         end_query(q);
         froe_scene_free(scene);
     }
+}
+
+/* A ball that is listed on both sides of a cut, although it is on one of them, and one that is on the other. */
+static void one_is_found_behind_what_is_listed_and_is_not_there(void **state) {
+    static const tree_meta meta = {.method = "by hand", .leaf = 2};
+    static const double centres[4] = {5, 0, -0.5, 0}, radii[2] = {0.125, 0.125}, left[4] = {-2, -2, -0.25, 2};
+    static const froe_cut cut = {.kind = FROE_CUT_AXIS, .value = -0.25};
+    (void)state;
+    for (uint32_t balls = 1; balls <= 2; balls++)
+        for (int walk = 0; walk < 3; walk++) {
+            froe_scene *scene;
+            tree_draft draft;
+            froe_tree *tree;
+            uint32_t child, one = 0;
+            froe_range r = froe_range_defaults();
+            assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+            assert_int_equal(trees_add(scene, FROE_BALL, balls, centres, radii, NULL), FROE_OK);
+            assert_int_equal(draft_new(NULL, 2, 0, &draft), FROE_OK);
+            assert_int_equal(draft_split(&draft, 0, &cut, 0, &child), FROE_OK);
+            for (uint32_t side = 0; side < 2; side++) {
+                draft_leaf(&draft, child + side, 0);
+                assert_int_equal(draft_list(&draft, child + side), FROE_OK);
+                for (uint32_t i = 0; i < (side ? 1 : balls); i++)
+                    assert_int_equal(draft_piece(&draft, child + side, i, NULL, 0), FROE_OK);
+            }
+            assert_int_equal(draft_seal(&draft, NULL, 0, scene, &meta, &tree), FROE_OK);
+            draft_free(&draft), froe_scene_free(scene);
+            froe_query *q = ask(tree);
+            r.points = left, r.walk = (froe_walk)walk;
+            assert_int_equal(froe_query_any(q, &r, &one, NULL), FROE_OK);
+            assert_int_equal(one, balls == 2 ? 1 : FROE_NONE);
+            end_query(q);
+        }
 }
 
 /* One is found if there is any: also where a range holds a whole cell, and the first that are listed there are not. */
@@ -380,6 +419,7 @@ int main(void) {
         cmocka_unit_test(an_eps_without_a_margin_adds_nothing),
         cmocka_unit_test(segments_may_end_at_the_largest_double),
         cmocka_unit_test(one_of_many_boxes_around_a_small_range_is_enough),
+        cmocka_unit_test(one_is_found_behind_what_is_listed_and_is_not_there),
         cmocka_unit_test(one_is_found_where_any_is),
         cmocka_unit_test(any_question_may_lack_memory),
     };

@@ -36,14 +36,9 @@ typedef struct pairing {
 
 /* ------------------------------------------------------------------ places -- */
 
-/* Is a number in lo <= x < hi? The last cells of the root box have their upper side, too. */
-static bool in_span(const pairing *p, int axis, double x) {
-    double hi = p->cell.hi[axis];
-    return x >= p->cell.lo[axis] && (x < hi || (x == hi && hi == p->q->tree->meta.root_hi[axis]));
-}
-
+/* Is a corner of an object in the cell? It lies in no cut (packed.h), and so in no other cell. */
 static bool is_here(const pairing *p, const double *x) {
-    return in_span(p, 0, x[0]) && in_span(p, 1, x[1]);
+    return x[0] >= p->cell.lo[0] && x[0] <= p->cell.hi[0] && x[1] >= p->cell.lo[1] && x[1] <= p->cell.hi[1];
 }
 
 /* The crossing of two segments that cross in their inner points: those never lie in the root box's upper sides. */

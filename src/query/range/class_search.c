@@ -61,9 +61,12 @@ static uint32_t cell_around(class_search *s, uint32_t cell, const double *corner
 
 /* ----------------------------------------------------------- smaller cells -- */
 
-static bool push_run(class_search *s, uint32_t first, uint32_t end) {
+/* A run waits, unless it is empty; there is room. */
+static void push_run(class_search *s, uint32_t first, uint32_t end) {
     query_range *r = &s->q->range;
-    return first == end || (array_push(&s->q->alloc, &r->nodes, first) && array_push(&s->q->alloc, &r->nodes, end));
+    if (first == end) return;
+    r->nodes.data[r->nodes.count++] = first;
+    r->nodes.data[r->nodes.count++] = end;
 }
 
 static bool range_meets_cube(const class_search *s, const double *corner, int level) {
@@ -76,7 +79,7 @@ static bool range_meets_cube(const class_search *s, const double *corner, int le
 }
 
 /* Searches a run of cells, which lie in one cube and so on one side of 0 along each axis, as far as the range meets the least cube around it: the first cell and the others, if it is
- * that cube, otherwise those in the first of the 2^dim parts of the cube and those in the others. */
+ * that cube, otherwise those in the first of the 2^dim parts of the cube and those in the others. False: no memory. */
 static bool search_run(class_search *s, uint32_t first, uint32_t end) {
     const query_classes *p = s->p;
     const query_cell *c = p->cells + first;
@@ -84,12 +87,16 @@ static bool search_run(class_search *s, uint32_t first, uint32_t end) {
     const int digit = cube_highest_digit(p->dim, from, query_cell_corner(p, end - 1), NULL);
     s->q->stats.nodes++;
     if (!range_meets_cube(s, from, c->level > digit ? c->level : digit + 1)) return true;
+    if (!array_reserve(&s->q->alloc, &s->q->range.nodes, 4)) return false;
     if (c->level > digit) {
         test_objects(s, c->first, c->own);
-        return push_run(s, first + 1, end);
+        push_run(s, first + 1, end);
+    } else {
+        const uint32_t upper = first_without(s, first + 1, end, is_within, from, digit);
+        push_run(s, upper, end);
+        push_run(s, first, upper);
     }
-    const uint32_t upper = first_without(s, first + 1, end, is_within, from, digit);
-    return push_run(s, upper, end) && push_run(s, first, upper);
+    return true;
 }
 
 /* --------------------------------------------------------------- searching -- */
@@ -105,7 +112,8 @@ static void search_cube(class_search *s, const double *corner, int level) {
     }
     if (after == p->count || !is_within(p, after, corner, level)) return;
     r->nodes.count = 0;
-    s->memory |= !push_run(s, after, first_without(s, after, p->count, is_within, corner, level));
+    s->memory |= !array_reserve(&s->q->alloc, &r->nodes, 2);
+    if (!s->memory) push_run(s, after, first_without(s, after, p->count, is_within, corner, level));
     while (r->nodes.count && !done(s)) {
         r->nodes.count -= 2;
         s->memory |= !search_run(s, r->nodes.data[r->nodes.count], r->nodes.data[r->nodes.count + 1]);
