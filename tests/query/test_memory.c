@@ -43,7 +43,8 @@ static froe_scene *shared_fan(void) {
             const double turn = 6.283185307179586 * ((i + end) % (2 * MANY)) / (2 * MANY);
             c[end][0] = 0.5 + 0.4 * cos(turn), c[end][1] = 0.5 + 0.4 * sin(turn);
         }
-        const double ring[12] = {0.5, 0.5, c[0][0], c[0][1], c[0][0], c[0][1], c[1][0], c[1][1], c[1][0], c[1][1], 0.5, 0.5};
+        const double ring[12] = {0.5,     0.5,     c[0][0], c[0][1], c[0][0], c[0][1],
+                                 c[1][0], c[1][1], c[1][0], c[1][1], 0.5,     0.5};
         add_to(scene, add_group(scene), FROE_SEGMENT, 3, ring, NULL);
     }
     return scene;
@@ -245,7 +246,7 @@ static void memory_may_end_among_many_areas(void **state) {
         froe_scene *(*make)(void);
         const char *method;
         int leaf, question;
-    } cases[] = {{shared_fan, "kd", 100, MIDDLE}, {rings, "kd", 1, COVERS}, {yard, "autopartition", 4, GROUPS}};
+    } cases[] = {{shared_fan, "kd", 200, MIDDLE}, {rings, "kd", 1, COVERS}, {yard, "autopartition", 4, GROUPS}};
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         froe_scene *scene = cases[i].make();

@@ -516,7 +516,8 @@ static void windows_of_a_large_map_hold_what_lies_in_them(void **state) {
         for (int c = 0; c < SIDE * SIDE; c++) { /* a segment and a window meet as their bounds do, or it is long */
             const double *s = coords[c], *b = boxes[i];
             if (s[0] > b[2] || s[2] < b[0] || s[1] > b[3] || s[3] < b[1]) continue;
-            const double lo = fmax(s[0], b[0]), hi = fmin(s[2], b[2]), y = s[1] + 0.5 * (lo - s[0]), z = y + 0.5 * (hi - lo);
+            const double lo = fmax(s[0], b[0]), hi = fmin(s[2], b[2]), y = s[1] + 0.5 * (lo - s[0]),
+                         z = y + 0.5 * (hi - lo);
             met += y <= b[3] && z >= b[1];
         }
         froe_list one;
