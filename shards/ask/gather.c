@@ -68,7 +68,7 @@ froe_status shards_gather_finds(shards_gather *g, size_t questions, froe_finds *
 void froe_finds_free(froe_finds *f) {
     if (!f || !f->starts) return;
     const size_t items = f->starts[f->questions + 1] + 1; /* see shards_gather_finds() */
-    if (f->items) support_free(&f->alloc, f->items, items * sizeof *f->items);
+    support_free(&f->alloc, f->items, items * sizeof *f->items);
     support_free(&f->alloc, f->starts, (f->questions + 2) * sizeof *f->starts);
     *f = (froe_finds){.alloc = f->alloc};
 }

@@ -8,6 +8,7 @@ enum { WORD = 8, RANGE_WORDS = 4 };
 static const void *take(shards_letter *c, size_t size) {
     const size_t room = (size + WORD - 1) / WORD * WORD;
     const void *found = c->at;
+    /* one way: sizes are of numbers of items that were compared with the bytes that are left */
     if (size > SIZE_MAX - WORD || room > c->left) return NULL;
     c->at += room;
     c->left -= room;
@@ -70,7 +71,7 @@ static bool take_range(shards_letter *c, froe_range *r, size_t dim) {
     const double *points = take(c, words[0] * sizeof *points), *offsets = take(c, words[1] * sizeof *offsets);
     r->points = words[2] ? points : NULL;
     r->offsets = words[3] ? offsets : NULL;
-    return points && offsets && r->count <= SIZE_MAX / dim && points_of_range(r, dim) == words[0] &&
+    return offsets && r->count <= SIZE_MAX / dim && points_of_range(r, dim) == words[0] &&
            offsets_of_range(r) == words[1];
 }
 

@@ -166,8 +166,8 @@ void geom_meeting_round(num_context *context, const geom_eye *eye, const geom_li
 
 /* The share where an EDGE through p and q, seen from a point, meets uv, if pairs of doubles can tell how it is to be
  * rounded. With sizes as sums of coordinates, a product of three vectors is off by less than 2^-96 of theirs. The share
- * is from 0 to 1, and `low` is at most the product of the sizes, so the error is at least 2^-94: only shares above 2^-42
- * are rounded. */
+ * is from 0 to 1, and `low` is at most the product of the sizes, so the error is at least 2^-95, and shares of which it
+ * leaves no digit open are above 2^-43. */
 static bool round_share(const geom_eye *eye, const geom_line *line, const double *u, const double *v, double *out) {
     num_pair ray[4][3], n[3];
     const double *const points[4] = {line->u, line->v, u, v};

@@ -218,7 +218,6 @@ bool geom_guess_inside(const geom_guess *g, const geom_convex *a, const geom_con
             for (int i = 0; i < dim; i++) table[k][i] = y[i + 1][k] - y[0][k];
             table[k][dim] = k == c;
         }
-        /* one way: weights were found from squares of these edges, which are flat before the edges are */
         if (!num_plain_solve(dim, dim + 1, table)) return false;
         for (int i = 0; i < dim; i++) r[i][c] = table[i][dim];
     }
@@ -227,7 +226,7 @@ bool geom_guess_inside(const geom_guess *g, const geom_convex *a, const geom_con
         double sum = 0;
         weight[i] = 0;
         for (int k = 0; k < dim; k++) sum += fabs(r[i][k]), weight[i] -= r[i][k] * y[0][k];
-        if (!(sum < 0x1p80 / reach)) return false; /* one way: as above; not a number, too */
+        if (!(sum < 0x1p80 / reach)) return false; /* one way: flatter edges were refused above; not a number, too */
         norm = fmax(norm, sum);
         rest -= weight[i];
         least = fmin(least, weight[i]);

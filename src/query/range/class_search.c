@@ -78,8 +78,9 @@ static bool range_meets_cube(const class_search *s, const double *corner, int le
     return meets;
 }
 
-/* Searches a run of cells, which lie in one cube and so on one side of 0 along each axis, as far as the range meets the least cube around it: the first cell and the others, if it is
- * that cube, otherwise those in the first of the 2^dim parts of the cube and those in the others. False: no memory. */
+/* Searches a run of cells, which lie in one cube and so on one side of 0 along each axis, as far as the range meets the
+ * least cube around it: the first cell and the others, if it is that cube, otherwise those in the first of the 2^dim
+ * parts of the cube and those in the others. False: no memory. */
 static bool search_run(class_search *s, uint32_t first, uint32_t end) {
     const query_classes *p = s->p;
     const query_cell *c = p->cells + first;
