@@ -1,6 +1,8 @@
 /* test_memory.c: every question to a folder of shards, and the building of one, while any allocation fails, with sizes
  * that are checked where blocks are given back. */
 #include "folders.h"
+#include "shards/folder.h"
+#include "shards/sample.h"
 #include "support/memory.h"
 #include <math.h>
 
@@ -62,8 +64,25 @@ static froe_status ask_near(froe_shards *s, const froe_batch_options *o) {
     FINDS(froe_shards_near(s, points, QUESTIONS, 2, INFINITY, o, &found, NULL));
 }
 
-static folder_question *const questions[] = {ask_range,    ask_boxes, ask_count,   ask_any,     ask_locate,
-                                             ask_vertical, ask_ray,   ask_ray_any, ask_ray_all, ask_near};
+static froe_status ask_groups(froe_shards *s, const froe_batch_options *o) {
+    FINDS(froe_shards_groups(s, points, QUESTIONS, o, &found, NULL));
+}
+static froe_status ask_groups_range(froe_shards *s, const froe_batch_options *o) {
+    const froe_range r[QUESTIONS] = {range_of(0), range_of(1), range_of(2)};
+    FINDS(froe_shards_groups_range(s, r, QUESTIONS, FROE_MEETS, o, &found, NULL));
+}
+static froe_status ask_near_count(froe_shards *s, const froe_batch_options *o) {
+    uint64_t counts[QUESTIONS];
+    return froe_shards_near_count(s, points, QUESTIONS, 2, INFINITY, o, counts, NULL);
+}
+static froe_status ask_locate_count(froe_shards *s, const froe_batch_options *o) {
+    uint64_t counts[QUESTIONS];
+    return froe_shards_locate_count(s, points, QUESTIONS, o, counts, NULL);
+}
+
+static folder_question *const questions[] = {
+    ask_range,   ask_boxes,   ask_count, ask_any,    ask_locate,       ask_vertical,   ask_ray,
+    ask_ray_any, ask_ray_all, ask_near,  ask_groups, ask_groups_range, ask_near_count, ask_locate_count};
 
 static froe_status ask(void *user, const froe_allocator *alloc) {
     froe_shards *s;
@@ -174,8 +193,84 @@ static void any_allocation_of_buckets_may_fail(void **state) {
     assert_true(test_memory_each(fill_bucket, NULL) > 5);
 }
 
+/* The text of a manifest, into room for so many bytes, which does not grow. False: there is not enough. */
+static bool print_into(const froe_shard_plan *plan, const froe_shard_entry *entries, size_t room, const char *whole) {
+    test_memory m;
+    const froe_allocator alloc = test_memory_begin(&m);
+    shards_text text = {.capacity = room};
+    if (room) text.data = test_memory_fn(&m, NULL, 0, room);
+    m.fail_at = 1, m.fail_on = true;
+    const bool ok = shards_manifest_print(plan, entries, &alloc, &text);
+    assert_true(text.count <= room && !memcmp(text.data ? text.data : "", whole, text.count));
+    if (ok) assert_int_equal(text.count, room);
+    array_free(&alloc, &text);
+    test_memory_end(&m);
+    return ok;
+}
+
+static void a_manifest_may_lack_room_at_any_byte(void **state) {
+    (void)state;
+    const froe_allocator alloc = support_allocator(NULL);
+    one_object *list = lattice_objects(2, FROE_SEGMENT, OBJECTS, 9, 5);
+    froe_shards_options o = froe_shards_defaults();
+    froe_shards *s;
+    o.shards = 3;
+    assert_int_equal(build_folder("folder.froes", 2, list, OBJECTS, &o, NULL, NULL), FROE_OK);
+    free(list);
+    assert_int_equal(froe_shards_open("folder.froes", NULL, &s, NULL), FROE_OK);
+    s->manifest.entries.data[1] = (froe_shard_entry){0}; /* its line is shorter */
+    for (int areas = 0; areas < 2; areas++) {
+        shards_text whole = {0};
+        size_t room = 0;
+        s->manifest.plan->areas = areas;
+        assert_true(shards_manifest_print(s->manifest.plan, s->manifest.entries.data, &alloc, &whole));
+        while (!print_into(s->manifest.plan, s->manifest.entries.data, room, whole.data)) room++;
+        assert_int_equal(room, whole.count);
+        array_free(&alloc, &whole);
+    }
+    froe_shards_close(s);
+}
+
+/* Samples of no objects, and of those whose numbers are below a bound only. */
+static froe_status merge_samples(void *user, const froe_allocator *alloc) {
+    enum { MANY = 600 };
+    froe_shard_records records = {.alloc = *alloc};
+    froe_shard_sample *samples[3] = {NULL, NULL, NULL};
+    one_object *list = lattice_objects(2, FROE_SEGMENT, MANY, 99, 6);
+    froe_status status = FROE_OK;
+    size_t counts[3] = {0}, before = 0;
+    (void)user;
+    for (size_t i = 0; i < MANY && !status; i++) {
+        size_t starts[2];
+        const froe_objects batch = batch_of(list + i, starts);
+        status = froe_shard_records_add(&records, 2, &batch, 0, NULL);
+    }
+    free(list);
+    for (int i = 0; i < 3 && !status; i++) status = froe_shard_sample_new(2, alloc, &samples[i]);
+    if (!status) status = froe_shard_sample_add(samples[0], records.bytes, records.count);
+    for (int i = 0; i < 3 && !status;
+         i++) { /* into the second, what is below the bound; and the third, which is none */
+        if (i == 1) froe_shard_sample_cut(samples[1], UINT64_MAX / 4);
+        const uint64_t *words = froe_shard_sample_words(samples[i == 1 ? 0 : i], &counts[i]);
+        if (!words) status = FROE_E_MEMORY;
+        if (words && i) status = froe_shard_sample_merge(samples[1], words, counts[i]);
+        if (words && i == 2) assert_true(counts[2] < 8);
+    }
+    if (!status && froe_shard_sample_words(samples[1], &before)) assert_in_range(before, counts[0] / 8, counts[0] / 2);
+    for (int i = 0; i < 3; i++) froe_shard_sample_free(samples[i]);
+    froe_shard_records_free(&records);
+    return status;
+}
+
+static void any_allocation_of_samples_may_fail(void **state) {
+    (void)state;
+    assert_true(test_memory_each(merge_samples, NULL) > 6);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_manifest_may_lack_room_at_any_byte),
+        cmocka_unit_test(any_allocation_of_samples_may_fail),
         cmocka_unit_test(any_allocation_of_any_question_may_fail),
         cmocka_unit_test(any_allocation_of_any_build_may_fail),
         cmocka_unit_test(any_allocation_of_buckets_may_fail),
