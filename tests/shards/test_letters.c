@@ -193,6 +193,35 @@ static void answers_come_whole_or_are_refused(void **state) {
         }
 }
 
+static bool count_pair(void *user, const froe_found_pair *pair) {
+    (void)pair;
+    ++*(size_t *)user;
+    return true;
+}
+
+/* Pairs are those of the shards that a process owns, and a failure is told also where nobody asks for its sentence. */
+static void processes_have_pairs_of_their_own(void **state) {
+    froe_shards *shared = *state, *s;
+    size_t all = 0, parts = 0;
+    assert_int_equal(froe_shards_open("letters.froes", NULL, &s, NULL), FROE_OK);
+    assert_int_equal(froe_shards_pairs(s, true, NULL, count_pair, &all, NULL), FROE_OK);
+    for (uint32_t rank = 0; rank < 2; rank++) {
+        const size_t before = parts;
+        assert_int_equal(froe_shards_share(s, rank, 2, trade_nothing, NULL, NULL), FROE_OK);
+        assert_int_equal(froe_shards_pairs(s, true, NULL, count_pair, &parts, NULL), FROE_OK);
+        assert_true(parts > before && parts - before < all);
+    }
+    assert_int_equal(parts, all);
+    froe_finds finds;
+    const froe_tree *tree;
+    froe_diagnostic diag;
+    assert_int_equal(froe_shards_tree(s, 1, &tree, &diag), FROE_OK);
+    assert_int_equal(froe_shards_groups_join(s, tree, FROE_MEETS, NULL, &finds, &diag), FROE_E_UNSUPPORTED);
+    assert_string_equal(diag.message, "A tree of questions is not sent to other processes.");
+    froe_shards_close(s);
+    assert_int_equal(shards_share_trade(shared->share, FROE_E_IO, NULL), FROE_E_IO);
+}
+
 static froe_status share(void *user, const froe_allocator *alloc) {
     froe_shards *s;
     (void)user;
@@ -211,6 +240,7 @@ int main(void) {
         cmocka_unit_test(questions_come_whole_or_are_refused),
         cmocka_unit_test(ranges_of_other_numbers_are_refused),
         cmocka_unit_test(answers_come_whole_or_are_refused),
+        cmocka_unit_test(processes_have_pairs_of_their_own),
         cmocka_unit_test(sharing_may_lack_memory),
     };
     return cmocka_run_group_tests(tests, setup, teardown);

@@ -178,7 +178,7 @@ static froe_status fill_bucket(void *user, const froe_allocator *alloc) {
     (void)user;
     froe_status status = froe_shard_records_add(&one, 2, &batch, 0, NULL);
     free(list);
-    if (!status) status = froe_shard_buckets_new(".", 2, alloc, &b, NULL);
+    if (!status) status = froe_shard_buckets_new(".", 4096, alloc, &b, NULL); /* with small blocks, so many of them */
     const bool made = !status;
     for (int i = 0; i < TIMES && !status; i++) status = froe_shard_buckets_add(b, 1, one.bytes, one.count, NULL);
     if (!status) status = froe_shard_buckets_take(b, 1, count_bytes, &taken, NULL);

@@ -591,6 +591,7 @@ static void groups_in_space_are_no_areas(void **state) {
     froe_finds finds;
     assert_int_equal(froe_shards_groups_join(w.shards, w.tree, FROE_MEETS, NULL, &finds, NULL), FROE_E_UNSUPPORTED);
     assert_int_equal(froe_shards_groups_join(w.shards, NULL, FROE_MEETS, NULL, &finds, NULL), FROE_E_ARG);
+    assert_int_equal(froe_shards_groups(w.shards, NULL, 0, NULL, &finds, NULL), FROE_E_UNSUPPORTED);
     free_world(&w);
 }
 

@@ -316,6 +316,32 @@ static void scenes_become_folders_or_nothing(void **state) {
     froe_shards_close(s), froe_scene_free(scene);
 }
 
+/* Triangles without starts, the last one without area, as a batch and as a scene: the same folder. */
+static void triangles_need_no_starts(void **state) {
+    (void)state;
+    static const double corners[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 5, 5, 6, 5, 5, 5, 6, 5, 1, 1, 1, 2, 2, 2, 3, 3, 3};
+    const froe_shards_options o = froe_shards_defaults();
+    froe_shards_builder *builder;
+    froe_scene *scene;
+    froe_objects batch = froe_objects_defaults();
+    batch.kind = FROE_POLYGON, batch.count = 3, batch.coords = corners;
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    assert_int_equal(froe_scene_add(scene, &batch, &why), FROE_OK);
+    for (int from_scene = 0; from_scene < 2; from_scene++) {
+        const char *path = from_scene ? "scene3.froes" : "batch3.froes";
+        assert_int_equal(froe_shards_begin(path, 3, &o, &builder, &why), FROE_OK);
+        assert_int_equal(
+            from_scene ? froe_shards_add_scene(builder, scene, &why) : froe_shards_add(builder, &batch, &why), FROE_OK);
+        assert_int_equal(froe_shards_finish(builder, NULL, &why), FROE_OK);
+        froe_shards *s;
+        assert_int_equal(froe_shards_open(path, NULL, &s, &why), FROE_OK);
+        assert_int_equal(froe_shards_check(s, NULL, &why), FROE_OK);
+        assert_int_equal(froe_shards_about(s).objects, 3);
+        froe_shards_close(s);
+    }
+    froe_scene_free(scene);
+}
+
 static bool skip_pair(void *user, const froe_found_pair *pair) {
     (void)user, (void)pair;
     return false;
@@ -443,6 +469,16 @@ static void questions_are_checked(void **state) {
     b.size = 1;
     expect(froe_shards_check(s, &b, &why), FROE_E_OPTIONS, "froe_batch_defaults");
     expect(froe_shards_range(s, &range, 1, &b, &finds, &why), FROE_E_OPTIONS, "froe_batch_defaults");
+    expect(froe_shards_near(s, x, 1, 1, INFINITY, &b, &finds, &why), FROE_E_OPTIONS, "froe_batch_defaults");
+    expect(froe_shards_pairs(s, true, &b, skip_pair, NULL, &why), FROE_E_OPTIONS, "froe_batch_defaults");
+    b = froe_batch_defaults(), b.progress = stop;
+    expect(froe_shards_pairs(s, true, &b, skip_pair, NULL, &why), FROE_E_CANCELLED, "Cancelled");
+    assert_int_equal(froe_shards_near(s, x, 1, 0, INFINITY, NULL, &finds, &why), FROE_OK); /* none of them */
+    assert_int_equal(finds.starts[1], 0);
+    froe_finds_free(&finds);
+    static const double nowhere[] = {NAN, 0};
+    expect(froe_shards_locate(s, nowhere, 1, NULL, &finds, &why), FROE_E_INPUT, "");
+    assert_int_equal(froe_shards_locate(s, nowhere, 1, NULL, &finds, NULL), FROE_E_INPUT);
     NULLS(froe_shards_share(s, 0, 1, NULL, NULL, &why));
     NULLS(froe_shard_manifest_write(NULL, NULL, ".", NULL, &why));
     assert_int_equal(froe_shards_about(NULL).shards, 0);
@@ -463,6 +499,7 @@ int main(void) {
         cmocka_unit_test(buckets_on_a_full_disk_are_told),
         cmocka_unit_test(empty_shards_are_asked_nothing),
         cmocka_unit_test(scenes_become_folders_or_nothing),
+        cmocka_unit_test(triangles_need_no_starts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
