@@ -89,6 +89,19 @@ static froe_scene *yard(void) {
     return scene;
 }
 
+/* Points each half as far from the corner as the one before: in cubes one in the other. */
+static froe_tree *halving(void) {
+    froe_scene *scene;
+    assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+    for (int i = 0; i < 40; i++) {
+        const double x[2] = {0.125 + ldexp(0.25, -i), 0.125 + ldexp(0.25, -i)};
+        add_to(scene, FROE_NONE, FROE_POINT, 1, x, NULL);
+    }
+    froe_tree *tree = trees_build(scene, "kd", 1);
+    froe_scene_free(scene);
+    return tree;
+}
+
 static const tree_meta meta = {.method = "by hand", .leaf = 1};
 
 /* Points in a row, or segments one above the other, below cuts between them or through them: each cut takes off the
@@ -269,8 +282,7 @@ static void memory_may_end_where_many_nodes_wait(void **state) {
     ask_everything(trees_grow(3, FROE_POLYGON, 16, 0, 0.5, "autopartition", 1), 29);
     ask_everything(trees_grow(3, FROE_POLYGON, 80, 0, 0.5, "index", 2), 29);
     ask_everything(trees_grow(6, FROE_BOX, 20, 0, 0.5, "density", 1), 11);
-    ask_this(trees_grow(2, FROE_SEGMENT, 400, 0, 0.05, "kd", 1), CUBES);
-    ask_this(trees_grow(3, FROE_BOX, 400, 0, 0.2, "density", 1), CUBES);
+    ask_this(halving(), CUBES);
     ask_this(trees_grow(2, FROE_SEGMENT, 400, 0, 0.05, "index", 6), ALL_NEIGHBOURS);
     ask_this(chain(FROE_POINT), ALL_NEIGHBOURS);
     ask_this(chain(FROE_SEGMENT), RAY_UP);

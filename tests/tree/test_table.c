@@ -45,11 +45,15 @@ static void cuts_beyond_the_root_box_divide_no_cell(void **state) {
     tree_node *root = tree->nodes;
     const double *const sides[2] = {tree->meta.root_lo, tree->meta.root_hi}, right = root->u.value;
     assert_cells(tree);
+    tree_table *table;
+    assert_int_equal(tree_table_new(tree, &table), FROE_OK);
+    const double cell = 1 / table->scale[root->axis];
+    tree_table_free(&tree->alloc, table);
     for (int upper = 0; upper < 2; upper++)
-        for (int far = 0; far < 4; far++) {
+        for (int far = 0; far < 4; far++) { /* whole cells */
             uint32_t node;
             const char *why;
-            root->u.value = sides[upper][root->axis] + (upper ? far : -far);
+            root->u.value = sides[upper][root->axis] + (upper ? far * cell : -far * cell);
             assert_cells(tree);
             assert_int_equal(packed_frame_refuted(tree, &node, &why), FROE_OK);
             assert_string_equal(why, "a cut that does not divide its cell");
