@@ -420,6 +420,24 @@ static void counts_groups_and_pairs_are_checked(froe_shards *s) {
     NULLS(froe_shards_pairs(s, true, NULL, NULL, NULL, &why));
 }
 
+/* Also without a place for the sentence. */
+static void options_and_places_are_checked(froe_shards *s) {
+    static const double x[] = {0, 0};
+    froe_finds finds = {0};
+    froe_batch_options b = froe_batch_defaults();
+    b.size = 1;
+    expect(froe_shards_near(s, x, 1, 1, INFINITY, &b, &finds, &why), FROE_E_OPTIONS, "froe_batch_defaults");
+    expect(froe_shards_pairs(s, true, &b, skip_pair, NULL, &why), FROE_E_OPTIONS, "froe_batch_defaults");
+    b = froe_batch_defaults(), b.progress = stop;
+    expect(froe_shards_pairs(s, true, &b, skip_pair, NULL, &why), FROE_E_CANCELLED, "Cancelled");
+    assert_int_equal(froe_shards_near(s, x, 1, 0, INFINITY, NULL, &finds, &why), FROE_OK); /* none of them */
+    assert_int_equal(finds.starts[1], 0);
+    froe_finds_free(&finds);
+    static const double nowhere[] = {NAN, 0};
+    expect(froe_shards_locate(s, nowhere, 1, NULL, &finds, &why), FROE_E_INPUT, "");
+    assert_int_equal(froe_shards_locate(s, nowhere, 1, NULL, &finds, NULL), FROE_E_INPUT);
+}
+
 static void questions_are_checked(void **state) {
     (void)state;
     enum { OBJECTS = 20 };
@@ -469,16 +487,7 @@ static void questions_are_checked(void **state) {
     b.size = 1;
     expect(froe_shards_check(s, &b, &why), FROE_E_OPTIONS, "froe_batch_defaults");
     expect(froe_shards_range(s, &range, 1, &b, &finds, &why), FROE_E_OPTIONS, "froe_batch_defaults");
-    expect(froe_shards_near(s, x, 1, 1, INFINITY, &b, &finds, &why), FROE_E_OPTIONS, "froe_batch_defaults");
-    expect(froe_shards_pairs(s, true, &b, skip_pair, NULL, &why), FROE_E_OPTIONS, "froe_batch_defaults");
-    b = froe_batch_defaults(), b.progress = stop;
-    expect(froe_shards_pairs(s, true, &b, skip_pair, NULL, &why), FROE_E_CANCELLED, "Cancelled");
-    assert_int_equal(froe_shards_near(s, x, 1, 0, INFINITY, NULL, &finds, &why), FROE_OK); /* none of them */
-    assert_int_equal(finds.starts[1], 0);
-    froe_finds_free(&finds);
-    static const double nowhere[] = {NAN, 0};
-    expect(froe_shards_locate(s, nowhere, 1, NULL, &finds, &why), FROE_E_INPUT, "");
-    assert_int_equal(froe_shards_locate(s, nowhere, 1, NULL, &finds, NULL), FROE_E_INPUT);
+    options_and_places_are_checked(s);
     NULLS(froe_shards_share(s, 0, 1, NULL, NULL, &why));
     NULLS(froe_shard_manifest_write(NULL, NULL, ".", NULL, &why));
     assert_int_equal(froe_shards_about(NULL).shards, 0);
