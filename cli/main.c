@@ -6,7 +6,9 @@
 #include "progress.h"
 #include "report/report.h"
 #include "version.h"
+#include <fcntl.h>
 #include <string.h>
+#include <unistd.h>
 
 /* `froe --help [COMMAND]`, `froe help [COMMAND]`, and `froe --manual [COMMAND]`, which man pages are made with. */
 static int run_help(int argc, char **argv, bool manual) {
@@ -28,7 +30,15 @@ static bool is(const char *word, const char *one, const char *other) {
     return strcmp(word, one) == 0 || strcmp(word, other) == 0;
 }
 
+/* Standard streams that the caller has closed stay without use: otherwise a file would be opened in their place, and get
+ * what is said. Only complaints may vanish. (stdopen of gnulib) */
+static void take_closed_streams(void) {
+    for (int i = STDIN_FILENO; i <= STDERR_FILENO; i++)
+        if (fcntl(i, F_GETFD) < 0) (void)open("/dev/null", i == STDOUT_FILENO ? O_RDONLY : O_WRONLY);
+}
+
 int main(int argc, char **argv) {
+    take_closed_streams();
     if (argc < 2) {
         cli_help(stderr);
         return CLI_USE;

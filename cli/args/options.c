@@ -100,7 +100,8 @@ static int refuse_unknown(const cli_part *parts, const char *word) {
     const char *names[MOST];
     size_t count = 0;
     for (const cli_part *part = parts; part->title; part++)
-        for (const cli_option *option = part->options; option->type && count < MOST; option++)
+        for (const cli_option *option = part->options; option->type && count < MOST;
+             option++) /* one way: there are fewer */
             if (option->name) names[count++] = option->name;
     char name[NAME_MAX_LENGTH + 1] = "";
     const char *bare = word + strspn(word, "-");
@@ -122,11 +123,10 @@ static int refuse_value(const cli_option *option, const char *text, const char *
 
 static int set_whole(const cli_option *option, uint64_t *field, const char *text) {
     const uint64_t max = option->max ? option->max : UINT64_MAX;
-    char *end = NULL;
     errno = 0;
-    const uint64_t value = strtoumax(text, &end, 10);
+    const uint64_t value = strtoumax(text, NULL, 10);
     const bool digits = *text && strspn(text, "0123456789") == strlen(text);
-    if (digits && !errno && !*end && value >= option->min && value <= max) {
+    if (digits && !errno && value >= option->min && value <= max) {
         *field = value;
         return 0;
     }
@@ -179,7 +179,7 @@ static int set_text(const cli_option *option, const char **field, const char *te
 
 static int set_value(place found, const char *text) {
     void *field = found.base + found.option->at;
-    switch (found.option->type) {
+    switch (found.option->type) { /* one way: each type has a case */
     case CLI_TEXT:
         return set_text(found.option, field, text);
     case CLI_OUTPUT: {
@@ -221,7 +221,7 @@ static int set_value(place found, const char *text) {
     case CLI_REALS:
         return set_reals(found.option, field, text);
     case CLI_FLAG:
-    case CLI_END:
+    case CLI_END: /* one way: the end of a list has no name */
         break;
     }
     *(bool *)field = true;

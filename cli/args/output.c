@@ -81,22 +81,17 @@ int cli_output_open(const cli_part *parts, void *args) {
     int code = is_binary(ending) && isatty(out->target)
                    ? cli_fail(CLI_USE, out->name, "It is a terminal, and a file of format %s is no text.", ending)
                    : make_copy(out, ending);
-    if (!code && standard && dup2(STDERR_FILENO, STDOUT_FILENO) < 0)
-        code = cli_fail_file(CLI_RESOURCES, out->name, "written");
-    if (code) {
-        if (*out->folder) rmdir(out->folder);
+    if (code)
         close(out->target);
-    }
+    else if (standard)
+        (void)dup2(STDERR_FILENO, STDOUT_FILENO); /* main() has seen that both are open */
     return code;
 }
 
 /* NAME': ... of the library, where options are members of a struct, as --NAME: ... */
 static int fail_option(const char *text) {
-    char name[32] = "";
     const size_t length = strcspn(text, "'");
-    for (size_t i = 0; i < length && i < sizeof name - 1; i++) name[i] = text[i] == '_' ? '-' : text[i];
-    const char *sentence = text + length + (strncmp(text + length, "': ", 3) ? 0 : 3);
-    return cli_fail(CLI_USE, NULL, "--%s: %s", name, sentence);
+    return cli_fail(CLI_USE, NULL, "--%.*s: %s", (int)length, text, text + length + strlen("': "));
 }
 
 int cli_output_fail(const cli_output *output, froe_status status, const froe_diagnostic *diag) {
@@ -124,23 +119,28 @@ static int check_one_file(const cli_output *out) {
     return cli_fail(CLI_USE, out->name, "The format %s has several files, which need names.", out->format);
 }
 
+/* False: not all bytes could be written, and errno says why. */
+static bool put_all(int target, const char *bytes, size_t count) {
+    while (count) {
+        const ssize_t put = write(target, bytes, count);
+        if (put < 0 && errno != EINTR) return false;
+        if (put > 0) bytes += put, count -= (size_t)put;
+    }
+    return true;
+}
+
 /* Returns an exit code. */
 static int copy_output(const cli_output *out) {
     char buffer[1 << 14];
-    ssize_t got, put = 0;
+    ssize_t got = 0;
+    bool whole = true;
     const int in = open(out->copy, O_RDONLY | O_CLOEXEC);
     if (in < 0) return cli_fail_file(CLI_RESOURCES, out->copy, "read");
-    while ((got = read(in, buffer, sizeof buffer)) > 0)
-        for (char *at = buffer; got > 0 && (put = write(out->target, at, (size_t)got)) != 0;) {
-            if (put < 0 && errno == EINTR) continue;
-            if (put < 0) break;
-            at += put;
-            got -= put;
-        }
+    while (whole && (got = read(in, buffer, sizeof buffer)) > 0) whole = put_all(out->target, buffer, (size_t)got);
     const int error = errno;
     close(in);
     errno = error;
-    if (put < 0) return error == EPIPE ? CLI_PIPE : cli_fail_file(CLI_RESOURCES, out->name, "written");
+    if (!whole) return error == EPIPE ? CLI_PIPE : cli_fail_file(CLI_RESOURCES, out->name, "written");
     return got < 0 ? cli_fail_file(CLI_RESOURCES, out->copy, "read") : 0;
 }
 

@@ -69,8 +69,7 @@ static bool is_inside(const char *output, const char *input) {
         written = folder ? realpath(folder, NULL) : NULL;
         free(folder);
     }
-    const size_t length = read ? strlen(read) : 0;
-    const bool inside = read && written && !strncmp(read, written, length) && strchr("/", written[length]);
+    const bool inside = read && written && !strncmp(read, written, strlen(read)) && strchr("/", written[strlen(read)]);
     free(read);
     free(written);
     return inside;
@@ -128,7 +127,7 @@ int cli_check_overwrite(const cli_part *parts, void *args) {
             const int code = check_input(output, other);
             if (code) return code;
         }
-        while ((other = next_name(&before, CLI_WRITTEN, args)) != NULL && before.option != option)
+        while (other = next_name(&before, CLI_WRITTEN, args), before.option != option)
             if (same_file(output, other))
                 return cli_fail(CLI_USE, output, "The file is written twice. An output needs a file of its own.");
     }

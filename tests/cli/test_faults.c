@@ -115,14 +115,14 @@ static void check(const writing *w, unsigned at, const char *call, fault_kind ki
     free(said);
 }
 
-/* The names of the calls that an undisturbed run makes for its first file. */
-static unsigned read_calls(char names[MOST_CALLS][32]) {
+/* The names of the calls that an undisturbed run makes, up to the first one of this name: for its first file. */
+static unsigned read_calls(char names[MOST_CALLS][32], const char *last) {
     FILE *file = fopen("calls", "r");
     unsigned count = 0;
     assert_non_null(file);
     while (count < MOST_CALLS && fgets(names[count], 32, file)) {
         names[count][strcspn(names[count], "\n")] = '\0';
-        if (!strcmp(names[count++], "close folder")) break;
+        if (!strcmp(names[count++], last)) break;
     }
     fclose(file);
     return count;
@@ -137,7 +137,7 @@ static void try_faults(const writing *w) {
     assert_int_equal(run_froe(w->arguments, w->linked, strncmp(w->arguments, "demo", 4) ? 0 : 11, FAULT_KILL) & 0x7f00,
                      0);
     char *new = slurp(w->file, &size);
-    unsigned calls = read_calls(names);
+    unsigned calls = read_calls(names, "close folder");
     sweep();
     if (calls < 8 || !size || is(w->file, old_text, strlen(old_text)))
         fail_msg("froe %s: %u calls", w->arguments, calls);
@@ -167,11 +167,37 @@ static void every_command_that_writes_loses_nothing(void **state) {
     for (size_t i = 0; i < WRITINGS; i++) try_faults(writings + i);
 }
 
+/* What goes to a device is a file of its own first, and then copied in several blocks. */
+static void a_device_gets_all_or_the_reason_is_told(void **state) {
+    (void)state;
+    static const char begins[] = "froe: /dev/null: ", told[] = "The file cannot be written: Input/output error.\n",
+                      line[] = "generate points -n 2000 -o /dev/null --output-format csv";
+    char names[MOST_CALLS][32];
+    unsigned copied = 0;
+    size_t size;
+    assert_int_equal(run_froe(line, false, 0, FAULT_NONE), 0);
+    const unsigned calls = read_calls(names, "");
+    for (unsigned at = 1; at <= calls; at++) {
+        const bool writes = !strcmp(names[at - 1], "write"), folder = strstr(names[at - 1], "folder") != NULL;
+        int ended = run_froe(line, false, at, FAULT_EIO);
+        char *said = slurp("said", &size);
+        if (folder ? ended
+                   : WEXITSTATUS(ended) != 4 || strncmp(said, begins, strlen(begins)) != 0 || !strstr(said, told))
+            fail_msg("froe %s: call %u, %s: %#x: %s", line, at, names[at - 1], (unsigned)ended, said);
+        free(said);
+        copied += writes;
+        if (writes) assert_int_equal(run_froe(line, false, at, FAULT_EINTR), 0);
+        if (writes) assert_int_equal(run_froe(line, false, at, FAULT_SHORT), 0);
+    }
+    assert_true(copied > 2);
+}
+
 int main(int argc, char **argv) {
     all = argc > 1 && !strcmp(argv[1], "all");
     signal(SIGINT, SIG_DFL); /* shells make what they start in the background ignore it */
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_command_that_writes_loses_nothing),
+        cmocka_unit_test(a_device_gets_all_or_the_reason_is_told),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
