@@ -88,11 +88,11 @@ static int read_capsules(const char *path, bool ball, froe_scene *scene) {
 
 static bool set_mark(const froe_scene *scene, uint32_t id, froe_draw_mark *mark) {
     const froe_object o = froe_scene_object(scene, id);
-    const uint32_t last = o.corners ? o.corners - 1 : 0;
+    const uint32_t last = o.corners - 1;
     *mark = (froe_draw_mark){.kind = o.form == FROE_BOX    ? FROE_DRAW_MARK_BOX
                                      : o.form == FROE_BALL ? FROE_DRAW_MARK_BALL
                                                            : FROE_DRAW_MARK_LINE};
-    if (o.form == FROE_POLYGON || o.form == FROE_HULL || !o.corners) return false;
+    if (o.form == FROE_POLYGON || o.form == FROE_HULL) return false;
     for (int k = 0; k < froe_scene_dim(scene); k++) {
         mark->lo[k] = froe_scene_vertex(scene, froe_scene_corner(scene, id, 0))[k] - o.radius;
         mark->hi[k] = froe_scene_vertex(scene, froe_scene_corner(scene, id, last))[k] + o.radius;

@@ -51,7 +51,7 @@ static bool put_pair(void *user, const froe_pair *pair) {
             &w->table,
             &(cli_answer){.object = pair->a, .other = pair->b, .group = FROE_NONE, .kind = kinds[pair->kind]});
     w->stopped = !cli_progress_step(&w->bar, pair->a / w->objects);
-    return !w->stopped && !w->table.status;
+    return !w->stopped;
 }
 
 static bool put_found_pair(void *user, const froe_found_pair *pair) {

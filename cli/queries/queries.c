@@ -131,9 +131,9 @@ static void close_query(query_run *r) {
     r->open = r->spoilt = false;
 }
 
-/* Does a row name a query that ended before the one being gathered? */
+/* Where several rows make a query: does a row name one that ended before the one being gathered? */
 static bool is_late(const query_run *r, uint64_t id) {
-    return r->grouped && !(r->open && r->ids[r->count] == id) && is_seen(&r->seen, id);
+    return !(r->open && r->ids[r->count] == id) && is_seen(&r->seen, id);
 }
 
 /* The query that a row belongs to is the one being gathered, or a new one. */
@@ -237,7 +237,7 @@ static void read_block(query_run *r) {
     double values[CLI_ROW_NUMBERS];
     while (!r->code && !r->ended && r->count < CLI_BLOCK) {
         values[0] = NAN;
-        switch (cli_rows_next(&r->rows, values)) {
+        switch (cli_rows_next(&r->rows, values)) { /* one way: each outcome has a case */
         case CLI_ROW_READ:
             add_row(r, values);
             break;
@@ -287,6 +287,7 @@ static void answer_block(query_run *r, size_t count) {
             if (!status) refuse(r, r->lines[first + bad], diag.message);
             first += bad + 1;
         }
+        diag.object = FROE_NONE; /* it was that of the question */
         if (status) r->code = cli_fail_status(CLI_WORKING, r->q->tree->scene.path, status, &diag);
         if (r->code) return;
     }

@@ -108,7 +108,7 @@ static size_t header_text(const cli_column *columns, int dim, char *out, size_t 
     for (; columns->name; columns++)
         for (int axis = 0; axis < (columns->axes ? dim : 1); axis++, count++) {
             const cli_axis name = cli_axis_name(columns->name, axis);
-            if (length < size)
+            if (length < size) /* one way: the longest takes 8 dimensions */
                 length += (size_t)snprintf(out + length, size - length, "%s%s", count ? "," : "",
                                            columns->axes ? name.text : columns->name);
         }
@@ -182,7 +182,7 @@ int cli_rows_open(const char *path, const cli_column *columns, int dim, cli_rows
 }
 
 void cli_rows_close(cli_rows *rows) {
-    if (rows->file && rows->file != stdin) fclose(rows->file);
+    if (rows->file != stdin) fclose(rows->file);
     free(rows->header);
     free(rows->text);
     free(rows->more);

@@ -97,7 +97,7 @@ static void put_of_object(cli_table *t, cli_field field, uint32_t object, uint32
 
 static void put_shown(cli_table *t, const cli_shown *shown, const cli_answer *a) {
     cli_answers *out = &t->out;
-    switch (shown->field) {
+    switch (shown->field) { /* one way: each field has a case */
     case CLI_FIELD_QUERY:
         return cli_answers_whole(out, t->block->ids[a->at]);
     case CLI_FIELD_OBJECT:

@@ -4,7 +4,7 @@
  * cancelled. Nothing else is left behind, nothing crashes.
  *
  * A place of the program that asks for memory is refused it once, in the first command that comes there. Of the places
- * a quarter is tried. Of the other faults there is a sample of the calls, of another seed for each command. With the
+ * an eighth is tried. Of the other faults there is a sample of the calls, of another seed for each command. With the
  * argument "all" (make faults) each call has each fault, with "all WORDS" only those of the command lines that begin
  * with these words. */
 #include "faults/commands.h"
@@ -62,13 +62,13 @@ static void try_calls(faulted *f, const char *variable, unsigned calls, unsigned
 
 /* Hashes of places (faults/memory.c), of both programs. */
 typedef struct known_places {
-    uint64_t hashes[8192];
+    uint64_t hashes[32768];
     size_t count;
 } known_places;
 
 /* One of so many places is tried. Which ones depends on the machine code. Where branches are counted, all are. */
 static uint64_t places_of_one(void) {
-    return getenv("LLVM_PROFILE_FILE") ? 1 : 4;
+    return getenv("LLVM_PROFILE_FILE") ? 1 : 8;
 }
 
 /* Adds a place; was it unknown? */

@@ -86,6 +86,17 @@ static const run_case cases[] = {
     {"range f.froes --queries r.csv --columns *,name --format geojson", NULL, PLAIN},
     {"locate f.froes --queries q.csv --groups", NULL, PLAIN},
     {"locate f.froes --queries q.csv --above", NULL, PLAIN},
+    {"locate f.froes --queries q.csv", NULL, PLAIN},
+    {"ray f.froes --queries y2.csv", NULL, PLAIN},
+    {"ray f.froes --queries y2.csv --all", NULL, PLAIN},
+    {"pairs f.froes", NULL, PLAIN},
+    {"range s.froe --shape hull --queries p.csv --columns *,name", NULL, PLAIN},
+    {"near s.froe --queries q.csv --columns point,name", NULL, PLAIN},
+    {"info s.geojson --limit-memory 4000", NULL, TIMED},
+    {"build s.geojson --method density --option k=16 --option growth=2 -o out.froe --quiet", "out.froe", PLAIN},
+    {"render h.off --turntable 2 -o pic-%d.svg --quiet", "pic-1.svg", PLAIN},
+    {"render w.mfjson --frames 2 -o pic-%d.svg --quiet", "pic-1.svg", PLAIN},
+    {"render w.mfjson --at 1 -o out.svg --quiet", "out.svg", PLAIN},
     {"ray h.froe --queries y.csv --all --json", NULL, TIMED},
     {"near f.froes --queries q.csv", NULL, PLAIN},
     {"locate b.csv --queries q.csv --format geojson", NULL, PLAIN},
@@ -234,6 +245,8 @@ static void set_up(void) {
     spill("r.csv", "lo_x,lo_y,hi_x,hi_y\n0,0,0.5,0.5\n");
     spill("c.csv", "ax,ay,bx,by,r,name\n0.1,0.1,0.5,0.5,0.1,a\n0.2,0.9,0.3,0.8,0.05,b\n");
     spill("r3.csv", "lo_x,lo_y,lo_z,hi_x,hi_y,hi_z\n-9,-9,-9,9,9,9\n");
+    spill("p.csv", "query,x,y,note\n0,0,0,a\n0,1,0,a\n0,0,1,a\n1,0.5,0.5,b\n1,0.9,0.9,b\n");
+    spill("y2.csv", "ox,oy,dx,dy\n-9,0.5,1,0\n9,9,-1,-1\n");
     spill("y.csv", "ox,oy,oz,dx,dy,dz\n-9,-9,-9,1,1,1\n9,0,0,-1,0,0\n");
     for (size_t i = 0; i < sizeof scenes / sizeof *scenes; i++) {
         char words[200];

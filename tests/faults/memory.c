@@ -47,7 +47,7 @@ typedef struct place {
 } place;
 
 static _Unwind_Reason_Code add_function(struct _Unwind_Context *context, void *user) {
-    enum { FUNCTIONS = 2 };
+    enum { FUNCTIONS = 4 };
     place *p = user;
     const uintptr_t at = (uintptr_t)_Unwind_GetIP(context), begin = (uintptr_t)&__executable_start;
     if (at < begin || at >= (uintptr_t)&etext) return _URC_NO_REASON;
