@@ -70,7 +70,7 @@ int cli_fail_unknown(const char *what, const char *name, const char *meant, cons
 
 int cli_fail_status(cli_stage stage, const char *file, froe_status status, const froe_diagnostic *diag) {
     if (status == FROE_E_CANCELLED) return cli_fail_cancelled(file);
-    const int code = (unsigned)status < FROE_STATUS_COUNT ? codes[status][stage] : CLI_USE;
+    const int code = codes[status][stage];
     if (!diag || diag->status != status || !diag->message[0])
         return cli_fail(code, file, "The call failed: %s.", froe_status_text(status));
     const char *sentence = diag->message;
@@ -94,13 +94,8 @@ int cli_fail_status(cli_stage stage, const char *file, froe_status status, const
         const size_t length = strlen(name);
         named = named || (strncmp(sentence, name, length) == 0 && sentence[length] == ' ');
     }
-    char where[64] = ""; /* "object 17, corner 2: ", as far as it is known and the sentence does not say it */
-    if (diag->object != FROE_NONE && !named) {
-        if (diag->corner == FROE_NONE || strstr(sentence, "corner "))
-            snprintf(where, sizeof where, "object %u: ", diag->object);
-        else
-            snprintf(where, sizeof where, "object %u, corner %u: ", diag->object, diag->corner);
-    }
+    char where[64] = ""; /* sentences that know a corner name it */
+    if (diag->object != FROE_NONE && !named) snprintf(where, sizeof where, "object %u: ", diag->object);
     if (status == FROE_E_OPTIONS && stage != CLI_READING && sentence == diag->message)
         file = NULL; /* the command line is wrong, not the file */
     if (inside) return cli_fail(code, NULL, "%s%s", file, sentence);

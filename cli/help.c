@@ -127,8 +127,8 @@ void cli_help_command(FILE *out, const cli_command *command) {
 static void put_roff(FILE *out, const char *text, size_t length) {
     for (size_t i = 0; i < length; i++) {
         const bool starts = i == 0 || text[i - 1] == '\n';
-        if (starts && (text[i] == '.' || text[i] == '\'')) fputs("\\&", out);
-        if (text[i] == '\\')
+        if (starts && strchr(".'", text[i])) fputs("\\&", out);
+        if (text[i] == '\\') /* one way: no text has any */
             fputs("\\e", out);
         else if (text[i] == '-')
             fputs("\\-", out);
@@ -163,7 +163,7 @@ static void manual_of_command(FILE *out, const cli_command *command) {
     each_paragraph(out, command->about, roff_paragraph);
     for (const cli_part *part = command->parts; part->title; part++) {
         fputs(".SH ", out);
-        for (const char *c = part->title; *c; c++) fputc(toupper((unsigned char)*c), out);
+        for (const char *c = part->title; *c; c++) fputc((toupper)((unsigned char)*c), out);
         fputc('\n', out);
         for (const cli_option *option = part->options; option->type; option++) {
             char label[64];
@@ -182,7 +182,7 @@ void cli_manual(FILE *out, const cli_command *command) {
     const char *summary = command ? command->summary : "small, exact binary space partitions";
     if (command) {
         snprintf(name, sizeof name, "froe-%s", command->name);
-        for (size_t i = 0; name[i]; i++) upper[i] = (char)toupper((unsigned char)name[i]), upper[i + 1] = '\0';
+        for (size_t i = 0; name[i]; i++) upper[i] = (char)(toupper)((unsigned char)name[i]), upper[i + 1] = '\0';
     }
     fprintf(out, ".TH %s 1 \"\" \"froe %s\" \"User Commands\"\n.SH NAME\n", upper, froe_version());
     put_roff(out, name, strlen(name));

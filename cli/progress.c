@@ -44,7 +44,7 @@ bool cli_late(void) {
 }
 
 int cli_signal_code(void) {
-    return interrupted ? 128 + (int)interrupted : CLI_CANCELLED;
+    return 128 + (int)interrupted;
 }
 
 cli_progress cli_progress_begin(const cli_common *common, const char *what) {

@@ -124,13 +124,19 @@ foreach(source ${test_sources})
   endif()
 endforeach()
 
-if(TARGET test_cli_plot) # figures are part of the program, which tests run otherwise
-  target_sources(test_cli_plot PRIVATE cli/report/plot.c cli/report/axis.c)
-  target_include_directories(test_cli_plot PRIVATE cli)
-  if(FROE_COVERAGE)
-    target_compile_options(test_cli_plot PRIVATE ${coverage_flags})
+# Parts of the program, which tests run otherwise.
+set(part_of_plot cli/report/plot.c cli/report/axis.c)
+set(part_of_redirect cli/demo/redirect.c cli/exit.c cli/progress.c cli/args/crash.c)
+foreach(name plot redirect)
+  if(TARGET test_cli_${name})
+    target_sources(test_cli_${name} PRIVATE ${part_of_${name}})
+    target_include_directories(test_cli_${name} PRIVATE cli)
+    target_link_libraries(test_cli_${name} PRIVATE PkgConfig::JANSSON)
+    if(FROE_COVERAGE)
+      target_compile_options(test_cli_${name} PRIVATE ${coverage_flags})
+    endif()
   endif()
-endif()
+endforeach()
 
 # Decisions that are checked over and over (make soak); of each kind one block is a test.
 if(TARGET froe_io_white)

@@ -4,6 +4,7 @@
  * folder of the demo; their reports are printed and become the page's tables. */
 #include "command.h"
 #include "demo/page.h"
+#include "demo/redirect.h"
 #include "embedded.h"
 #include "exit.h"
 #include "files.h"
@@ -46,43 +47,24 @@ static int make_folder(const char *path) {
     return made ? 0 : cli_fail_file(CLI_RESOURCES, path, "made");
 }
 
-enum { LINE = 400, WORDS = 40, SCENES = 8 };
-
-/* Lets what the program prints go to a file from now on; *kept is where it went before. */
-static int redirect(const char *path, int *kept) {
-    fflush(stdout);
-    const int file = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0666);
-    *kept = dup(STDOUT_FILENO);
-    const bool done = file >= 0 && *kept >= 0 && dup2(file, STDOUT_FILENO) >= 0;
-    if (file >= 0) close(file);
-    return done ? 0 : cli_fail_file(CLI_RESOURCES, path, "written");
-}
-
-static int restore(const char *path, int kept) {
-    const bool written = fflush(stdout) == 0;
-    const bool back = kept >= 0 && dup2(kept, STDOUT_FILENO) >= 0;
-    if (kept >= 0) close(kept);
-    return written && back ? 0 : cli_fail_file(CLI_RESOURCES, path, "written");
-}
+/* No line of demo/scenes.c is longer, or has more words. */
+enum { LINE = 400, WORDS = LINE / 2, SCENES = 8 };
 
 /* Runs a line as if it stood after "froe", with the demo's own seed, threads and --quiet. */
 static int run_line(const cli_common *common, const char *text, bool loud, json_t **report) {
     char line[LINE], *words[WORDS];
     int count = 0, kept = -1;
     const char *target = strstr(text, " >"), *file = target ? target + 2 : NULL;
-    if (snprintf(line, sizeof line, "%.*s --seed %llu --threads %llu%s", (int)(target ? target - text : LINE), text,
-                 (unsigned long long)common->seed, (unsigned long long)common->threads,
-                 loud && !file ? "" : " --quiet") >= LINE)
-        return cli_fail(CLI_USE, NULL, "A line of the demo is too long.");
-    for (char *rest = line, *word; count < WORDS && (word = strtok_r(rest, " ", &rest)) != NULL;) words[count++] = word;
+    snprintf(line, sizeof line, "%.*s --seed %llu --threads %llu%s", (int)(target ? target - text : LINE), text,
+             (unsigned long long)common->seed, (unsigned long long)common->threads, loud && !file ? "" : " --quiet");
+    for (char *rest = line, *word; (word = strtok_r(rest, " ", &rest)) != NULL;) words[count++] = word;
     if (loud) printf("$ froe %s\n", text);
     const cli_command *command = cli_command_named(words[0]);
-    if (!command) return cli_refuse_command(words[0]);
     *report = NULL;
-    int code = file ? redirect(file, &kept) : 0;
+    int code = file ? demo_redirect(file, &kept) : 0;
     if (!code) code = cli_run(command, count - 1, words + 1, report);
     if (file) {
-        const int back = restore(file, kept);
+        const int back = demo_restore(file, kept);
         code = code ? code : back;
     }
     if (loud) putchar('\n');
@@ -99,21 +81,21 @@ static int unpack(const char *name) {
  * shows that. */
 static int run_scene(const cli_common *common, const demo_scene *scene, demo_result *result) {
     int code = 0;
-    for (int i = 0; !code && i < DEMO_FILES && scene->files[i]; i++) code = unpack(scene->files[i]);
+    for (int i = 0; !code && scene->files[i]; i++) code = unpack(scene->files[i]);
     for (int i = 0; !code && scene->steps[i].command; i++)
         code = run_line(common, scene->steps[i].command, !common->json && !common->quiet, &result->report[i]);
     if (code || !scene->methods) return code;
     result->methods = json_array();
     const froe_method_info *method;
-    for (size_t i = 0; (method = froe_method_at(i)) != NULL; i++) {
+    for (size_t i = 0; !code && (method = froe_method_at(i)) != NULL; i++) {
         if (!(method->kinds[2] >> FROE_SEGMENT & 1)) continue; /* of a plan */
         char line[LINE];
         json_t *report;
         snprintf(line, sizeof line, "build %s --method %s", scene->methods, method->name);
         code = run_line(common, line, false, &report);
-        if (code || json_array_append_new(result->methods, report) != 0) return code ? code : cli_fail_memory();
+        (void)json_array_append_new(result->methods, report); /* the page tells where memory runs out */
     }
-    return 0;
+    return code;
 }
 
 static int run_demo(const void *given) {
@@ -123,8 +105,7 @@ static int run_demo(const void *given) {
     if (chdir(args->output) != 0) return cli_fail_file(CLI_RESOURCES, args->output, "entered");
     demo_result results[SCENES] = {0};
     const double start = cli_seconds();
-    for (int i = 0; !code && i < SCENES && demo_scenes[i].title; i++)
-        code = run_scene(&args->common, &demo_scenes[i], &results[i]);
+    for (int i = 0; !code && demo_scenes[i].title; i++) code = run_scene(&args->common, &demo_scenes[i], &results[i]);
     if (!code) code = demo_write_page("index.html", results);
     for (int i = 0; i < SCENES; i++) {
         for (int j = 0; j < DEMO_STEPS; j++) json_decref(results[i].report[j]);

@@ -18,7 +18,7 @@ enum { DEMO_STEPS = 12, DEMO_FILES = 4 };
 typedef struct demo_scene {
     const char *title;
     const char *text;              /**< what it is good for; with markup */
-    const char *files[DEMO_FILES]; /**< of the embedded ones */
+    const char *files[DEMO_FILES]; /**< of the embedded ones, ended by NULL */
     demo_step steps[DEMO_STEPS];   /**< ended by a NULL command */
     const char *methods;           /**< the plan of which every method builds a tree, for a table; NULL: none */
     const char *credit;

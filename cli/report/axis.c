@@ -49,7 +49,9 @@ size_t plot_axis_ticks(const plot_axis *axis, double *out) {
     size_t count = 0;
     if (!axis->log) {
         const double step = step_of(axis), first = ceil(axis->lo / step - 1e-9);
-        for (double i = first; count < PLOT_TICKS && i * step <= axis->hi + 1e-9 * step; i++) out[count++] = i * step;
+        const double end = axis->hi + 1e-9 * step;
+        for (double i = first; count < PLOT_TICKS && i * step <= end; i++) /* one way: the step gives some six */
+            out[count++] = i * step;
         return count;
     }
     const double decades = log10(axis->hi / axis->lo);
@@ -57,7 +59,8 @@ size_t plot_axis_ticks(const plot_axis *axis, double *out) {
     for (int e = (int)floor(log10(axis->lo)); e <= (int)ceil(log10(axis->hi)); e++)
         for (int i = 0; i < each && e % stride == 0; i++) {
             const double value = (i == 0 ? 1 : i == 1 ? 2 : 5) * pow(10, e);
-            if (value >= axis->lo && value <= axis->hi && count < PLOT_TICKS) out[count++] = value;
+            if (value < axis->lo || value > axis->hi) continue;
+            if (count < PLOT_TICKS) out[count++] = value; /* one way: each decade or third one has a tick */
         }
     return count;
 }

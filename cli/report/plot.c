@@ -38,11 +38,11 @@ static void put_escaped(plot *p, const char *text) {
     for (size_t n; (n = support_xml_escape(&text, out));) fwrite(out, 1, n, p->out);
 }
 
-/* "12.3" in every locale. */
+/* "12.3" in every locale: a place or a size on the page, which is not negative. */
 static void put_number(plot *p, double value) {
-    const long long tenths = llround(value * 10), size = tenths < 0 ? -tenths : tenths;
-    fprintf(p->out, "%s%lld", tenths < 0 ? "-" : "", size / 10);
-    if (size % 10) fprintf(p->out, ".%lld", size % 10);
+    const long long tenths = llround(value * 10);
+    fprintf(p->out, "%lld", tenths / 10);
+    if (tenths % 10) fprintf(p->out, ".%lld", tenths % 10);
 }
 
 static void put_attribute(plot *p, const char *name, double value) {

@@ -192,12 +192,50 @@ static void a_device_gets_all_or_the_reason_is_told(void **state) {
     assert_true(copied > 2);
 }
 
+/* Files of the libraries' names that are none are found first. What needs no library does without, and a comparison has
+ * no pictures. */
+static void a_library_that_cannot_be_opened_is_named(void **state) {
+    (void)state;
+    static const struct {
+        const char *arguments, *library; /* NULL: none is needed */
+        int code;
+    } lines[] = {
+        {"draw s.froe -o out.svg", "libfroe-draw", 4},
+        {"measure s.geojson --draw out.svg", "libfroe-draw", 4},
+        {"render h.froe -o out.png", "libfroe-draw", 4},
+        {"render w.mfjson --frames 2 -o out-%d.png", "libfroe-draw", 4},
+        {"compare s.geojson --methods kd --queries 1 --halvings 0 -o out.html", "libfroe-draw", 0},
+        {"render h.froe -o out.dxf", "libfroe-io", 4},
+        {"export s.froe -o out.gpkg", "libfroe-io", 4},
+        {"info map.gpkg", "libfroe-io", 4},
+        {"simulate model.fbx", "libfroe-io", 4},
+        {"render h.froe -o out.svg", NULL, 0},
+        {"export s.froe -o out.geojson", NULL, 0},
+    };
+    size_t size;
+    if (system("mkdir -p none; for l in io draw; do touch none/libfroe-$l.so none/libfroe-$l.so.0; done; rm -f out.*"))
+        fail_msg("none: it cannot be made");
+    assert_int_equal(run_froe("generate moving-boxes -n 2 -o w.mfjson", false, 0, FAULT_NONE), 0);
+    if (system("echo none | tee map.gpkg >model.fbx")) fail_msg("map.gpkg: it cannot be made");
+    setenv("LD_LIBRARY_PATH", "none", 1);
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+        const int ended = run_froe(lines[i].arguments, false, 0, FAULT_NONE);
+        char *said = slurp("said", &size);
+        if (!WIFEXITED(ended) || WEXITSTATUS(ended) != lines[i].code ||
+            (lines[i].library ? !strstr(said, lines[i].library) : *said))
+            fail_msg("froe %s: %#x: %s", lines[i].arguments, (unsigned)ended, said);
+        free(said);
+    }
+    unsetenv("LD_LIBRARY_PATH");
+}
+
 int main(int argc, char **argv) {
     all = argc > 1 && !strcmp(argv[1], "all");
     signal(SIGINT, SIG_DFL); /* shells make what they start in the background ignore it */
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_command_that_writes_loses_nothing),
         cmocka_unit_test(a_device_gets_all_or_the_reason_is_told),
+        cmocka_unit_test(a_library_that_cannot_be_opened_is_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

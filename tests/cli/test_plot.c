@@ -165,7 +165,7 @@ static void equal_factors_are_equal_distances(void **state) {
 /* Axes without numbers, of one number and of huge ones; names that are empty, of other letters, or very long. */
 static void odd_series_have_figures_too(void **state) {
     (void)state;
-    static const double five[] = {5, 5}, huge[] = {1e16, 5}, below[] = {-5, -7};
+    static const double five[] = {5, 5}, huge[] = {1e16, 5}, below[] = {-5, -7}, zeros[] = {0, 0};
     char wide[200] = "";
     memset(wide, 'w', sizeof wide - 1);
     sheet *s = calloc(1, sizeof *s);
@@ -180,9 +180,14 @@ static void odd_series_have_figures_too(void **state) {
     assert_null(strstr(s->text, "nothing to show"));
     put(s, &(plot_series){"huge", five, huge, 2}, 1, &o);
     assert_int_equal(count_of(s->text, "Z"), 1); /* 5 alone */
-    const plot_series unnamed[] = {{NULL, five, below, 2}, {"", below, five, 2}};
+    put(s, &(plot_series){"zeros", five, zeros, 2}, 1, &o);
+    assert_int_equal(count_of(s->text, "Z"), 2);
+    assert_null(strstr(s->text, "nan"));
+    const plot_series unnamed[] = {{NULL, five, below, 2}, {"", below, five, 2}}, empty[] = {unnamed[1], unnamed[0]};
     put(s, unnamed, 2, &o);
     const int without = count_of(s->text, "<text");
+    put(s, empty, 2, &o);
+    assert_int_equal(count_of(s->text, "<text"), without);
     const plot_series named[] = {{wide, five, below, 2}, {"\xC3\xA9t\xC3\xA9", below, five, 2}};
     put(s, named, 2, &o);
     assert_int_equal(count_of(s->text, "<text"), without + 2);
