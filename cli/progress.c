@@ -21,11 +21,12 @@ static void on_alarm(int number) {
 }
 
 static void catch_signal(int number, void (*handler)(int), int flags) {
-    struct sigaction action, before;
+    struct sigaction action, before = {.sa_handler = SIG_DFL};
     memset(&action, 0, sizeof action);
     action.sa_handler = handler;
     action.sa_flags = flags;
-    if (sigaction(number, NULL, &before) == 0 && before.sa_handler != SIG_IGN) sigaction(number, &action, NULL);
+    sigaction(number, NULL, &before);
+    if (before.sa_handler != SIG_IGN) sigaction(number, &action, NULL);
 }
 
 void cli_catch_signals(void) {

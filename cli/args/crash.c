@@ -14,7 +14,7 @@ enum { SIGNALS = sizeof signals / sizeof *signals };
 
 /* What the handler needs. */
 static struct {
-    char name[4096]; /* of the file */
+    char name[4200]; /* of the program, then of the file */
     cli_spool spool;
     volatile sig_atomic_t reading;
     struct sigaction before[SIGNALS];
@@ -23,13 +23,13 @@ static struct {
 
 _Noreturn static void end(int code, const char *said) {
     const char *name = crash_guard.name;
-    const bool told = write(STDERR_FILENO, "froe: ", strlen("froe: ")) > 0 &&
-                      write(STDERR_FILENO, name, strlen(name)) > 0 && write(STDERR_FILENO, said, strlen(said)) > 0;
+    const bool told = write(STDERR_FILENO, name, strlen(name)) > 0;
+    const bool whole = write(STDERR_FILENO, said, strlen(said)) > 0;
     if (*crash_guard.spool.folder) {
         unlink(crash_guard.spool.copy);
         rmdir(crash_guard.spool.folder);
     }
-    _exit(told ? code : CLI_RESOURCES);
+    _exit(told & whole ? code : CLI_RESOURCES);
 }
 
 static void on_crash(int number) {
@@ -50,7 +50,7 @@ void cli_crash_late(void) {
 
 void cli_crash_mapped(const char *name) {
     struct sigaction action;
-    snprintf(crash_guard.name, sizeof crash_guard.name, "%s", name);
+    snprintf(crash_guard.name, sizeof crash_guard.name, "froe: %s", name);
     support_one_line(crash_guard.name);
     memset(&action, 0, sizeof action);
     action.sa_handler = on_lost_page;
@@ -60,12 +60,13 @@ void cli_crash_mapped(const char *name) {
 void cli_crash_begin(const cli_spool *spool) {
     const stack_t own = {.ss_sp = crash_guard.stack, .ss_size = sizeof crash_guard.stack};
     struct sigaction action;
-    snprintf(crash_guard.name, sizeof crash_guard.name, "%s", spool->name);
+    snprintf(crash_guard.name, sizeof crash_guard.name, "froe: %s", spool->name);
     support_one_line(crash_guard.name);
     crash_guard.spool = *spool;
     memset(&action, 0, sizeof action);
     action.sa_handler = on_crash;
-    action.sa_flags = (int)SA_RESETHAND | (sigaltstack(&own, NULL) ? 0 : SA_ONSTACK);
+    action.sa_flags = (int)SA_RESETHAND | SA_ONSTACK;
+    (void)sigaltstack(&own, NULL); /* without it the handler runs on the stack of the program */
     for (int i = 0; i < SIGNALS; i++) sigaction(signals[i], &action, &crash_guard.before[i]);
     crash_guard.reading = 1;
 }

@@ -12,7 +12,8 @@ int cli_check_method(const char *name, bool may_be_auto) {
     char list[400] = "", sentence[sizeof list + 16];
     const froe_method_info *info;
     if (may_be_auto) names[count++] = "auto";
-    for (size_t i = 0; (info = froe_method_at(i)) != NULL && count < MOST; i++) names[count++] = info->name;
+    for (size_t i = 0; (info = froe_method_at(i)) != NULL && count < MOST; i++) /* one way: there are fewer */
+        names[count++] = info->name;
     for (size_t i = 0; i < count; i++) {
         if (strcmp(names[i], name) == 0) return 0;
         const size_t used = strlen(list);

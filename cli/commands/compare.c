@@ -101,7 +101,9 @@ static bool is_wanted(const char *list, const char *method) {
     if (!list) return true;
     const size_t length = strlen(method);
     for (const char *at = list; (at = strstr(at, method)) != NULL; at += length)
-        if ((at == list || at[-1] == ',') && (at[length] == '\0' || at[length] == ',')) return true;
+        if ((at == list || at[-1] == ',') &&
+            (at[length] == '\0' || at[length] == ',')) /* one way: no name holds another */
+            return true;
     return false;
 }
 

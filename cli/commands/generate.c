@@ -53,10 +53,12 @@ static int find_kind(const char *kind, bool *moving) {
     const char *names[MOST];
     size_t count = 0, still;
     const froe_generator_info *g;
-    for (size_t i = 0; (g = froe_generator_at(i)) != NULL && count < MOST; i++) names[count++] = g->name;
+    for (size_t i = 0; (g = froe_generator_at(i)) != NULL && count < MOST; i++) /* one way: there are fewer */
+        names[count++] = g->name;
     still = count;
     const froe_motion_generator_info *m;
-    for (size_t i = 0; (m = froe_motion_generator_at(i)) != NULL && count < MOST; i++) names[count++] = m->name;
+    for (size_t i = 0; (m = froe_motion_generator_at(i)) != NULL && count < MOST; i++) /* one way: as above */
+        names[count++] = m->name;
     for (size_t i = 0; i < count; i++)
         if (strcmp(names[i], kind) == 0) {
             *moving = i >= still;

@@ -54,7 +54,7 @@ static void put_option(const froe_option_info *o) {
     char standard[32], lo[32], hi[32], text[500];
     if (o->choices) {
         size_t used = (size_t)snprintf(text, sizeof text, "%s: ", o->summary);
-        for (size_t i = 0; o->choices[i] && used < sizeof text; i++)
+        for (size_t i = 0; o->choices[i] && used < sizeof text; i++) /* one way: there is room */
             used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", i ? ", " : "", o->choices[i]);
         snprintf(standard, sizeof standard, "%s", o->choices[(size_t)o->standard]);
     } else {
@@ -82,7 +82,8 @@ static void put_method(const froe_method_info *m) {
         }
         put_line(label, list);
     }
-    if (m->options->name) printf("  options, with their defaults:\n");
+    if (m->options->name) /* one way: each method has options */
+        printf("  options, with their defaults:\n");
     for (const froe_option_info *o = m->options; o->name; o++) put_option(o);
 }
 

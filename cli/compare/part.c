@@ -18,7 +18,7 @@ typedef struct ranked {
 static int by_key(const void *a, const void *b) {
     const ranked *x = a, *y = b;
     if (x->key != y->key) return x->key < y->key ? -1 : 1;
-    return x->id < y->id ? -1 : x->id > y->id;
+    return (x->id > y->id) - (x->id < y->id);
 }
 
 /* Half the place of an object along an axis, between its first corners: halves, so that nothing overflows. */
@@ -42,7 +42,7 @@ uint32_t *part_order(const froe_scene *scene) {
     for (int k = 0; k < dim; k++) {
         for (uint32_t i = 0; i < n; i++) work[i] = (ranked){place(scene, i, k), i};
         qsort(work, n, sizeof *work, by_key);
-        middle[k] = n ? work[n / 2].key : 0;
+        middle[k] = work[n / 2].key;
     }
     for (uint32_t i = 0; i < n; i++) {
         double far = 0;

@@ -61,8 +61,8 @@ json_t *table_value(const json_t *row, const table_column *column) {
     if (!value || json_is_null(value)) return json_null();
     if (!json_is_number(value)) return json_incref((json_t *)value);
     const double n = json_number_value(json_object_get(row, "objects"));
-    const double number = json_number_value(value) / (each && n > 0 ? n : 1);
-    if (!column->digits || number == 0 || !isfinite(number)) return json_real(number);
+    const double number = json_number_value(value) / (each ? n : 1);
+    if (!column->digits || number == 0) return json_real(number);
     const double unit = pow(10, floor(log10(fabs(number))) - column->digits + 1);
     return json_real(unit >= 1 ? round(number / unit) * unit : round(number / unit) / round(1 / unit));
 }
@@ -189,8 +189,7 @@ static void put_csv_row(FILE *out, const json_t *scene, const json_t *row, json_
     json_t *kept = kept_json(row);
     put_cell(out, kept);
     json_decref(kept);
-    const char *note = json_string_value(json_object_get(row, "note"));
-    put_csv_text(out, note ? note : "");
+    put_csv_text(out, json_string_value(json_object_get(row, "note")));
     fputc('\n', out);
 }
 

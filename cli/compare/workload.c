@@ -65,7 +65,7 @@ static froe_status ask_workload(workload_state *r, query_kind kind, double eps, 
     froe_status status;
     r->key = r->load->seed * 0xD1342543DE82EF95u + (uint64_t)kind;
     r->draws = i << 8;
-    switch (kind) {
+    switch (kind) { /* one way: each kind has a case */
     case POINT:
         draw_place(r, 0.01, place);
         status = froe_query_locate(r->query, place, &list, r->diag);
@@ -76,7 +76,6 @@ static froe_status ask_workload(workload_state *r, query_kind kind, double eps, 
     case RAY:
         draw_place(r, 0.1, place);
         for (int k = 0; k < r->dim; k++) direction[k] = draw_workload(r) - 0.5;
-        if (direction[0] == 0) direction[0] = 1;
         status = froe_query_ray(r->query, place, direction, INFINITY, &hit, r->diag);
         if (!status) *found += hit.object != FROE_NONE;
         return status;
@@ -142,9 +141,9 @@ static json_t *measure_all(workload_state *r, froe_status *status) {
 
 json_t *workload_run(const froe_tree *tree, const workload *load, froe_status *status, froe_diagnostic *diag) {
     workload_state r = {.load = load, .scene = froe_tree_scene(tree), .diag = diag};
-    double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+    double lo[FROE_MAX_DIM] = {0}, hi[FROE_MAX_DIM] = {0};
     r.dim = froe_scene_dim(r.scene);
-    if (!froe_scene_bounds(r.scene, lo, hi)) return json_object();
+    froe_scene_bounds(r.scene, lo, hi);
     for (int k = 0; k < r.dim; k++) r.side[k] = fmin(hi[k] - lo[k], 0x1p1000); /* windows stay finite */
     r.nodes = calloc(load->count + 1, sizeof *r.nodes);
     *status = r.nodes ? froe_query_new(tree, &r.query, diag) : FROE_E_MEMORY;

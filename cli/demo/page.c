@@ -38,7 +38,7 @@ static bool begins(const char *text, const char *word) {
 /* The word after one of these: the name of a picture. */
 static int picture_of(const demo_step *step, const char **name) {
     static const char *const before[] = {" --animate ", " -o "};
-    for (size_t i = 0; i < 2; i++) {
+    for (size_t i = 0; i < 2; i++) { /* one way: each picture has a name */
         const char *at = strstr(step->command, before[i]);
         if (!at || begins(at + strlen(before[i]), "--")) continue;
         *name = at + strlen(before[i]);
@@ -73,7 +73,7 @@ static void put_tree(FILE *out, const demo_step *step, const json_t *report) {
     html_pairs(out, report, tree_fields);
     fputs("<h3>How exact decisions were made</h3>\n", out);
     html_pairs(out, report, exactness_fields);
-    if (json_object_size(json_object_get(report, "bounds"))) {
+    if (json_object_size(json_object_get(report, "bounds"))) { /* one way: each method that is shown promises */
         fputs("<h3>What the method promises, and what came out</h3>\n", out);
         html_bounds(out, json_object_get(report, "bounds"));
     }

@@ -98,7 +98,7 @@ enum { DIGITS = 18 }; /* more than tell any double from its neighbours, with the
 static bool put_digits(const char *c, char out[DIGITS]) {
     size_t length = 0, end = 0;
     for (; *c && (*c | 0x20) != 'e'; ++c) {
-        if (*c < '0' || *c > '9' || (*c == '0' && !length)) continue;
+        if (*c < '0' || (*c == '0' && !length)) continue; /* a sign, a point */
         if (length < DIGITS - 1) out[length] = *c;
         ++length;
         if (*c != '0') end = length;
@@ -114,7 +114,8 @@ static bool is_held(const char *number) {
     const double value = strtod(number, NULL);
     if (!isfinite(value)) return false;
     print_number(text, value);
-    return put_digits(number, digits) && put_digits(text, held) && !strcmp(digits, held);
+    (void)put_digits(text, held); /* no double needs more */
+    return put_digits(number, digits) && !strcmp(digits, held);
 }
 
 /* ------------------------------------------------------------------- cells -- */

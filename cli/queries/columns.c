@@ -127,10 +127,10 @@ static int add_field(choice *c, size_t i) {
     return code;
 }
 
-/* All columns of the file that are not there; of several without a name the first. */
+/* All columns of the file, which there is, that are not there; of several without a name the first. */
 static int add_rest(choice *c) {
     int code = 0;
-    for (size_t i = 0; c->rows && i < c->rows->columns && !code; i++) {
+    for (size_t i = 0; i < c->rows->columns && !code; i++) {
         const char *name = c->rows->names[i];
         char *longer = malloc(sizeof prefix + strlen(name));
         if (!longer) return cli_fail_memory();

@@ -80,7 +80,7 @@ void cli_put_geometry(cli_table *table, const cli_answer *a) {
     const int dim = froe_scene_dim(table->scene);
     const double *query =
         table->block ? table->block->numbers + table->block->starts[a->at] * table->block->width : NULL;
-    switch (table->shape) {
+    switch (table->shape) { /* one way: each shape has a case */
     case CLI_SHAPE_NONE:
         return cli_answers_put(out, "null");
     case CLI_SHAPE_QUERY:

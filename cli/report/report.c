@@ -38,7 +38,7 @@ void cli_number(char *text, double value) {
         snprintf(text, 32, "%" JSON_INTEGER_FORMAT, (json_int_t)value);
         return;
     }
-    for (int digits = 1; digits <= 17; digits++) {
+    for (int digits = 1; digits <= 17; digits++) { /* one way: 17 tell each double from all others */
         snprintf(text, 32, "%.*g", digits, value);
         if (strtod(text, NULL) == value) return;
     }
@@ -153,7 +153,7 @@ static void put_json_items(const json_t *array, int indent) { // NOLINT(misc-no-
 
 static void put_json(const json_t *value, int indent) { // NOLINT(misc-no-recursion)
     char number[32];
-    switch (json_typeof(value)) {
+    switch (json_typeof(value)) { /* one way: each type has a case */
     case JSON_OBJECT:
         putchar('{'), put_json_members(value, indent), putchar('}');
         break;
@@ -293,7 +293,7 @@ static void put_table(const char *title, const json_t *rows, int indent) {
     json_t *row;
     size_t i;
     if (json_is_array(rows)) {
-        if (*title) printf("%*s%s\n", indent, "", title);
+        printf("%*s%s\n", indent, "", title);
         put_row(&t, json_array_get(rows, 0), NULL, "", indent);
         json_array_foreach((json_t *)rows, i, row) put_row(&t, json_array_get(rows, 0), row, "", indent);
         return;

@@ -37,7 +37,7 @@ json_t *cli_tree_json(const froe_tree *tree) {
     const froe_predicate_stats *p = &r.predicates;
     const double each = r.objects ? (double)r.fragments / (double)r.objects : 0;
     json_t *bounds = json_object();
-    for (const froe_promise *promise = r.promises; promise && promise->name; promise++)
+    for (const froe_promise *promise = r.promises; promise->name; promise++)
         json_object_set_new(bounds, promise->name,
                             json_pack("{s:f, s:f}", "promised", promise->promised, "measured", promise->measured));
     json_t *predicates =
@@ -46,9 +46,9 @@ json_t *cli_tree_json(const froe_tree *tree) {
                   "exact_zero", (json_int_t)p->exact_zero);
     return json_pack(
         "{s:s, s:o, s:i, s:I, s:I, s:I, s:I, s:I, s:I, s:f, s:I, s:I, s:I, s:I, s:f, s:I, s:I, s:I, s:I, s:o, s:o}",
-        "method", r.method, "settings", settings_json(r.settings ? r.settings : ""), "dim", r.dim, "leaf",
-        (json_int_t)r.leaf, "seed", (json_int_t)r.seed, "objects", (json_int_t)r.objects, "nodes", (json_int_t)r.nodes,
-        "leaves", (json_int_t)r.leaves, "fragments", (json_int_t)r.fragments, "pieces_per_object", each, "in_cut",
+        "method", r.method, "settings", settings_json(r.settings), "dim", r.dim, "leaf", (json_int_t)r.leaf, "seed",
+        (json_int_t)r.seed, "objects", (json_int_t)r.objects, "nodes", (json_int_t)r.nodes, "leaves",
+        (json_int_t)r.leaves, "fragments", (json_int_t)r.fragments, "pieces_per_object", each, "in_cut",
         (json_int_t)r.in_cut, "covers", (json_int_t)r.covers, "size", (json_int_t)r.size, "height",
         (json_int_t)r.height, "mean_depth", r.mean_depth, "max_leaf", (json_int_t)r.max_leaf, "inseparable",
         (json_int_t)r.inseparable, "crowded", (json_int_t)r.crowded, "bytes", (json_int_t)r.bytes, "predicates",

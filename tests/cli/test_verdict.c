@@ -1,5 +1,5 @@
-/* test_verdict.c: froe check says no, with exit code 1 and the violation, about a
- * tree that the file format lets pass: whole and valid, but with two objects swapped. */
+/* test_verdict.c: what froe says of trees that no command of its own saves: valid files with two objects swapped, of
+ * which froe check says no, with exit code 1 and the violation; without objects; with settings of other builders. */
 #include "tree/tree.h"
 #include <setjmp.h>
 #include <stdarg.h>
@@ -68,12 +68,72 @@ static void swapped_objects_are_found_and_named(void **state) {
     assert_int_equal(run_froe("check wrong.froe --json 2>/dev/null", said, sizeof said), 1);
     assert_non_null(strstr(said, "\"ok\": false"));
     assert_non_null(strstr(said, "\"violation\""));
+    assert_int_equal(run_froe("check wrong.froe --json >/dev/full", said, sizeof said), 4);
+}
+
+/* A program may save a tree without objects, which no file of a scene has. */
+static void a_tree_of_nothing_is_told_about_and_asked(void **state) {
+    (void)state;
+    static const struct {
+        const char *arguments, *said;
+    } lines[] = {
+        {"info nothing.froe", "pieces per object  0\n"},
+        {"info nothing.froe --json", "\"bounds\": {}"},
+        {"check nothing.froe", "every invariant holds"},
+        {"draw nothing.froe -o nothing.svg", "nothing.svg"},
+        {"export nothing.froe -o nothing.csv", "nothing.csv"},
+        {"pairs nothing.froe --count", "kind,count\ncross,0\ntouch,0\noverlap,0\n"},
+        {"locate nothing.froe --queries point.csv", "query,object,group\n"},
+        {"near nothing.froe --queries point.csv", "query,object,distance\n"},
+    };
+    char said[8000];
+    froe_scene *scene;
+    froe_tree *tree;
+    const froe_build_options options = froe_build_defaults();
+    assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+    const froe_crs degrees = {.kind = FROE_CRS_GEOGRAPHIC, .name = "WGS 84", .code = "EPSG:4326"};
+    assert_int_equal(froe_scene_set_crs(scene, &degrees), FROE_OK);
+    assert_int_equal(froe_build(scene, &options, &tree, NULL), FROE_OK);
+    froe_scene_free(scene);
+    assert_int_equal(froe_tree_save(tree, "nothing.froe", NULL), FROE_OK);
+    froe_tree_free(tree);
+    FILE *points = fopen("point.csv", "w");
+    assert_non_null(points);
+    fputs("lon,lat\n1,2\n", points);
+    fclose(points);
+    for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
+        if (run_froe(lines[i].arguments, said, sizeof said) || !strstr(said, lines[i].said))
+            fail_msg("froe %s: %s", lines[i].arguments, said);
+}
+
+/* Settings are words of the builder's, numbers or not; a file may hold others. */
+static void settings_are_told_as_they_are(void **state) {
+    (void)state;
+    char said[8000];
+    froe_tree *tree = two_points();
+    snprintf(tree->meta.settings, sizeof tree->meta.settings,
+             "whole=7 real=0.5 huge=1e300 low=-1e300 text=7x none= word long=%070d", 1);
+    assert_int_equal(froe_tree_save(tree, "settings.froe", NULL), FROE_OK);
+    froe_tree_free(tree);
+    assert_int_equal(run_froe("info settings.froe --json", said, sizeof said), 0);
+    const char *settings = strstr(said, "\"settings\"");
+    assert_non_null(settings);
+    assert_non_null(strstr(settings, "\"whole\": 7,"));
+    assert_non_null(strstr(settings, "\"real\": 0.5,"));
+    assert_non_null(strstr(settings, "\"huge\": 1e+300,"));
+    assert_non_null(strstr(settings, "\"low\": -1e+300,"));
+    assert_non_null(strstr(settings, "\"text\": \"7x\","));
+    assert_non_null(strstr(settings, "\"none\": \"\","));
+    assert_non_null(strstr(settings, "0001\""));
+    assert_null(strstr(settings, "word"));
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_tree_as_it_was_built_passes),
         cmocka_unit_test(swapped_objects_are_found_and_named),
+        cmocka_unit_test(a_tree_of_nothing_is_told_about_and_asked),
+        cmocka_unit_test(settings_are_told_as_they_are),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
