@@ -23,13 +23,13 @@ static struct {
 
 _Noreturn static void end(int code, const char *said) {
     const char *name = crash_guard.name;
-    const bool told = write(STDERR_FILENO, name, strlen(name)) > 0;
-    const bool whole = write(STDERR_FILENO, said, strlen(said)) > 0;
+    if (write(STDERR_FILENO, name, strlen(name)) < 0) code = CLI_RESOURCES;
+    if (write(STDERR_FILENO, said, strlen(said)) < 0) code = CLI_RESOURCES;
     if (*crash_guard.spool.folder) {
         unlink(crash_guard.spool.copy);
         rmdir(crash_guard.spool.folder);
     }
-    _exit(told & whole ? code : CLI_RESOURCES);
+    _exit(code);
 }
 
 static void on_crash(int number) {
