@@ -30,8 +30,8 @@ static bool is(const char *word, const char *one, const char *other) {
     return strcmp(word, one) == 0 || strcmp(word, other) == 0;
 }
 
-/* Standard streams that the caller has closed stay without use: otherwise a file would be opened in their place, and get
- * what is said. Only complaints may vanish. (stdopen of gnulib) */
+/* Standard streams that the caller has closed stay without use: otherwise a file would be opened in their place, and
+ * get what is said. Only complaints may vanish. (stdopen of gnulib) */
 static void take_closed_streams(void) {
     for (int i = STDIN_FILENO; i <= STDERR_FILENO; i++)
         if (fcntl(i, F_GETFD) < 0) (void)open("/dev/null", i == STDOUT_FILENO ? O_RDONLY : O_WRONLY);

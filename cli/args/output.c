@@ -91,7 +91,8 @@ int cli_output_open(const cli_part *parts, void *args) {
 /* NAME': ... of the library, where options are members of a struct, as --NAME: ... */
 static int fail_option(const char *text) {
     const size_t length = strcspn(text, "'");
-    return cli_fail(CLI_USE, NULL, "--%.*s: %s", (int)length, text, text + length + strlen("': "));
+    const char *sentence = text + length + strlen("': ");
+    return cli_fail(CLI_USE, NULL, "--%.*s: %s", (int)length, text, sentence);
 }
 
 int cli_output_fail(const cli_output *output, froe_status status, const froe_diagnostic *diag) {

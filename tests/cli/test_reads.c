@@ -10,7 +10,7 @@
 static bool all; /* the argument "all": every kind of fault at every call, and more pairs; otherwise one kind in turn */
 enum { PAIRS = 2, MOST_WRITES = 12 };
 
-/* Does it name a file of the command line, what reads it, one of the system, or one that the command has made for itself? */
+/* Does it name a file of the command line, what reads it, one of the system, or one that the command has made? */
 static bool names_file(const run_case *c, const char *said) {
     char line[300];
     if (strstr(said, "standard input") || strstr(said, "froe-") || strstr(said, "/proc/")) return true;
