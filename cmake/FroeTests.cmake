@@ -126,8 +126,9 @@ endforeach()
 
 # Parts of the program, which tests run otherwise.
 set(part_of_plot cli/report/plot.c cli/report/axis.c)
+set(part_of_html cli/report/html.c)
 set(part_of_redirect cli/demo/redirect.c cli/exit.c cli/progress.c cli/args/crash.c)
-foreach(name plot redirect)
+foreach(name plot html redirect)
   if(TARGET test_cli_${name})
     target_sources(test_cli_${name} PRIVATE ${part_of_${name}})
     target_include_directories(test_cli_${name} PRIVATE cli)

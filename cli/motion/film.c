@@ -124,8 +124,7 @@ static int prepare_exactly(film_run *r) {
 
 /* A call may fail because of the file that it writes, of the options, or else of the motion. */
 static int fail_to_draw(const render_args *args, froe_status status, const froe_diagnostic *diag) {
-    if (status == FROE_E_IO || status == FROE_E_OPTIONS || status == FROE_E_ARG)
-        return cli_output_fail(&args->output, status, diag);
+    if (status == FROE_E_IO || status == FROE_E_OPTIONS) return cli_output_fail(&args->output, status, diag);
     return cli_fail_status(CLI_WORKING, args->tree.scene.path, status, diag);
 }
 

@@ -113,6 +113,9 @@ static void settings_are_told_as_they_are(void **state) {
     froe_tree *tree = two_points();
     snprintf(tree->meta.settings, sizeof tree->meta.settings,
              "whole=7 real=0.5 huge=1e300 low=-1e300 text=7x none= word long=%070d", 1);
+    memset(tree->meta.promises, 0, sizeof tree->meta.promises);
+    tree->meta.promise_count = 1;
+    tree->meta.promises[0] = (tree_promise){.name = "far", .promised = 123456789.5, .measured = 2};
     assert_int_equal(froe_tree_save(tree, "settings.froe", NULL), FROE_OK);
     froe_tree_free(tree);
     assert_int_equal(run_froe("info settings.froe --json", said, sizeof said), 0);
@@ -126,6 +129,8 @@ static void settings_are_told_as_they_are(void **state) {
     assert_non_null(strstr(settings, "\"none\": \"\","));
     assert_non_null(strstr(settings, "0001\""));
     assert_null(strstr(settings, "word"));
+    assert_int_equal(run_froe("info settings.froe", said, sizeof said), 0);
+    assert_non_null(strstr(said, "  bounds     promised  measured\n    far   1.23457e+08         2\n"));
 }
 
 int main(void) {
