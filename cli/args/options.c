@@ -99,9 +99,8 @@ static int refuse_unknown(const cli_part *parts, const char *word) {
     enum { MOST = 64 };
     const char *names[MOST];
     size_t count = 0;
-    for (const cli_part *part = parts; part->title; part++)
-        for (const cli_option *option = part->options; option->type && count < MOST;
-             option++) /* one way: there are fewer */
+    for (const cli_part *part = parts; part->title; part++) /* one way: there are fewer */
+        for (const cli_option *option = part->options; option->type && count < MOST; option++)
             if (option->name) names[count++] = option->name;
     char name[NAME_MAX_LENGTH + 1] = "";
     const char *bare = word + strspn(word, "-");

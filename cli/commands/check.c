@@ -49,7 +49,6 @@ static int check_folder(const check_args *args) {
     }
     cli_progress_end(&bar);
     froe_shards_close(shards);
-    if (status == FROE_E_CANCELLED) return cli_fail(CLI_CANCELLED, NULL, "Cancelled.");
     if (status) return cli_fail_status(CLI_WORKING, path, status, &diag);
     char headline[400];
     snprintf(headline, sizeof headline, "%.200s: every invariant of every shard holds", path);

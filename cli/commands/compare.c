@@ -100,10 +100,10 @@ static json_t *measures_json(const compare_args *args, const froe_scene *scene) 
 static bool is_wanted(const char *list, const char *method) {
     if (!list) return true;
     const size_t length = strlen(method);
-    for (const char *at = list; (at = strstr(at, method)) != NULL; at += length)
-        if ((at == list || at[-1] == ',') &&
-            (at[length] == '\0' || at[length] == ',')) /* one way: no name holds another */
-            return true;
+    for (const char *at = list; (at = strstr(at, method)) != NULL; at += length) {
+        const bool begins = at == list || at[-1] == ',';                      /* one way: no name is within another */
+        if (begins && (at[length] == '\0' || at[length] == ',')) return true; /* one way: as above */
+    }
     return false;
 }
 

@@ -1,5 +1,5 @@
-/* test_allocations.c: every command, while memory runs out, or Ctrl-C or `kill` comes, anywhere: at each call that
- * gives memory, and at each that tells of progress. It says that memory has run out, with exit code 4, and what it was
+/* test_allocations.c: every command, while memory runs out, the time is over, or Ctrl-C or `kill` comes, anywhere: at each
+ * call that gives memory, and at each that tells of progress. It says that memory has run out, with exit code 4, and what it was
  * to write is as before; or it found another way, and all is as without a fault. After a signal it says that it was
  * cancelled. Nothing else is left behind, nothing crashes.
  *
@@ -37,11 +37,23 @@ static const char *judge_signal(const outcome *o, int number) {
     return is_told(o->said) && strstr(o->said.bytes, "ancelled") ? NULL : "it does not say that it was cancelled";
 }
 
+/* When the time is over, which is told unless all is done. */
+static const char *judge_late(const outcome *o) {
+    if (!WIFEXITED(o->ended)) return "it crashes";
+    if (WEXITSTATUS(o->ended) == 0) return o->whole ? NULL : "its output is another one";
+    if (WEXITSTATUS(o->ended) != 4) return "the exit code is wrong";
+    if (!o->as_before && !o->file_whole) return "the old file is lost";
+    return is_told(o->said) && strstr(o->said.bytes, "longer than --limit-time allows")
+               ? NULL
+               : "it does not say that it was late";
+}
+
 static const char *judge(const run_case *c, const outcome *o, fault one) {
     (void)c;
     const bool memory = !strcmp(one.variable, "FROE_FAULT_MEMORY");
     const bool met = one.at <= (memory ? o->calls.memory : o->calls.steps);
     if (one.kind < FAULT_INTERRUPT || (!met && !WIFSIGNALED(o->ended))) return judge_memory(o);
+    if (one.kind == FAULT_LATE) return judge_late(o);
     return judge_signal(o, one.kind == FAULT_INTERRUPT ? SIGINT : SIGTERM);
 }
 
@@ -109,6 +121,7 @@ static unsigned try_case(const run_case *c, known_places *known, unsigned *tried
     try_calls(&f, "FROE_FAULT_MEMORY", calls.memory, SAMPLE / 2, FAULT_INTERRUPT);
     try_calls(&f, "FROE_FAULT_MEMORY", calls.memory, SAMPLE / 2, FAULT_TERMINATE);
     try_calls(&f, "FROE_FAULT_STEPS", calls.steps, SAMPLE / 2, FAULT_INTERRUPT);
+    try_calls(&f, "FROE_FAULT_STEPS", calls.steps, SAMPLE / 3, FAULT_LATE);
     if (all)
         printf("froe %s: %u calls for memory, %u of progress, %u runs, %u wrong\n", c->words, calls.memory, calls.steps,
                f.tried, f.wrong);

@@ -201,6 +201,7 @@ static void a_library_that_cannot_be_opened_is_named(void **state) {
         int code;
     } lines[] = {
         {"draw s.froe -o out.svg", "libfroe-draw", 4},
+        {"draw s.froe -o out.svg --limit-memory 4000", "libfroe-draw", 4},
         {"measure s.geojson --draw out.svg", "libfroe-draw", 4},
         {"render h.froe -o out.png", "libfroe-draw", 4},
         {"render w.mfjson --frames 2 -o out-%d.png", "libfroe-draw", 4},

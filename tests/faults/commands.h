@@ -21,6 +21,7 @@
 
 #include <cmocka.h> /* needs setjmp.h and stdarg.h before it */
 
+#define FIFTY "12345678901234567890123456789012345678901234567890"
 enum { MOST_WORDS = 40, MOST_TEXT = 1 << 21, MOST_TOLD = 20 };
 typedef enum case_kind {
     PLAIN,
@@ -69,7 +70,7 @@ static const run_case cases[] = {
     {"check s.froe --json", NULL, TIMED},
     {"methods --json", NULL, PLAIN},
     {"locate s.froe --queries q.csv --columns x,name,id", NULL, PLAIN},
-    {"locate data/countries-110m.json --wrap --groups --queries q.csv", NULL, LINKED},
+    {"locate data/countries-110m.json --wrap --groups --queries q.csv --columns name,id", NULL, LINKED},
     {"range s.geojson --queries r.csv --json", NULL, TIMED},
     {"range h.froe --queries r3.csv --format jsonl", NULL, PLAIN},
     {"ray h.froe --queries y.csv", NULL, PLAIN},
@@ -241,7 +242,8 @@ static void set_up(void) {
     spill("tri.off", "OFF\n6 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 1\n0 1 1\n3 0 1 2\n3 3 4 5\n");
     spill("in", plan), spill("plan.geojson", plan);
     spill("poses.csv", "body,time,x,y,qz,qw\ndoor,0,0,0,0,1\ndoor,2,0,0,0.7071067811865476,0.7071067811865476\n");
-    spill("q.csv", "x,y,name\n0.5,0.5,a\n2,48,\"b, c\"\n");
+    /* Lines that are a little longer than what getline() takes at first, and one over two lines. */
+    spill("q.csv", "x,y,name\n0.5,0.5,a\n2,48,\"b, c\n" FIFTY FIFTY "123456\"\n3,48," FIFTY FIFTY "1234567\n");
     spill("r.csv", "lo_x,lo_y,hi_x,hi_y\n0,0,0.5,0.5\n");
     spill("c.csv", "ax,ay,bx,by,r,name\n0.1,0.1,0.5,0.5,0.1,a\n0.2,0.9,0.3,0.8,0.05,b\n");
     spill("r3.csv", "lo_x,lo_y,lo_z,hi_x,hi_y,hi_z\n-9,-9,-9,9,9,9\n");

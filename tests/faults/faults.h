@@ -22,6 +22,7 @@ typedef enum fault_kind {
     FAULT_KILL,       /* kill -9 instead of this call */
     FAULT_INTERRUPT,  /* Ctrl-C, then the call */
     FAULT_TERMINATE,  /* kill, then the call */
+    FAULT_LATE,       /* the time of --limit-time is over, then the call */
     FAULT_END,        /* read() finds the end of the file */
     FAULT_FULL,       /* this call and all after it that need room: No space left on device */
     FAULT_POWER,      /* the power is lost instead of this call (power.h) */

@@ -67,8 +67,9 @@ static __attribute__((noinline)) bool meets(counted *c) {
     const unsigned number = atomic_fetch_add(&c->calls, 1) + 1;
     if (c == &memory && places_to >= 0) tell_place(number);
     if (!c->at || number < c->at || (number > c->at && c->kind != FAULT_FOREVER)) return false;
-    if (c->kind == FAULT_INTERRUPT || c->kind == FAULT_TERMINATE) {
-        raise(c->kind == FAULT_INTERRUPT ? SIGINT : SIGTERM);
+    if (c->kind >= FAULT_INTERRUPT && c->kind <= FAULT_LATE) {
+        static const int signals[] = {SIGINT, SIGTERM, SIGALRM};
+        raise(signals[c->kind - FAULT_INTERRUPT]);
         return false;
     }
     errno = ENOMEM;
