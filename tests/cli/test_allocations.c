@@ -1,7 +1,7 @@
-/* test_allocations.c: every command, while memory runs out, the time is over, or Ctrl-C or `kill` comes, anywhere: at each
- * call that gives memory, and at each that tells of progress. It says that memory has run out, with exit code 4, and what it was
- * to write is as before; or it found another way, and all is as without a fault. After a signal it says that it was
- * cancelled. Nothing else is left behind, nothing crashes.
+/* test_allocations.c: every command, while memory runs out, the time is over, or Ctrl-C or `kill` comes, anywhere: at
+ * each call that gives memory, and at each that tells of progress. It says that memory has run out, with exit code 4,
+ * and what it was to write is as before; or it found another way, and all is as without a fault. After a signal it says
+ * that it was cancelled, or late. Nothing else is left behind, nothing crashes.
  *
  * A place of the program that asks for memory is refused it once, in the first command that comes there. Of the places
  * an eighth is tried. Of the other faults there is a sample of the calls, of another seed for each command. With the

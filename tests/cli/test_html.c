@@ -1,5 +1,5 @@
-/* test_html.c: values of reports as they stand on pages: digits in groups, signs, numbers that are large, small or broken;
- * and how much of a promise was used. */
+/* test_html.c: values of reports as they stand on pages: digits in groups, signs, numbers that are large, small or
+ * broken; and how much of a promise was used. */
 #include "embedded.h"
 #include "report/html.h"
 #include "version.h"
