@@ -71,8 +71,7 @@ int cli_fail_unknown(const char *what, const char *name, const char *meant, cons
 int cli_fail_status(cli_stage stage, const char *file, froe_status status, const froe_diagnostic *diag) {
     if (status == FROE_E_CANCELLED) return cli_fail_cancelled(file);
     const int code = codes[status][stage];
-    if (!diag || diag->status != status || !diag->message[0])
-        return cli_fail(code, file, "The call failed: %s.", froe_status_text(status));
+    if (diag->status != status) return cli_fail(code, file, "The call failed: %s.", froe_status_text(status));
     const char *sentence = diag->message;
     bool inside = false; /* does it name a file in the folder `file`? */
     if (file) {          /* The library names a file by the end of its path. Messages of readers begin with it. */

@@ -99,9 +99,9 @@ static int refuse_unknown(const cli_part *parts, const char *word) {
     enum { MOST = 64 };
     const char *names[MOST];
     size_t count = 0;
-    for (const cli_part *part = parts; part->title; part++) /* one way: there are fewer */
-        for (const cli_option *option = part->options; option->type && count < MOST; option++)
-            if (option->name) names[count++] = option->name;
+    for (const cli_part *part = parts; part->title; part++)
+        for (const cli_option *option = part->options; option->type; option++)
+            if (option->name && count < MOST) names[count++] = option->name; /* one way: there are fewer */
     char name[NAME_MAX_LENGTH + 1] = "";
     const char *bare = word + strspn(word, "-");
     memcpy(name, bare, strcspn(bare, "=") < NAME_MAX_LENGTH ? strcspn(bare, "=") : NAME_MAX_LENGTH);

@@ -67,7 +67,7 @@ static bool set_subject(const char *name, size_t length, froe_line_style *style)
 static double number_of(const char *field, size_t length) {
     char *end;
     const double x = strtod(field, &end);
-    return length && end == field + length && isfinite(x) ? x : NAN;
+    return end == field + length && isfinite(x) ? x : NAN;
 }
 
 /* How: WIDTH:RRGGBB:DASH:GAP, up to `end`. */

@@ -192,6 +192,23 @@ static void a_device_gets_all_or_the_reason_is_told(void **state) {
     assert_true(copied > 2);
 }
 
+/* Each of the first calls that ask for memory; all that follow belong to the commands that it runs. */
+static void a_demo_that_cannot_begin_says_why(void **state) {
+    (void)state;
+    char plan[8];
+    size_t size;
+    for (int i = 1; i <= 4; i++) {
+        snprintf(plan, sizeof plan, "%d %d", i, FAULT_EIO);
+        setenv("FROE_FAULT_MEMORY", plan, 1);
+        const int ended = run_froe("demo -o made", false, 0, FAULT_NONE);
+        char *said = slurp("said", &size);
+        if (!WIFEXITED(ended) || WEXITSTATUS(ended) != 4 || !strstr(said, "Out of memory."))
+            fail_msg("froe demo: memory %s: %#x: %s", plan, (unsigned)ended, said);
+        free(said);
+    }
+    unsetenv("FROE_FAULT_MEMORY");
+}
+
 /* Files of the libraries' names that are none are found first. What needs no library does without, and a comparison has
  * no pictures. */
 static void a_library_that_cannot_be_opened_is_named(void **state) {
@@ -236,6 +253,7 @@ int main(int argc, char **argv) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_command_that_writes_loses_nothing),
         cmocka_unit_test(a_device_gets_all_or_the_reason_is_told),
+        cmocka_unit_test(a_demo_that_cannot_begin_says_why),
         cmocka_unit_test(a_library_that_cannot_be_opened_is_named),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
