@@ -35,8 +35,13 @@ static bool next_line(cli_rows *rows, char **text, size_t *capacity, size_t *len
     return true;
 }
 
+/* Was it a failure that ended the records? */
+static bool stopped(const cli_rows *rows) {
+    return ferror(rows->file) || errno == ENOMEM;
+}
+
 /* Reads a record without its end into rows->text: a line, and those behind it within quotation marks. False: there is
- * none, or no memory. */
+ * none, no memory, or no reading on. */
 static bool next_record(cli_rows *rows) {
     size_t length, more;
     errno = 0;
@@ -55,14 +60,10 @@ static bool next_record(cli_rows *rows) {
         length += more;
         rows->open = support_csv_goes_on(rows->more, rows->separator, true);
     }
+    if (rows->open && stopped(rows)) return false;
     while (length && (rows->text[length - 1] == '\n' || rows->text[length - 1] == '\r')) length--;
     rows->text[length] = '\0';
     return true;
-}
-
-/* Was it a failure that ended the records? */
-static bool stopped(const cli_rows *rows) {
-    return ferror(rows->file) || errno == ENOMEM;
 }
 
 static int fail_reading(const cli_rows *rows) {
