@@ -147,7 +147,7 @@ static void tiny_normals_are_raised(void **state) {
             if (lift < 0x1p800) assert_true(raise == 1);
             if (lift >= 0x1p800) assert_true(raise * normal >= 0x1p199 && raise * normal < 0x1p201);
         }
-        assert_true(filter_raise(lift, 0) == 1 && filter_raise(lift, 0x1p200) == 1);
+        assert_true(filter_raise(lift, 0) == 1);
     }
 }
 
