@@ -121,7 +121,7 @@ static int check_one_file(const cli_output *out) {
 }
 
 /* False: not all bytes could be written, and errno says why. */
-static bool put_all(int target, const char *bytes, size_t count) {
+static bool write_whole(int target, const char *bytes, size_t count) {
     while (count) {
         const ssize_t put = write(target, bytes, count);
         if (put < 0 && errno != EINTR) return false;
@@ -137,7 +137,7 @@ static int copy_output(const cli_output *out) {
     bool whole = true;
     const int in = open(out->copy, O_RDONLY | O_CLOEXEC);
     if (in < 0) return cli_fail_file(CLI_RESOURCES, out->copy, "read");
-    while (whole && (got = read(in, buffer, sizeof buffer)) > 0) whole = put_all(out->target, buffer, (size_t)got);
+    while (whole && (got = read(in, buffer, sizeof buffer)) > 0) whole = write_whole(out->target, buffer, (size_t)got);
     const int error = errno;
     close(in);
     errno = error;
