@@ -16,7 +16,7 @@ CHECK = ROOT / "scripts/check-notebooks"
 
 
 def check(*arguments):
-    """The exit status, and what is printed. Where all is well, that is not what ZeroMQ may say of a kernel that ends."""
+    """The exit status, and what is printed. Where all is well, not what ZeroMQ says of a kernel that ends."""
     done = subprocess.run([sys.executable, CHECK, *map(str, arguments)], capture_output=True, text=True, timeout=300)
     return done.returncode, done.stdout + (done.stderr if done.returncode else "")
 
