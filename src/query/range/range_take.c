@@ -115,7 +115,6 @@ static void normal_of(int dim, const double *p, const double *q, const double *r
 static bool add_slab(geom_range *r, const froe_allocator *alloc, const double *n) {
     double back[FROE_MAX_DIM];
     for (int k = 0; k < r->dim; k++) back[k] = -n[k];
-    /* one way: shapes have few facets, and an array begins with room for all of them */
     return geom_range_add_facet(r, alloc, n) && geom_range_add_facet(r, alloc, back);
 }
 
