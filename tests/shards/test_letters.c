@@ -199,7 +199,7 @@ static bool count_pair(void *user, const froe_found_pair *pair) {
     return true;
 }
 
-/* Pairs are those of the shards that a process owns, and a failure is told also where nobody asks for its sentence. */
+/* Pairs are those of the shards that a process owns, and a failure has its status also where no diagnostic is given. */
 static void processes_have_pairs_of_their_own(void **state) {
     froe_shards *shared = *state, *s;
     size_t all = 0, parts = 0;
