@@ -146,7 +146,7 @@ export async function cancelled(page) {
     return page.$eval(".status", (status) => status.textContent);
 }
 
-const pause = (milliseconds) => new Promise((resume) => setTimeout(resume, milliseconds));
+export const pause = (milliseconds) => new Promise((resume) => setTimeout(resume, milliseconds));
 /** Waits until something holds, for 20 s at most: other tests may keep the processors busy. */
 export async function until(holds) {
     for (let tries = 0; !await holds(); tries++) {

@@ -6,7 +6,7 @@ import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before, test as register } from "node:test";
-import { launch, open, press, serve } from "./browser.mjs";
+import { launch, open, pause, press, serve } from "./browser.mjs";
 
 const folder = mkdtempSync(join(tmpdir(), "froe-move-"));
 const test = (name, body) => register(name, { timeout: 240000 }, body);
@@ -51,7 +51,7 @@ test("it plays, and pauses", async () => {
     await page.waitForFunction(() => Number(document.querySelector(".timeline input").value) > 0.02);
     await click("Pause");
     const stood = await time(page);
-    await new Promise((resume) => setTimeout(resume, 200));
+    await pause(200);
     assert.equal(await time(page), stood);
     assert.deepEqual(page.wrong, []);
     await page.close();

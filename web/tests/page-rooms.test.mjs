@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { after, before, test as register } from "node:test";
-import { assertHeld, cancelled, cancelNext, drawn, dropped, held, launch, open, said, serve, SHOWN, shown, until } from "./browser.mjs";
+import { assertHeld, cancelled, cancelNext, drawn, dropped, held, launch, open, pause, said, serve, SHOWN, shown, until } from "./browser.mjs";
 
 const data = (name) => readFileSync(new URL(`../../data/${name}`, import.meta.url));
 const test = (name, body) => register(name, { timeout: 240000 }, body);
@@ -91,7 +91,7 @@ test("a scene that comes late does not replace one that was chosen after it", as
         await page.select("select", fast);
         assert.match(await shown(page, room), text);
         await page.evaluate(() => globalThis.release());
-        await new Promise((resume) => setTimeout(resume, 1000));
+        await pause(1000);
         assert.match(await shown(page, room), text);
         await page.evaluate((slow) => { delete globalThis.release; location.hash = slow; }, `#${room}?scene=${slow}`);
         await page.waitForFunction(() => globalThis.release);
@@ -108,7 +108,7 @@ test("an address that is entered in its own room says the same as anew", async (
         const page = await at(`#${room}?scene=${scene}`);
         await shown(page, room);
         await page.evaluate((hash) => { location.hash = hash; }, `#${room}?${state}`);
-        await new Promise((resume) => setTimeout(resume, 600));
+        await pause(600);
         assert.equal(await page.evaluate("location.hash"), `#${room}?${state.replace(/^scene=rooms&/, room === "ask" ? "" : "scene=rooms&")}`);
         await page.close();
     }
@@ -117,7 +117,7 @@ test("an address that is entered in its own room says the same as anew", async (
 test("a question about a model draws the answers again, and not the model", async () => {
     const page = await at("#ask?scene=bracket&kind=window&size=0.1&px=0.45&py=0.55");
     await shown(page, "ask");
-    await new Promise((resume) => setTimeout(resume, 300));
+    await pause(300);
     const fills = await page.evaluate(async () => {
         const { prototype } = CanvasRenderingContext2D, { fill } = prototype;
         let count = 0;
@@ -185,7 +185,7 @@ test("times of another kind of question are not shown", async () => {
         [...document.querySelectorAll("button")].find((it) => it.textContent.startsWith("Measure")).click();
         document.querySelector("input[value=ray]").click();
     });
-    await new Promise((resume) => setTimeout(resume, 1500));
+    await pause(1500);
     assert.equal(await page.$("tbody"), null);
     await page.close();
 });
