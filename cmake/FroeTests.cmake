@@ -104,6 +104,7 @@ foreach(source ${test_sources})
   add_executable(${target} ${source})
   set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
   target_link_libraries(${target} PRIVATE froe_test_support)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>) # compiled in half the time, and hardly slower
   if(TARGET froe_test_objects)
     target_link_libraries(${target} PRIVATE froe_test_objects)
   endif()
