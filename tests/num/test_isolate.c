@@ -9,7 +9,8 @@
 #include "num/isolate.h"
 #include "support/fuzz.h"
 
-/* A polynomial with roots  top / bottom, repeated or not, and perhaps the factor x^2 - 2 x + 3, which has none. */
+/* A polynomial with roots  top / bottom, repeated or not, and perhaps the factor x^2 - 2 x + 3 or x^2 + 3, which
+ * have none. */
 typedef struct made {
     int top[NUM_DEGREE], bottom[NUM_DEGREE], count; /* with repetitions */
     int64_t c[NUM_DEGREE + 1];
@@ -24,16 +25,23 @@ static void multiply(made *p, const int *factor, int degree) {
     memcpy(p->c, product, sizeof product);
 }
 
+static void multiply_root(made *p, int top, int bottom) {
+    multiply(p, (const int[]){-top, bottom}, 1);
+    p->top[p->count] = top;
+    p->bottom[p->count++] = bottom;
+}
+
+/* One in four has every second coefficient 0, so that its chain skips degrees. */
 static made make(fuzz_source *r) {
     made p = {.c = {fuzz_int(r, 0, 1) ? 3 : -5}};
-    int degree = fuzz_int(r, 0, NUM_DEGREE);
-    if (degree >= 2 && fuzz_int(r, 0, 3) == 0) multiply(&p, (const int[]){3, -2, 1}, 2);
-    while (p.degree < degree) {
+    const bool even = fuzz_int(r, 0, 3) == 0;
+    const int degree = fuzz_int(r, 0, NUM_DEGREE);
+    if (degree >= 2 && fuzz_int(r, 0, 3) == 0) multiply(&p, even ? (const int[]){3, 0, 1} : (const int[]){3, -2, 1}, 2);
+    while (p.degree + even < degree) {
         int top = fuzz_int(r, -4, 17), bottom = fuzz_int(r, 1, 15); /* 5 (17 + 15)^12 < 2^63 */
         if (p.count && fuzz_int(r, 0, 2) == 0) top = p.top[p.count - 1], bottom = p.bottom[p.count - 1];
-        multiply(&p, (const int[]){-top, bottom}, 1);
-        p.top[p.count] = top;
-        p.bottom[p.count++] = bottom;
+        multiply_root(&p, top, bottom);
+        if (even) multiply_root(&p, -top, bottom);
     }
     return p;
 }
@@ -126,12 +134,8 @@ static void roots_are_isolated_compared_and_asked_exactly(void **state) {
     for (int round = 0; round < 4000; round++) {
         arena.top = 0;
         made p = make(&r), q = make(&r);
-        if (p.count && q.count && round % 2 && q.degree <= 2) { /* a common root */
-            int factor[2] = {-p.top[0], p.bottom[0]};
-            multiply(&q, factor, 1);
-            q.top[q.count] = p.top[0];
-            q.bottom[q.count++] = p.bottom[0];
-        }
+        if (p.count && q.count && round % 2 && q.degree <= 2) /* a common root */
+            multiply_root(&q, p.top[0], p.bottom[0]);
         num_poly f = poly_of(&arena, &p), g = poly_of(&arena, &q);
         num_isolation in_f, in_g;
         num_isolate(&arena, &f, &in_f);
