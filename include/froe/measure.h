@@ -121,8 +121,8 @@ FROE_API froe_status froe_measure_directional(const froe_scene *scene, double de
  * plane from a line; distances are computed in doubles, sides exactly. Pairs are counted once; `first` is one example
  * pair of each sort, FROE_NONE if there is none. */
 typedef struct froe_near {
-    uint64_t coplanar; /**< pairs of polygons with two vertices in common, all corners of each near the plane of the
-                            other, and not all in it */
+    uint64_t coplanar; /**< pairs of polygons with a common edge and no other common vertex, all corners of each near
+                            the plane of the other, and not all in it */
     uint64_t poking;   /**< pairs of segments of the plane, or polygons of space, that cross (as in froe_defects), one
                             of which is on some side of the other nowhere but near it */
     uint32_t first_coplanar[2], first_poking[2];
@@ -132,7 +132,8 @@ typedef struct froe_near {
 /** The distance is `share` times the largest absolute value of a coordinate. Objects without length or area and
  * duplicates do not count; nor do other kinds, and nothing above dimension 3. threads, progress and user are as of
  * froe_scene_defects(). FROE_E_ARG: share is not from 0 to 1. FROE_E_MEMORY, FROE_E_CANCELLED.
- * O(n log^(dim-1) n + pairs of touching bounding boxes). */
+ * O(n log^(dim-1) n + pairs with a common edge + pairs of touching bounding boxes), long thin objects side by side
+ * left out as by froe_scene_defects(). */
 FROE_API froe_status froe_measure_near(const froe_scene *scene, double share, unsigned threads,
                                        froe_progress_fn *progress, void *user, froe_near *out, froe_diagnostic *diag);
 

@@ -6,6 +6,7 @@
  *
  * A pair is looked at exactly only if distances in doubles say that it may count. */
 #include "base/floats.h"
+#include "base/radix.h"
 #include "geom/predicates.h"
 #include "measure/survey.h"
 #include "support/fail.h"
@@ -42,7 +43,27 @@ static bool reach_pokes(reach r, double within) {
     return r.negative <= within || r.positive <= within;
 }
 
-/* Do two polygons have just one edge, or pair of corners, in common? */
+/* Two objects, how far each reaches beside the plane of the other, and whether both are flat together. */
+typedef struct near_pair {
+    uint32_t a, b; /* a < b */
+    geom_plane of_a;
+    reach a_beside_b, b_beside_a;
+    bool flat;
+} near_pair;
+
+static near_pair pair_of(const near_survey *v, uint32_t i, uint32_t j) {
+    const froe_scene *s = v->of.scene;
+    near_pair p = {.a = v->of.objects[i < j ? i : j], .b = v->of.objects[i < j ? j : i]};
+    geom_plane of_b;
+    scene_support(s, p.a, &p.of_a);
+    scene_support(s, p.b, &of_b);
+    p.a_beside_b = reach_beside(s, &of_b, p.a);
+    p.b_beside_a = reach_beside(s, &p.of_a, p.b);
+    p.flat = reach_is_near(p.a_beside_b, v->within) && reach_is_near(p.b_beside_a, v->within);
+    return p;
+}
+
+/* Do two polygons have just two corners in common? */
 static bool share_two_vertices(const froe_scene *s, uint32_t a, uint32_t b) {
     uint32_t common = 0;
     for (uint32_t i = 0; i < scene_corners(s, a); i++)
@@ -57,25 +78,60 @@ static bool in_one_plane(const froe_scene *s, num_context *context, const geom_p
     return flat;
 }
 
-static bool look_at_near_pair(void *user, unsigned worker, uint32_t i, uint32_t j) {
+/* ------------------------------------------------------------------ poking -- */
+
+static bool look_at_poking(void *user, unsigned worker, uint32_t i, uint32_t j) {
     near_survey *v = user;
     froe_near *found = v->found + worker;
-    const froe_scene *s = v->of.scene;
-    const uint32_t a = v->of.objects[i < j ? i : j], b = v->of.objects[i < j ? j : i];
-    geom_plane of_a, of_b;
-    scene_support(s, a, &of_a);
-    scene_support(s, b, &of_b);
-    const reach a_beside_b = reach_beside(s, &of_b, a), b_beside_a = reach_beside(s, &of_a, b);
-    const bool flat = reach_is_near(a_beside_b, v->within) && reach_is_near(b_beside_a, v->within);
-    if (flat && s->dim == 3 && share_two_vertices(s, a, b)) {
-        if (!in_one_plane(s, &v->of.workers[worker].context, &of_a, b))
-            measure_note_pair(&found->coplanar, found->first_coplanar, a, b);
-    } else if (reach_pokes(a_beside_b, v->within) || reach_pokes(b_beside_a, v->within)) {
-        const geom_contact m = measure_survey_meet(&v->of, worker, a, b);
-        if (m.kind == GEOM_CROSS || (m.kind == GEOM_TOUCH && m.touch == GEOM_TOUCH_EDGES))
-            measure_note_pair(&found->poking, found->first_poking, a, b);
-    }
+    const near_pair p = pair_of(v, i, j);
+    if (p.flat && v->of.scene->dim == 3 && share_two_vertices(v->of.scene, p.a, p.b)) return true;
+    if (!reach_pokes(p.a_beside_b, v->within) && !reach_pokes(p.b_beside_a, v->within)) return true;
+    const geom_contact m = measure_survey_meet(&v->of, worker, p.a, p.b);
+    if (m.kind == GEOM_CROSS || (m.kind == GEOM_TOUCH && m.touch == GEOM_TOUCH_EDGES))
+        measure_note_pair(&found->poking, found->first_poking, p.a, p.b);
     return true;
+}
+
+/* ---------------------------------------------------------------- coplanar -- */
+
+enum { EDGES = 256 }; /* looked at between two calls of progress */
+
+static void look_at_common_edge(near_survey *v, uint32_t i, uint32_t j) {
+    const near_pair p = pair_of(v, i, j);
+    if (p.flat && share_two_vertices(v->of.scene, p.a, p.b) &&
+        !in_one_plane(v->of.scene, &v->of.workers[0].context, &p.of_a, p.b))
+        measure_note_pair(&v->found->coplanar, v->found->first_coplanar, p.a, p.b);
+}
+
+/* Writes the edges of all polygons, with the places of these in the list, in order. */
+static void sort_edges(const near_survey *v, base_pair *edges, size_t count) {
+    const froe_scene *s = v->of.scene;
+    base_pair *edge = edges;
+    for (uint32_t i = 0; i < v->of.count; i++) {
+        const uint32_t object = v->of.objects[i], corners = scene_corners(s, object);
+        for (uint32_t k = 0; k < corners; k++) {
+            const uint32_t a = scene_corner(s, object, k), b = scene_corner(s, object, k + 1 < corners ? k + 1 : 0);
+            *edge++ = (base_pair){(uint64_t)(a < b ? a : b) << 32 | (a < b ? b : a), i};
+        }
+    }
+    base_radix_sort(edges, edges + count, count);
+}
+
+/* Looks at all pairs of polygons with a common edge. */
+static froe_status look_at_common_edges(near_survey *v) {
+    base_task *task = &v->of.task;
+    size_t count = 0;
+    for (uint32_t i = 0; i < v->of.count; i++) count += scene_corners(v->of.scene, v->of.objects[i]);
+    base_pair *edges = support_calloc(&v->of.scene->alloc, 2 * count, sizeof *edges); /* and as many to sort them */
+    froe_status status = edges ? FROE_OK : FROE_E_MEMORY;
+    if (edges) sort_edges(v, edges, count);
+    for (size_t first = 0, end = 1; end < count && !status; end++) {
+        if (end % EDGES == 0 && !base_progress(task, task->done)) status = FROE_E_CANCELLED;
+        if (edges[end].key != edges[first].key) first = end;
+        for (size_t i = first; i < end; i++) look_at_common_edge(v, edges[i].value, edges[end].value);
+    }
+    support_free(&v->of.scene->alloc, edges, 2 * count * sizeof *edges);
+    return status;
 }
 
 /* ------------------------------------------------------------------ report -- */
@@ -86,7 +142,8 @@ static froe_status look_at_near_pairs(near_survey *v) {
     v->found = support_calloc(alloc, v->of.task.threads, sizeof *v->found);
     if (!v->found) return FROE_E_MEMORY;
     const measure_candidates of = measure_survey_candidates(&v->of);
-    return geom_box_pairs(alloc, &v->of.task, 1, of.scene->dim, of.count, of.lo, of.hi, look_at_near_pair, v);
+    const froe_status status = of.scene->dim == 3 ? look_at_common_edges(v) : FROE_OK;
+    return status ? status : measure_odd_pairs(&v->of.task, &v->of.workers[0].context, &of, look_at_poking, v);
 }
 
 /* The largest coordinate of the scene. */

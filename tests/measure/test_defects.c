@@ -6,6 +6,7 @@
 #include "measure/sheet.h"
 #include "scene/scene.h"
 #include "support/rational.h"
+#include <froe/measure.h>
 
 enum { APART, CROSSING, T_JUNCTION, OVERLAP };
 
@@ -631,6 +632,7 @@ static froe_status examine_slivers(void *user, const froe_allocator *alloc) {
     if (status) return status;
     status = froe_scene_add(s, &b, NULL);
     if (!status) status = froe_scene_defects(s, 1, NULL, NULL, &d, NULL);
+    if (!status) status = froe_measure_near(s, 0x1p-48, 1, NULL, NULL, &(froe_near){.within = 0}, NULL);
     froe_scene_free(s);
     return status;
 }
