@@ -24,6 +24,7 @@ typedef struct map {
     OGRLayerH layer;             /* the fields below belong to it */
     const char *layer_name;
     int name_field, id_field, layer_field; /* -1: none */
+    ARRAY(char) texts;                     /* of these, of a feature */
     uint64_t features_done;
     io_crs crs; /* of the layers so far */
 } map;
@@ -81,6 +82,23 @@ static const char *text_of(OGRFeatureH feature, int field) {
     return field >= 0 && OGR_F_IsFieldSetAndNotNull(feature, field) ? OGR_F_GetFieldAsString(feature, field) : "";
 }
 
+/* OGR keeps the text of a number in one place per feature: texts are copied before the next is asked. */
+static froe_status enter_group(map *m, OGRFeatureH feature, GIntBig id, const formats_sides *sides) {
+    const int fields[] = {m->name_field, m->id_field, m->layer_field};
+    size_t begins[3];
+    m->texts.count = 0;
+    for (int k = 0; k < 3; k++) {
+        const char *text = text_of(feature, fields[k]);
+        begins[k] = m->texts.count;
+        if (!array_append(&m->sink->alloc, &m->texts, text, strlen(text) + 1))
+            return support_fail_memory(m->sink->diag);
+    }
+    const char *texts = m->texts.data, *material = texts + begins[2];
+    const formats_feature_names names = {texts + begins[0], texts + begins[1], id,
+                                         *material ? material : m->layer_name};
+    return formats_feature_group(m->sink, &names, sides);
+}
+
 static froe_status add_feature(map *m, OGRFeatureH feature) {
     formats_sink *sink = m->sink;
     GIntBig id = OGR_F_GetFID(feature);
@@ -100,13 +118,7 @@ static froe_status add_feature(map *m, OGRFeatureH feature) {
     sink->report.flattened += OGR_GT_HasZ(OGR_G_GetGeometryType(geometry)) != 0;
     formats_sides sides;
     status = io_shapes_sides(sink, &m->shapes, geometry, &sides);
-    /* OGR keeps the text of a number in one place per feature: names are copied before the next is asked. */
-    char name[256], text[256], material[256];
-    snprintf(name, sizeof name, "%s", text_of(feature, m->name_field));
-    snprintf(text, sizeof text, "%s", text_of(feature, m->id_field));
-    snprintf(material, sizeof material, "%s", text_of(feature, m->layer_field));
-    const formats_feature_names names = {name, text, id, *material ? material : m->layer_name};
-    if (!status) status = formats_feature_group(sink, &names, &sides);
+    if (!status) status = enter_group(m, feature, id, &sides);
     if (!status) status = io_shapes_add(sink, &m->shapes, geometry, &sides);
     if (curved) OGR_G_DestroyGeometry(geometry);
     return status;
@@ -241,5 +253,6 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
     if (m.data) GDALClose(m.data);
     io_gdal_end();
     io_shapes_free(&sink->alloc, &m.shapes);
+    array_free(&sink->alloc, &m.texts);
     return status;
 }

@@ -94,11 +94,10 @@ static bool settle_number(geojson_names *names, const geojson_feature *feature, 
     return true;
 }
 
-static void print_value(const geojson_value *value, char text[256]) {
-    if (value->kind == GEOJSON_WHOLE)
-        snprintf(text, 256, "%lld", (long long)value->number);
-    else
-        snprintf(text, 256, "%s", value->kind == GEOJSON_TEXT ? value->text : "");
+static const char *text_of(const geojson_value *value, char printed[24]) {
+    if (value->kind != GEOJSON_WHOLE) return value->kind == GEOJSON_TEXT ? value->text : "";
+    snprintf(printed, 24, "%lld", (long long)value->number);
+    return printed;
 }
 
 bool geojson_label(geojson_names *names, const geojson_feature *feature, geojson_labels *out) {
@@ -109,9 +108,9 @@ bool geojson_label(geojson_names *names, const geojson_feature *feature, geojson
     names->named = named;
     if (!settle_number(names, feature, &out->number)) return false;
     static const geojson_value none = {GEOJSON_ABSENT, NULL, 0};
-    print_value(named ? feature->columns + named - 1 : &none, out->name);
-    print_value(names->texts ? &feature->id : feature->columns + GEOJSON_ID, out->id);
-    print_value(feature->columns + GEOJSON_LAYER, out->material);
+    out->name = text_of(named ? feature->columns + named - 1 : &none, out->printed[0]);
+    out->id = text_of(names->texts ? &feature->id : feature->columns + GEOJSON_ID, out->printed[1]);
+    out->material = text_of(feature->columns + GEOJSON_LAYER, out->printed[2]);
     return true;
 }
 

@@ -45,10 +45,11 @@ typedef struct geojson_feature {
     geojson_value id, columns[GEOJSON_COLUMNS];
 } geojson_feature;
 
-/** The strings of a feature, cut to their room as those from GDAL are. */
+/** The strings of a feature: in its values, or printed here; "": it has none. */
 typedef struct geojson_labels {
     int64_t number;
-    char name[256], id[256], material[256];
+    const char *name, *id, *material;
+    char printed[3][24];
 } geojson_labels;
 
 /** Reads the member `id` of a feature. False: it is odd. */

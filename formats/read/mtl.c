@@ -120,6 +120,23 @@ static froe_status note_unread(formats_sink *sink, const char *name) {
     return FROE_OK;
 }
 
+/* Appends a material whose name is the rest of a line, without the blanks behind it. */
+static froe_status begin_material(formats_sink *sink, const char *at, formats_materials *materials) {
+    size_t kept = strlen(at);
+    while (kept && strchr(" \t\r", at[kept - 1])) kept--;
+    const formats_material m = {
+        .name = support_calloc(&sink->alloc, kept + 1, 1), .rgba = {0, 0, 0, 1}, .texture = {.scale = {1, 1}}};
+    if (m.name && array_push(&sink->alloc, materials, m)) return memcpy(m.name, at, kept), FROE_OK;
+    support_free(&sink->alloc, m.name, kept + 1);
+    return support_fail_memory(sink->diag);
+}
+
+void formats_materials_free(const froe_allocator *alloc, formats_materials *materials) {
+    for (size_t i = 0; i < materials->count; i++)
+        support_free(alloc, materials->data[i].name, strlen(materials->data[i].name) + 1);
+    array_free(alloc, materials);
+}
+
 froe_status formats_materials_read(formats_sink *sink, const char *path, const char *name, formats_materials *materials,
                                    formats_images *images) {
     char library[PATH_ROOM];
@@ -140,12 +157,7 @@ froe_status formats_materials_read(formats_sink *sink, const char *path, const c
         if (*next) *next++ = '\0';
         const char *at = after(line, "newmtl");
         if (at) {
-            size_t kept = strlen(at);
-            while (kept && strchr(" \t\r", at[kept - 1])) kept--;
-            if (kept >= FORMATS_MATERIAL_NAME) kept = FORMATS_MATERIAL_NAME - 1;
-            formats_material m = {.rgba = {0, 0, 0, 1}, .texture = {.scale = {1, 1}}};
-            memcpy(m.name, at, kept);
-            if (!array_push(&sink->alloc, materials, m)) status = support_fail_memory(sink->diag);
+            status = begin_material(sink, at, materials);
         } else if (materials->count) {
             formats_material *last = materials->data + materials->count - 1;
             if ((at = after(line, "Kd"))) read_colour(last, at);

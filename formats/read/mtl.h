@@ -4,9 +4,8 @@
 
 #include "formats/input/texture.h"
 
-enum { FORMATS_MATERIAL_NAME = 128 };
 typedef struct formats_material {
-    char name[FORMATS_MATERIAL_NAME];
+    char *name;
     double rgba[4];
     bool coloured, textured; /**< textured: the colour only tints the texture, */
     char image[256];         /**< of this image, as the file names it; "": too long a name */
@@ -20,6 +19,7 @@ typedef ARRAY(formats_material) formats_materials;
  * FROE_E_MEMORY. */
 froe_status formats_materials_read(formats_sink *sink, const char *path, const char *name, formats_materials *materials,
                                    formats_images *images);
+void formats_materials_free(const froe_allocator *alloc, formats_materials *materials);
 /** The last of that name; NULL: there is none. */
 const formats_material *formats_material_find(const formats_materials *materials, const char *name);
 /** Its colour (see froe_group); 0: unknown. */

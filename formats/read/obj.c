@@ -18,13 +18,13 @@
 #include <string.h>
 #include <strings.h>
 
-enum { NAME_ROOM = FORMATS_MATERIAL_NAME, BUCKETS = 4096 };
+enum { BUCKETS = 4096 };
 
 /* A group met before, and the next with the same hash. */
 typedef struct known {
-    char name[NAME_ROOM], material[NAME_ROOM];
-    uint32_t group, next1; /* group: FROE_NONE before there is one; next1: index + 1, 0: none */
-    formats_paint colours; /* groups of faces with colours of their own */
+    const char *name, *material; /* in the text */
+    uint32_t group, next1;       /* group: FROE_NONE before there is one; next1: index + 1, 0: none */
+    formats_paint colours;       /* groups of faces with colours of their own */
 } known;
 
 typedef struct obj {
@@ -41,10 +41,10 @@ typedef struct obj {
     ARRAY(uint32_t) indices;     /* of an element's corners */
     ARRAY(double) corners;       /* the same, 3 each, where a texture colours them */
     ARRAY(known) groups;
-    uint32_t first1[BUCKETS]; /* heads of the chains */
-    char name[NAME_ROOM], material[NAME_ROOM];
-    bool regroup, refeature; /* name or material, name changed since the last element */
-    size_t current;          /* of `groups`; the current pair of names, if regroup is not set */
+    uint32_t first1[BUCKETS];    /* heads of the chains */
+    const char *name, *material; /* in the text */
+    bool regroup, refeature;     /* name or material, name changed since the last element */
+    size_t current;              /* of `groups`; the current pair of names, if regroup is not set */
     const formats_material *paint;
 } obj;
 
@@ -74,9 +74,7 @@ static bool find_group(obj *o) {
         o->current = at - 1;
         if (!strcmp(k->name, o->name) && !strcmp(k->material, o->material)) return true;
     }
-    known added = {.group = FROE_NONE, .next1 = o->first1[bucket]};
-    memcpy(added.name, o->name, NAME_ROOM);
-    memcpy(added.material, o->material, NAME_ROOM);
+    const known added = {.name = o->name, .material = o->material, .group = FROE_NONE, .next1 = o->first1[bucket]};
     if (!array_push(&o->sink->alloc, &o->groups, added)) return false;
     o->current = o->groups.count - 1;
     o->first1[bucket] = (uint32_t)o->groups.count;
@@ -107,13 +105,13 @@ static froe_status enter_group_of(obj *o, size_t count) {
     return status;
 }
 
-/* What follows a word, without blanks around it, filled up with zeros. */
-static void copy_rest(char *to, size_t room, const char *from) {
-    from += strspn(from, " \t");
-    size_t length = strlen(from);
-    while (length && strchr(" \t\r", from[length - 1])) --length;
-    memset(to, 0, room);
-    memcpy(to, from, length < room ? length : room - 1);
+/* Ends what follows a word before the blanks behind it; returns where it begins. */
+static const char *rest_of(char *line) {
+    line += strspn(line, " \t");
+    size_t length = strlen(line);
+    while (length && strchr(" \t\r", line[length - 1])) --length;
+    line[length] = '\0';
+    return line;
 }
 
 /* -------------------------------------------------------------- elements -- */
@@ -219,11 +217,9 @@ static froe_status read_libraries(obj *o, char *at) {
     froe_status status = FROE_OK;
     o->regroup = true;
     for (char *next; *(at += strspn(at, " \t\r")) && !status; at = next) {
-        char name[1024];
         for (next = at + 1; *next && !(is_blank(*next) && next - at > 4 && !strncasecmp(next - 4, ".mtl", 4));) next++;
         if (*next) *next++ = '\0';
-        copy_rest(name, sizeof name, at);
-        status = formats_materials_read(o->sink, o->path, name, &o->materials, &o->images);
+        status = formats_materials_read(o->sink, o->path, rest_of(at), &o->materials, &o->images);
     }
     return status;
 }
@@ -251,8 +247,8 @@ static froe_status read_line(obj *o) {
     if (starts(line, "curv") || starts(line, "curv2") || starts(line, "surf"))
         return ++o->sink->report.skipped, FROE_OK;
     const bool material = starts(line, "usemtl"), name = starts(line, "o") || starts(line, "g");
-    if (material) copy_rest(o->material, NAME_ROOM, line + 6);
-    if (name) copy_rest(o->name, NAME_ROOM, line + 1);
+    if (material) o->material = rest_of(line + 6);
+    if (name) o->name = rest_of(line + 1);
     o->regroup = o->regroup || material || name;
     o->refeature = o->refeature || name;
     return FROE_OK;
@@ -291,6 +287,7 @@ froe_status formats_read_obj(const formats_source *source, formats_sink *sink) {
     if (!status) {
         o->sink = sink;
         o->path = source->file;
+        o->name = o->material = "";
         formats_report_format(sink, "float64", "OBJ");
         sink->report.layers = 1;
         sink->unit = "line";
@@ -313,7 +310,7 @@ froe_status formats_read_obj(const formats_source *source, formats_sink *sink) {
         array_free(alloc, &o->corners);
         for (size_t i = 0; i < o->groups.count; ++i) formats_paint_free(sink, &o->groups.data[i].colours);
         array_free(alloc, &o->groups);
-        array_free(alloc, &o->materials);
+        formats_materials_free(alloc, &o->materials);
         array_free(alloc, &o->shades);
         array_free(alloc, &o->own_shades);
         array_free(alloc, &o->places);
