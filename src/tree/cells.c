@@ -1,8 +1,8 @@
 /* cells.c: the cells of a tree as polygons and polyhedra in doubles, for pictures and exports.
  *
  * Depth first; the shapes of right children wait on a stack of packed arrays, so the walk needs
- * heap for one shape a level and no recursion. Shapes live in units of a power of two that brings
- * the box to size 1, so that no coordinate a double can hold overflows. */
+ * heap for one shape a level and no recursion. Shapes live in a frame (shape.h) in which the box
+ * has size 1, so that no coordinate a double can hold overflows. */
 #include "base/floats.h"
 #include "support/fail.h"
 #include "tree/gate.h"
@@ -18,7 +18,8 @@ typedef struct cell_pending {
 typedef struct cell_walk {
     const froe_tree *tree;
     froe_allocator alloc;
-    int dim, exponent;
+    int dim;
+    shape_frame frame;
     froe_cell_fn *fn;
     void *user;
     ARRAY(cell_pending) pending;
@@ -56,10 +57,11 @@ static bool show(cell_walk *w, const cell_pending *at) {
         return false;
     for (size_t i = 0; i < s->loops.count; i++)
         for (size_t k = 0; k < dim; k++)
-            w->coords.data[w->coords.count++] = ldexp(s->points.data[s->loops.data[i] * dim + k], w->exponent);
+            w->coords.data[w->coords.count++] =
+                shape_coordinate(&w->frame, (int)k, s->points.data[s->loops.data[i] * dim + k]);
     for (size_t i = 0; i < s->starts.count; i++) w->starts.data[w->starts.count++] = s->starts.data[i];
     for (size_t i = 0; i < w->cut.points.count; i++)
-        w->cut_coords.data[w->cut_coords.count++] = ldexp(w->cut.points.data[i], w->exponent);
+        w->cut_coords.data[w->cut_coords.count++] = shape_coordinate(&w->frame, (int)(i % dim), w->cut.points.data[i]);
     froe_cell cell = {.node = {at->node + 1}, .depth = at->depth};
     cell.leaf = tree_is_leaf(w->tree->nodes + at->node);
     cell.coords = w->coords.data;
@@ -89,7 +91,7 @@ static bool visit_cell(cell_walk *w) {
     w->cut.points.count = 0;
     if (tree_is_leaf(n)) return show(w, at);
     geom_plane exact = tree_plane_at(w->tree, at->node);
-    shape_plane plane = shape_plane_from(&exact, w->exponent);
+    shape_plane plane = shape_plane_from(&exact, &w->frame);
     if (!shape_sides(&w->alloc, w->dim, &w->now, &plane, &w->scratch, &reached)) return false;
     bool both = reached == 3;
     for (int i = 0; both && i < 2; i++)
@@ -107,17 +109,15 @@ froe_status froe_tree_cells(const froe_tree *tree, const double *lo, const doubl
     const froe_status settled = tree_settle(tree, diag);
     if (settled) return settled;
     cell_walk w = {.tree = tree, .alloc = tree->alloc, .dim = tree->scene->dim, .fn = fn, .user = user};
-    double most = 0;
     if (w.dim > 3)
         return support_fail(diag, FROE_E_UNSUPPORTED, "Cells exist in 2 and 3 dimensions, not in %d.", w.dim);
     for (int k = 0; k < w.dim; k++) {
         if (!(lo[k] <= hi[k]) || !isfinite(lo[k]) || !isfinite(hi[k]))
             return support_fail_at(diag, FROE_E_ARG, FROE_NONE, FROE_NONE, (uint32_t)k,
                                    "The box has no extent on axis %d, from %g to %g.", k, lo[k], hi[k]);
-        most = fmax(most, fmax(fabs(lo[k]), fabs(hi[k])));
     }
-    frexp(most, &w.exponent);
-    bool ok = shape_box(&w.alloc, w.dim, lo, hi, w.exponent, &w.now) && push_cell_shape(&w, 0, 0, &w.now);
+    w.frame = shape_frame_of(w.dim, lo, hi);
+    bool ok = shape_box(&w.alloc, w.dim, lo, hi, &w.frame, &w.now) && push_cell_shape(&w, 0, 0, &w.now);
     while (ok && w.pending.count && !w.stopped) ok = visit_cell(&w);
     array_free(&w.alloc, &w.pending);
     shape_free(&w.alloc, &w.packed);

@@ -1,10 +1,13 @@
 /* shape.c: clipping a convex polygon or polyhedron (after Sutherland and Hodgman 1974, with shared
  * edges so that the closing face is combinatorial). */
 #include "tree/shape.h"
+#include "num/pair.h"
 #include <math.h>
 #include <string.h>
 
 #define SHAPE_EMPTY UINT32_MAX
+
+static const double FAR = 0x1p-20; /* the size of a box by its distance from 0, below which it is far from 0 */
 
 void shape_free(const froe_allocator *alloc, shape *s) {
     array_free(alloc, &s->points);
@@ -38,7 +41,34 @@ bool shape_copy(const froe_allocator *alloc, const shape *from, shape *out) {
     return true;
 }
 
-bool shape_box(const froe_allocator *alloc, int dim, const double *lo, const double *hi, int exponent, shape *out) {
+shape_frame shape_frame_of(int dim, const double *lo, const double *hi) {
+    shape_frame f = {.exponent = 0};
+    double extent = 0, most = 0;
+    for (int k = 0; k < dim; k++) {
+        extent = fmax(extent, hi[k] / 2 - lo[k] / 2);
+        most = fmax(most, fmax(fabs(lo[k]), fabs(hi[k])));
+    }
+    if (extent < FAR * most)
+        for (int k = 0; k < dim; k++) { /* of two numbers of which one is at most twice the other, Sterbenz (1974) */
+            if (lo[k] > 0 && hi[k] / 2 <= lo[k]) f.origin[k] = lo[k];
+            if (hi[k] < 0 && lo[k] / 2 >= hi[k]) f.origin[k] = hi[k];
+        }
+    most = 0;
+    for (int k = 0; k < dim; k++) most = fmax(most, fmax(fabs(lo[k] - f.origin[k]), fabs(hi[k] - f.origin[k])));
+    frexp(most, &f.exponent);
+    return f;
+}
+
+static double in_frame(const shape_frame *f, int axis, double x) {
+    return ldexp(x - f->origin[axis], -f->exponent);
+}
+
+double shape_coordinate(const shape_frame *f, int axis, double x) {
+    return ldexp(x, f->exponent) + f->origin[axis];
+}
+
+bool shape_box(const froe_allocator *alloc, int dim, const double *lo, const double *hi, const shape_frame *frame,
+               shape *out) {
     static const uint32_t square[4] = {0, 1, 3, 2};
     static const uint32_t cube[24] = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
     const uint32_t *loops = dim == 2 ? square : cube;
@@ -49,7 +79,7 @@ bool shape_box(const froe_allocator *alloc, int dim, const double *lo, const dou
         return false;
     for (size_t i = 0; i < points; i++)
         for (int k = 0; k < dim; k++)
-            out->points.data[out->points.count++] = ldexp((i >> k & 1) ? hi[k] : lo[k], -exponent);
+            out->points.data[out->points.count++] = in_frame(frame, k, (i >> k & 1) ? hi[k] : lo[k]);
     for (size_t i = 0; i < corners; i++) out->loops.data[out->loops.count++] = loops[i];
     for (uint32_t i = 0; i <= corners; i += 4) out->starts.data[out->starts.count++] = i;
     return true;
@@ -66,16 +96,16 @@ static int normalise(double v[3]) {
     return exponent;
 }
 
-/* Normal of a plane through points; q becomes its first point, in units of 2^(the result). */
-static int points_normal(const geom_plane *plane, double n[3], double q[3]) {
+/* Normal of a plane through points; q becomes its first point less the origin, in units of 2^(the result). */
+static int points_normal(const geom_plane *plane, const double *origin, double n[3], double q[3]) {
     double all[3] = {0}, d[2][3] = {{0}};
     int count = plane->form == GEOM_VERTICAL ? 2 : plane->dim;
     for (int i = 0; i < count; i++)
-        for (int k = 0; k < plane->dim; k++) all[k] = fmax(all[k], fabs(plane->p[i][k]));
+        for (int k = 0; k < plane->dim; k++) all[k] = fmax(all[k], fabs(plane->p[i][k] - origin[k]));
     int exponent = normalise(all);
-    for (int k = 0; k < plane->dim; k++) q[k] = ldexp(plane->p[0][k], -exponent);
+    for (int k = 0; k < plane->dim; k++) q[k] = ldexp(plane->p[0][k] - origin[k], -exponent);
     for (int i = 1; i < count; i++) {
-        for (int k = 0; k < plane->dim; k++) d[i - 1][k] = ldexp(plane->p[i][k], -exponent) - q[k];
+        for (int k = 0; k < plane->dim; k++) d[i - 1][k] = ldexp(plane->p[i][k] - origin[k], -exponent) - q[k];
         normalise(d[i - 1]);
     }
     if (count == 2) {
@@ -92,19 +122,27 @@ static int points_normal(const geom_plane *plane, double n[3], double q[3]) {
     return exponent;
 }
 
-shape_plane shape_plane_from(const geom_plane *plane, int exponent) {
+/* c - n . origin, in units of the frame: numbers that are far larger than what is left of them. */
+static double value_in_frame(const shape_frame *f, const double n[3], double c, int dim) {
+    num_pair sum = {c, 0};
+    for (int k = 0; k < dim; k++) sum = num_pair_sub(sum, num_pair_product(n[k], ldexp(f->origin[k], -f->exponent)));
+    return sum.hi;
+}
+
+shape_plane shape_plane_from(const geom_plane *plane, const shape_frame *frame) {
     shape_plane out = {.axis = -1};
     double q[3] = {0};
     if (plane->form == GEOM_AXIS || geom_is_sheared(plane)) {
         out.axis = plane->axis;
         out.n[plane->axis] = 1;
-        out.c = ldexp(plane->c, -exponent);
+        out.c = in_frame(frame, plane->axis, plane->c);
     } else if (geom_is_vector(plane)) {
         for (int k = 0; k < plane->dim; k++) out.n[k] = plane->normal[k];
-        out.c = ldexp(plane->c, -normalise(out.n) - exponent);
+        out.c = ldexp(plane->c, -normalise(out.n) - frame->exponent);
+        out.c = value_in_frame(frame, out.n, out.c, plane->dim);
     } else {
-        int scale = points_normal(plane, out.n, q);
-        out.c = ldexp(out.n[0] * q[0] + out.n[1] * q[1] + out.n[2] * q[2], scale - exponent);
+        int scale = points_normal(plane, frame->origin, out.n, q);
+        out.c = ldexp(out.n[0] * q[0] + out.n[1] * q[1] + out.n[2] * q[2], scale - frame->exponent);
     }
     out.slack = 0x1p-44 * (fabs(out.n[0]) + fabs(out.n[1]) + fabs(out.n[2]) + fabs(out.c));
     if (out.axis >= 0) out.slack = 0; /* a comparison is exact */

@@ -13,8 +13,14 @@
 #include "geom/plane.h"
 #include "support/array.h"
 
+/** What coordinates are measured from, and in. */
+typedef struct shape_frame {
+    double origin[3];
+    int exponent; /**< the unit is 2^exponent */
+} shape_frame;
+
 typedef struct shape {
-    ARRAY(double) points;   /* dim a point, in units of 2^exponent of the drawing */
+    ARRAY(double) points;   /* dim a point, in a frame */
     ARRAY(uint32_t) loops;  /* point numbers, face after face */
     ARRAY(uint32_t) starts; /* face f: loops[starts[f] .. starts[f+1]) */
 } shape;
@@ -38,13 +44,19 @@ typedef struct shape_scratch {
     ARRAY(uint32_t) renumber; /* per point */
 } shape_scratch;
 
-/** The box, in units of 2^exponent. dim 2 or 3. */
-bool shape_box(const froe_allocator *alloc, int dim, const double *lo, const double *hi, int exponent, shape *out);
+/** A frame in which the box has size 1, and differences of its coordinates from the origin are doubles. A box that is
+ * small beside its distance from 0 has an origin of its own: doubles tell nothing apart in it otherwise. */
+shape_frame shape_frame_of(int dim, const double *lo, const double *hi);
+/** A coordinate of the frame in units of the scene. */
+double shape_coordinate(const shape_frame *frame, int axis, double x);
+/** The box in the frame. dim 2 or 3. */
+bool shape_box(const froe_allocator *alloc, int dim, const double *lo, const double *hi, const shape_frame *frame,
+               shape *out);
 bool shape_copy(const froe_allocator *alloc, const shape *from, shape *out);
 void shape_free(const froe_allocator *alloc, shape *s);
 void shape_scratch_free(const froe_allocator *alloc, shape_scratch *scratch);
 
-shape_plane shape_plane_from(const geom_plane *plane, int exponent);
+shape_plane shape_plane_from(const geom_plane *plane, const shape_frame *frame);
 /** Which sides of the plane the shape reaches (bit 0: negative, bit 1: positive; 0: it lies in the
  * plane); fills scratch for shape_clip. False without memory. */
 bool shape_sides(const froe_allocator *alloc, int dim, const shape *s, const shape_plane *plane, shape_scratch *scratch,

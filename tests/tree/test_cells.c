@@ -40,7 +40,7 @@ typedef struct tally {
 /* The cut's corners lie on it, up to rounding. */
 static void check_cut(const tally *t, const froe_cell *cell) {
     geom_plane exact = tree_plane_at(t->tree, cell->node.id1 - 1);
-    shape_plane plane = shape_plane_from(&exact, 0);
+    shape_plane plane = shape_plane_from(&exact, &(shape_frame){.exponent = 0});
     assert_true(cell->cut_corners >= (size_t)t->dim);
     for (size_t i = 0; i < cell->cut_corners; i++) {
         double value = -plane.c;
@@ -124,6 +124,50 @@ static void flat_and_point_boxes_have_cells_too(void **state) {
     assert_true(t.leaves > 10 && t.leaves < tree->node_count / 2);
     assert_true(cells_in(tree, point, point).leaves >= 1);
     froe_tree_free(tree);
+}
+
+enum { FAR_CORNERS = 400 };
+static const double far_away = 0x1p49; /* doubles there are multiples of 1/8 */
+
+static bool add_far_leaf(void *user, const froe_cell *cell) {
+    tally *t = user;
+    double near[3 * FAR_CORNERS];
+    assert_true(cell->corners <= FAR_CORNERS);
+    for (size_t i = 0; i < cell->corners * (size_t)t->dim; i++) near[i] = cell->coords[i] - far_away;
+    froe_cell moved = *cell;
+    moved.coords = near;
+    const double measure = t->dim == 2 ? polygon_area(near, cell->corners) : polyhedron_volume(&moved);
+    if (!t->cells++) t->root_measure = measure;
+    t->leaves += cell->leaf;
+    t->leaf_measure += cell->leaf ? measure : 0;
+    return true;
+}
+
+/* Cuts through corners and, with `section`, an oblique one that is given by numbers. */
+static void leaves_far_from_the_origin_tile_the_box(void **state) {
+    (void)state;
+    const double lo[3] = {far_away, far_away, far_away}, hi[3] = {far_away + 64, far_away + 64, far_away + 64};
+    for (int dim = 2; dim <= 3; dim++)
+        for (int section = 0; section < 2; section++) {
+            enum { N = 24 };
+            double x[9 * N], plane[4] = {1, 1, 1, 1};
+            for (int i = 0; i < 9 * N; i++) x[i] = far_away + trees_random(7, (uint64_t)i, 65);
+            froe_objects objects = froe_objects_defaults();
+            froe_scene *scene;
+            objects.kind = dim == 2 ? FROE_SEGMENT : FROE_POLYGON;
+            objects.count = N, objects.coords = x;
+            assert_int_equal(froe_scene_new(dim, NULL, &scene), FROE_OK);
+            assert_int_equal(froe_scene_add(scene, &objects, NULL), FROE_OK);
+            froe_tree *whole = trees_build(scene, "autopartition", 1), *tree = whole;
+            plane[dim] = dim * far_away + 48;
+            if (section) assert_int_equal(froe_tree_section(whole, plane, NULL, &tree, NULL), FROE_OK);
+            tally t = {.dim = dim};
+            assert_int_equal(froe_tree_cells(tree, lo, hi, add_far_leaf, &t, NULL), FROE_OK);
+            assert_true(10 * t.leaves > 9 * froe_tree_report(tree).leaves);
+            assert_true(fabs(t.leaf_measure / t.root_measure - 1) < 0.05);
+            if (section) froe_tree_free(whole);
+            froe_tree_free(tree), froe_scene_free(scene);
+        }
 }
 
 /* Adds leaf areas in units of unit^2; all coordinates must be finite. */
@@ -340,7 +384,7 @@ static void made_edges_lie_in_their_cuts(void **state) {
         for (size_t c = 0; c < corners; c++) {
             if (!made[c].id1) continue;
             geom_plane exact = tree_plane_at(tree, made[c].id1 - 1);
-            shape_plane plane = shape_plane_from(&exact, 0);
+            shape_plane plane = shape_plane_from(&exact, &(shape_frame){.exponent = 0});
             for (size_t e = 0; e < 2; e++) {
                 const double *p = x + 3 * ((c + e) % corners);
                 assert_true(fabs(plane.n[0] * p[0] + plane.n[1] * p[1] + plane.n[2] * p[2] - plane.c) < 1e-13);
@@ -451,6 +495,7 @@ int main(void) {
         cmocka_unit_test(leaves_between_walls_tile_the_box),
         cmocka_unit_test(parts_of_a_tree_are_cells_of_a_smaller_box),
         cmocka_unit_test(flat_and_point_boxes_have_cells_too),
+        cmocka_unit_test(leaves_far_from_the_origin_tile_the_box),
         cmocka_unit_test(no_scale_overflows),
         cmocka_unit_test(boxes_of_other_scales_are_no_trouble),
         cmocka_unit_test(visitors_stop_and_bad_boxes_are_refused),
