@@ -21,7 +21,7 @@ typedef struct build_args {
     const char *method, *order;
     char *settings;
     uint64_t leaf, max_fragments;
-    int purpose;
+    int purpose; /* -1: not given */
     bool split_intersections;
 } build_args;
 
@@ -70,7 +70,7 @@ static int build(const build_args *args, froe_scene *scene, froe_tree **tree) {
         snprintf(settings, size, "%s %s", given, more);
         froe_build_options o = froe_build_defaults();
         o.method = args->method;
-        o.purpose = purposes[args->purpose];
+        o.purpose = purposes[args->purpose < 0 ? 0 : args->purpose];
         o.settings = settings;
         o.order = order.ids;
         o.order_count = order.count;
@@ -104,7 +104,10 @@ static int run_build(const void *given) {
     froe_tree *tree = NULL;
     froe_read_report reader;
     int code = cli_check_method(args->method, true);
-    if (!code && (args->shards.shards || args->shards.memory)) return build_folder(args);
+    const bool folder = args->shards.shards || args->shards.memory;
+    if (!code && args->purpose >= 0 && (folder || strcmp(args->method, "auto") != 0))
+        return cli_fail(CLI_USE, NULL, "--for: It excludes --shards and every --method but auto.");
+    if (!code && folder) return build_folder(args);
     if (!code) code = cli_read_scene(&args->common, &args->scene, &scene, &reader);
     if (code) return code;
     const double start = cli_seconds();
@@ -135,9 +138,11 @@ const cli_command cli_command_build = {
                 "froe build planet.csv --shards auto --memory 4G -o planet.froes\n"
                 "froe build map.gpkg --layer roads --where \"lanes > 2\" -o roads.froe\n",
     .parts = parts,
-    .defaults =
-        &(const build_args){
-            .common = CLI_COMMON_DEFAULTS, .method = "auto", .leaf = FROE_LEAF_OWN, .max_fragments = CLI_BUDGET_OWN},
+    .defaults = &(const build_args){.common = CLI_COMMON_DEFAULTS,
+                                    .method = "auto",
+                                    .leaf = FROE_LEAF_OWN,
+                                    .max_fragments = CLI_BUDGET_OWN,
+                                    .purpose = -1},
     .size = sizeof(build_args),
     .run = run_build,
 };
