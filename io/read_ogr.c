@@ -83,7 +83,7 @@ static const char *text_of(OGRFeatureH feature, int field) {
 }
 
 /* OGR keeps the text of a number in one place per feature: texts are copied before the next is asked. */
-static froe_status enter_group(map *m, OGRFeatureH feature, GIntBig id, const formats_sides *sides) {
+static froe_status name_feature(map *m, OGRFeatureH feature, GIntBig id, const formats_sides *sides) {
     const int fields[] = {m->name_field, m->id_field, m->layer_field};
     size_t begins[3];
     m->texts.count = 0;
@@ -118,7 +118,7 @@ static froe_status add_feature(map *m, OGRFeatureH feature) {
     sink->report.flattened += OGR_GT_HasZ(OGR_G_GetGeometryType(geometry)) != 0;
     formats_sides sides;
     status = io_shapes_sides(sink, &m->shapes, geometry, &sides);
-    if (!status) status = enter_group(m, feature, id, &sides);
+    if (!status) status = name_feature(m, feature, id, &sides);
     if (!status) status = io_shapes_add(sink, &m->shapes, geometry, &sides);
     if (curved) OGR_G_DestroyGeometry(geometry);
     return status;

@@ -44,14 +44,16 @@ static const cli_option what[] = {
 
 static const cli_option camera[] = {
     {"view", 0, CLI_CHOICE, offsetof(render_args, direction), "FROM",
-     .help = "corner (default), iso, dimetric, front, back, left, right, top or bottom", .choices = directions},
+     .help = "corner (default), or in parallel projection iso, dimetric, front, back, left, right, top or bottom",
+     .choices = directions},
     {"up", 0, CLI_CHOICE, offsetof(render_args, up_axis), "AXIS",
      .help = "the axis that points up: x, y or z (default: as the file says; y in glTF)", .choices = axes},
     {"eye", 0, CLI_REALS, offsetof(render_args, eye), "X,Y,Z",
      .help = "look from here, at the middle of the scene or the target; nothing is fitted"},
     {"target", 0, CLI_REALS, offsetof(render_args, target), "X,Y,Z", .help = "look at this point"},
     {"parallel", 0, CLI_FLAG, offsetof(render_args, parallel), .help = "parallel instead of perspective projection"},
-    {"fov", 0, CLI_REAL, offsetof(render_args, fov), "DEGREES", .help = "vertical angle of view (default 35)"},
+    {"fov", 0, CLI_REAL, offsetof(render_args, fov), "DEGREES",
+     .help = "perspective: vertical angle of view within the margin (default 35)"},
     {"scale", 0, CLI_TEXT, offsetof(render_args, scale), "S",
      .help = "parallel: units of the page per unit of the scene; or true to scale on a page in millimetres, 1:50 "
              "(default: as fits)"},

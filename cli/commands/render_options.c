@@ -61,6 +61,10 @@ static int set_camera(const render_args *args, const froe_scene *scene, froe_cam
     }
     if (args->section.count) c->section = args->section.at;
     if (args->parallel || args->direction > 0) c->parallel = true;
+    if (c->parallel && !isnan(args->fov))
+        return cli_fail(
+            CLI_USE, NULL,
+            "--fov: The projection is parallel, by --parallel, --preset technical or a --view other than corner.");
     cli_set_number(args->fov, &c->fov);
     c->margin = fmin(c->width / 50, c->height / 4);
     cli_set_number(args->margin, &c->margin);

@@ -106,7 +106,7 @@ static froe_status enter_group_of(obj *o, size_t count) {
 }
 
 /* Ends what follows a word before the blanks behind it; returns where it begins. */
-static const char *rest_of(char *line) {
+static const char *words_after(char *line) {
     line += strspn(line, " \t");
     size_t length = strlen(line);
     while (length && strchr(" \t\r", line[length - 1])) --length;
@@ -219,7 +219,7 @@ static froe_status read_libraries(obj *o, char *at) {
     for (char *next; *(at += strspn(at, " \t\r")) && !status; at = next) {
         for (next = at + 1; *next && !(is_blank(*next) && next - at > 4 && !strncasecmp(next - 4, ".mtl", 4));) next++;
         if (*next) *next++ = '\0';
-        status = formats_materials_read(o->sink, o->path, rest_of(at), &o->materials, &o->images);
+        status = formats_materials_read(o->sink, o->path, words_after(at), &o->materials, &o->images);
     }
     return status;
 }
@@ -247,8 +247,8 @@ static froe_status read_line(obj *o) {
     if (starts(line, "curv") || starts(line, "curv2") || starts(line, "surf"))
         return ++o->sink->report.skipped, FROE_OK;
     const bool material = starts(line, "usemtl"), name = starts(line, "o") || starts(line, "g");
-    if (material) o->material = rest_of(line + 6);
-    if (name) o->name = rest_of(line + 1);
+    if (material) o->material = words_after(line + 6);
+    if (name) o->name = words_after(line + 1);
     o->regroup = o->regroup || material || name;
     o->refeature = o->refeature || name;
     return FROE_OK;

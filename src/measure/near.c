@@ -51,7 +51,7 @@ typedef struct near_pair {
     bool flat;
 } near_pair;
 
-static near_pair pair_of(const near_survey *v, uint32_t i, uint32_t j) {
+static near_pair near_pair_of(const near_survey *v, uint32_t i, uint32_t j) {
     const froe_scene *s = v->of.scene;
     near_pair p = {.a = v->of.objects[i < j ? i : j], .b = v->of.objects[i < j ? j : i]};
     geom_plane of_b;
@@ -83,7 +83,7 @@ static bool in_one_plane(const froe_scene *s, num_context *context, const geom_p
 static bool look_at_poking(void *user, unsigned worker, uint32_t i, uint32_t j) {
     near_survey *v = user;
     froe_near *found = v->found + worker;
-    const near_pair p = pair_of(v, i, j);
+    const near_pair p = near_pair_of(v, i, j);
     if (p.flat && v->of.scene->dim == 3 && share_two_vertices(v->of.scene, p.a, p.b)) return true;
     if (!reach_pokes(p.a_beside_b, v->within) && !reach_pokes(p.b_beside_a, v->within)) return true;
     const geom_contact m = measure_survey_meet(&v->of, worker, p.a, p.b);
@@ -97,7 +97,7 @@ static bool look_at_poking(void *user, unsigned worker, uint32_t i, uint32_t j) 
 enum { EDGES = 256 }; /* looked at between two calls of progress */
 
 static void look_at_common_edge(near_survey *v, uint32_t i, uint32_t j) {
-    const near_pair p = pair_of(v, i, j);
+    const near_pair p = near_pair_of(v, i, j);
     if (p.flat && share_two_vertices(v->of.scene, p.a, p.b) &&
         !in_one_plane(v->of.scene, &v->of.workers[0].context, &p.of_a, p.b))
         measure_note_pair(&v->found->coplanar, v->found->first_coplanar, p.a, p.b);
