@@ -81,7 +81,7 @@ while True:
     assert child.stdout.readline() == "begins\n"
     time.sleep(0.2)
     child.send_signal(signal.SIGINT)
-    _, complaint = child.communicate(timeout=20)
+    _, complaint = child.communicate(timeout=600)
     assert complaint.strip().endswith("KeyboardInterrupt")
 
 
@@ -122,11 +122,16 @@ def test_other_threads_run_meanwhile(tree):
 
     thread = threading.Thread(target=count)
     thread.start()
-    begun = seen[0]
-    tree.query(windows(200000, 0.05), threads=1)
+    ranges, most = windows(200000, 0.05), 0
+    for _ in range(50):  # a machine may be so busy that no other thread has its turn during one call
+        begun = seen[0]
+        tree.query(ranges, threads=1)
+        most = max(most, seen[0] - begun)
+        if most > 10:
+            break
     done.set()
     thread.join()
-    assert seen[0] > begun + 10
+    assert most > 10
 
 
 def test_closed_while_asked():
@@ -203,7 +208,7 @@ def test_processes(tree, how):
     children = [context.Process(target=ask_in_child, args=(tree, ranges, queue)) for _ in range(2)]
     for child in children:
         child.start()
-    assert [queue.get(timeout=60) for _ in children] == [expected] * 2
+    assert [queue.get(timeout=600) for _ in children] == [expected] * 2
     for child in children:
         child.join()
         assert child.exitcode == 0
@@ -226,7 +231,7 @@ def test_processes_while_another_thread_asks(tree, how):
         children = [context.Process(target=ask_in_child, args=(tree, ranges, queue)) for _ in range(4)]
         for child in children:
             child.start()
-        assert [queue.get(timeout=60) for _ in children] == [expected] * 4
+        assert [queue.get(timeout=600) for _ in children] == [expected] * 4
         for child in children:
             child.join()
             assert child.exitcode == 0

@@ -17,7 +17,7 @@ CHECK = ROOT / "scripts/check-notebooks"
 
 def check(*arguments):
     """The exit status, and what is printed. Where all is well, not what ZeroMQ says of a kernel that ends."""
-    done = subprocess.run([sys.executable, CHECK, *map(str, arguments)], capture_output=True, text=True, timeout=300)
+    done = subprocess.run([sys.executable, CHECK, *map(str, arguments)], capture_output=True, text=True, timeout=3600)
     return done.returncode, done.stdout + (done.stderr if done.returncode else "")
 
 
