@@ -67,7 +67,7 @@ test("Chromium: a plain script, a worker, and the predicates", async (t) => {
         writeFileSync(name, `<!doctype html><title>froe</title>${map}<script type="module">${body}</script>`);
         return open(chromium.browser, at);
     };
-    const shown = (opened) => opened.waitForFunction("globalThis.said", { timeout: 60000 }).then((value) => value.jsonValue());
+    const shown = (opened) => opened.waitForFunction("globalThis.said").then((value) => value.jsonValue());
 
     await t.test("a plain script gives what Node gives", async () => {
         const opened = await page(`${site.url}script.html`, scratch("script.html"),

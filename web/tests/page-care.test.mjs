@@ -1,11 +1,10 @@
 // What holds in every room: contrast and labels, by axe; no network once the page was open; no growth; an end at once.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { after, before, test as register } from "node:test";
-import { assertHeld, cancelled, cancelNext, drawn, dropped, held, launch, modules, open, serve, shown, until } from "./browser.mjs";
+import { after, before } from "node:test";
+import { assertHeld, cancelled, cancelNext, drawn, dropped, held, launch, modules, open, serve, shown, test, until } from "./browser.mjs";
 
 const axe = readFileSync(modules.resolve("axe-core/axe.min.js"), "utf8");
-const test = (name, body) => register(name, { timeout: 240000 }, body);
 const ROOMS = ["draw?scene=bracket", "partition", "ask", "move"];
 let site, chromium;
 before(async () => { site = await serve(); chromium = await launch(); });
@@ -67,21 +66,23 @@ test("forty models take no more memory than ten", async () => {
             await dropped(page, { [`m${i}.obj`]: Buffer.from(points + faces) });
             await drawn(page);
         }
-        return held(page);
     };
-    const before = await load(10), after = await load(30);
-    assertHeld(before, after, 30);
+    await load(10);
+    const before = await held(page);
+    await load(30);
+    await assertHeld(page, before, 30);
     await page.close();
 });
 
 test("Cancel ends what is built, at once, and the drawing stays", async () => {
-    const page = await at("#draw?scene=house");
-    await drawn(page);
-    await page.waitForFunction(() => /fewer/.test(document.querySelector(".work:not([hidden])")?.textContent ?? ""));
-    await page.waitForFunction(() => document.querySelector(".work progress").value > 0);
-    assert.equal(page.workers().length, 2);
-    await page.evaluate(() => document.querySelector(".work button").click());
-    assert.ok(await page.$eval(".work", (work) => work.hidden));
+    const page = await at(""), begun = [];
+    await cancelNext(page, "fewer");
+    await page.goto("about:blank");
+    page.on("workercreated", (worker) => begun.push(worker));
+    await page.goto(`${site.url}#draw?scene=house`);
+    await page.waitForFunction(() => globalThis.pressed);
+    assert.ok(await page.evaluate("pressed.gone"));
+    assert.equal(begun.length, 2);
     await until(() => page.workers().length === 1); // Chromium lets a worker be busy for 2 s, beside the page
     assert.ok(await page.$(".sheet.drawn"));
     await page.close();

@@ -3,13 +3,12 @@ import assert from "node:assert/strict";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { after, before, test as register } from "node:test";
-import { dropped, drawn, launch, open, press, said, saved, serve, settled } from "./browser.mjs";
+import { after, before } from "node:test";
+import { drawn, dropped, launch, open, press, said, saved, serve, settled, test } from "./browser.mjs";
 
 const data = (name) => readFileSync(new URL(`../../data/${name}`, import.meta.url));
 const text = (content) => Buffer.from(content);
 const folders = mkdtempSync(join(tmpdir(), "froe-files-"));
-const test = (name, body) => register(name, { timeout: 240000 }, body);
 let site, chromium, page;
 before(async () => {
     site = await serve();

@@ -5,11 +5,10 @@ import { execFileSync } from "node:child_process";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { after, before, test as register } from "node:test";
-import { launch, open, pause, press, serve } from "./browser.mjs";
+import { after, before } from "node:test";
+import { launch, open, pause, press, serve, test } from "./browser.mjs";
 
 const folder = mkdtempSync(join(tmpdir(), "froe-move-"));
-const test = (name, body) => register(name, { timeout: 240000 }, body);
 let site, chromium;
 before(async () => { site = await serve(); chromium = await launch(); });
 after(async () => { await chromium?.stop(); site?.stop(); rmSync(folder, { recursive: true }); });
@@ -45,10 +44,10 @@ test("time goes from event to event, forwards and back, and the address keeps it
 });
 
 test("it plays, and pauses", async () => {
-    const page = await room("scene=flight&pace=4");
+    const page = await room("scene=flight&pace=0.1"); // it ends in minutes, long after it was paused
     const click = (name) => page.$$eval("button", (all, text) => all.find((it) => it.textContent === text).click(), name);
     await click("Play");
-    await page.waitForFunction(() => Number(document.querySelector(".timeline input").value) > 0.02);
+    await page.waitForFunction(() => Number(document.querySelector(".timeline input").value) > 0);
     await click("Pause");
     const stood = await time(page);
     await pause(200);

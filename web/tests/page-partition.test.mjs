@@ -5,11 +5,10 @@ import { execFileSync } from "node:child_process";
 import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
-import { after, before, test as register } from "node:test";
-import { launch, open, press, serve } from "./browser.mjs";
+import { after, before } from "node:test";
+import { launch, open, press, serve, test } from "./browser.mjs";
 
 const folder = mkdtempSync(join(tmpdir(), "froe-partition-"));
-const test = (name, body) => register(name, { timeout: 240000 }, body);
 let site, chromium;
 before(async () => { site = await serve(); chromium = await launch(); });
 after(async () => { await chromium?.stop(); site?.stop(); rmSync(folder, { recursive: true }); });

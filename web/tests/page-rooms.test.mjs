@@ -2,11 +2,10 @@
 // that are changed while one is read, and many scenes, one after the other.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
-import { after, before, test as register } from "node:test";
-import { assertHeld, cancelled, cancelNext, drawn, dropped, held, launch, open, pause, said, serve, SHOWN, shown, until } from "./browser.mjs";
+import { after, before } from "node:test";
+import { assertHeld, cancelled, cancelNext, drawn, dropped, held, launch, open, pause, said, serve, SHOWN, shown, test, until } from "./browser.mjs";
 
 const data = (name) => readFileSync(new URL(`../../data/${name}`, import.meta.url));
-const test = (name, body) => register(name, { timeout: 240000 }, body);
 let site, chromium;
 before(async () => { site = await serve(); chromium = await launch(); });
 after(async () => { await chromium?.stop(); site?.stop(); });
@@ -78,15 +77,13 @@ test("an own file can be chosen in the list only if there is one, and Cancel lea
 
 test("a scene that comes late does not replace one that was chosen after it", async () => {
     for (const [room, slow, fast, text] of [["draw", "bracket", "hills", /^Hills/], ["partition", "plan", "rooms", /of 600 objects/], ["ask", "plan", "rooms", /^600 objects/], ["move", "cars", "spin", / 60 objects|60 objects/]]) {
-        const page = await chromium.browser.newPage();
-        await page.evaluateOnNewDocument(() => {
+        const page = await at(`#${room}?scene=${slow}`, { first: () => {
             const { fetch } = globalThis;
             globalThis.fetch = async (url, ...more) => {
                 if (String(url).startsWith("samples/")) await new Promise((resume) => { globalThis.release = resume; });
                 return fetch(url, ...more);
             };
-        });
-        await page.goto(`${site.url}#${room}?scene=${slow}`);
+        } });
         await page.waitForFunction(() => globalThis.release);
         await page.select("select", fast);
         assert.match(await shown(page, room), text);
@@ -117,15 +114,16 @@ test("an address that is entered in its own room says the same as anew", async (
 test("a question about a model draws the answers again, and not the model", async () => {
     const page = await at("#ask?scene=bracket&kind=window&size=0.1&px=0.45&py=0.55");
     await shown(page, "ask");
-    await pause(300);
     const fills = await page.evaluate(async () => {
+        const frames = async (count) => { while (count--) await new Promise((resume) => requestAnimationFrame(resume)); };
+        await frames(10); // in which the model and the first answers are drawn
         const { prototype } = CanvasRenderingContext2D, { fill } = prototype;
         let count = 0;
         prototype.fill = function (...given) { count++; return fill.apply(this, given); };
         const canvas = document.querySelector(".map canvas"), asked = document.querySelector("[data-asked]"), before = asked.dataset.asked, frame = canvas.getBoundingClientRect();
         canvas.dispatchEvent(new PointerEvent("pointermove", { clientX: frame.left + 0.5 * frame.width, clientY: frame.top + 0.6 * frame.height }));
         while (asked.dataset.asked === before) await new Promise((resume) => setTimeout(resume, 20));
-        await new Promise((resume) => requestAnimationFrame(() => requestAnimationFrame(resume)));
+        await frames(2);
         return { count, found: asked.dataset.found.split(" ").length };
     });
     assert.ok(fills.found > 0 && fills.count > 0 && fills.count < 3 * fills.found + 10, JSON.stringify(fills));
@@ -145,10 +143,11 @@ for (const room of ["partition", "ask", "move"])
                 else await dropped(page, { [`m${n}.geojson`]: Buffer.from(map(n)) });
                 await page.waitForFunction(`![null, ${JSON.stringify(before)}].includes((${SHOWN[room]})())`);
             }
-            return held(page);
         };
-        const before = await load(10), after = await load(30);
-        assertHeld(before, after, 30);
+        await load(10);
+        const before = await held(page);
+        await load(30);
+        await assertHeld(page, before, 30);
         await page.close();
     });
 
