@@ -25,7 +25,8 @@ set(split_kinetic/live ordinary augmented)
 set(split_query/range_eps approximate_answers_keep_their_contract at_the_limits_they_keep_it_too
     at_every_scale_they_keep_it_too)
 
-# froe_test(AREA NAME COMMAND...): runs in a scratch folder of its own. AddressSanitizer would map fresh memory for its
+# froe_test(AREA NAME COMMAND...): runs in a scratch folder of its own, which is emptied first: what a test that was killed
+# has left would fail all that follow. AddressSanitizer would map fresh memory for its
 # marks whenever a block of more than 0.5 MB is taken, as each context of predicates does, so it clears old memory.
 function(froe_test area name)
   set(scratch ${PROJECT_BINARY_DIR}/scratch/${area}-${name})
@@ -49,7 +50,13 @@ function(froe_test area name)
     endif()
     set(counts ";LLVM_PROFILE_FILE=set:${PROJECT_BINARY_DIR}/counts/${area}-${name}-${each}.profraw")
   endif()
-  add_test(NAME ${area}/${name} COMMAND ${ARGN} WORKING_DIRECTORY ${scratch})
+  set(command ${ARGN})
+  list(POP_FRONT command program)
+  if(TARGET ${program})
+    set(program $<TARGET_FILE:${program}>)
+  endif()
+  add_test(NAME ${area}/${name} COMMAND sh -c "find . -mindepth 1 -delete && exec \"$@\"" sh ${program} ${command}
+           WORKING_DIRECTORY ${scratch})
   set_tests_properties(${area}/${name} PROPERTIES LABELS ${area} TIMEOUT ${limit} ${first}
     ENVIRONMENT_MODIFICATION
     "ASAN_OPTIONS=set:clear_shadow_mmap_threshold=1073741824;UBSAN_OPTIONS=set:print_stacktrace=1;LSAN_OPTIONS=set:suppressions=${PROJECT_SOURCE_DIR}/cmake/lsan.supp:print_suppressions=0;TSAN_OPTIONS=set:suppressions=${PROJECT_SOURCE_DIR}/cmake/tsan.supp${counts}")
