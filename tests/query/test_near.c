@@ -260,6 +260,27 @@ static void edges_nearly_on_one_line_need_no_exact_numbers(void **state) {
     froe_scene_free(scene);
 }
 
+/* Of 4,096 short segments. */
+static void the_next_neighbours_cost_few_tests(void **state) {
+    static const char *const methods[] = {"index", "density", "grain", "kd"};
+    enum { N = 4096, QUESTIONS = 100, NEXT = 10 };
+    (void)state;
+    for (int m = 0; m < 4; m++) {
+        froe_tree *tree = trees_grow(2, FROE_SEGMENT, N, 0, 0.01, methods[m], 1);
+        froe_query *q;
+        froe_neighbours found;
+        assert_int_equal(froe_query_new(tree, &q, NULL), FROE_OK);
+        for (uint64_t i = 0; i < QUESTIONS; i++) {
+            const double x[2] = {trees_unit(71, i), trees_unit(72, i)};
+            assert_int_equal(froe_query_near(q, x, NEXT, INFINITY, &found, NULL), FROE_OK);
+            assert_int_equal(found.count, NEXT);
+        }
+        assert_true(froe_query_statistics(q).tests < QUESTIONS * 10 * NEXT);
+        froe_query_free(q);
+        froe_tree_free(tree);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(neighbours_in_generated_scenes),
@@ -271,6 +292,7 @@ int main(void) {
         cmocka_unit_test(bad_questions_are_refused_and_change_nothing),
         cmocka_unit_test(walls_in_one_plane_are_equally_near_without_exact_numbers),
         cmocka_unit_test(edges_nearly_on_one_line_need_no_exact_numbers),
+        cmocka_unit_test(the_next_neighbours_cost_few_tests),
         cmocka_unit_test(every_allocation_may_fail),
     };
     int failed = cmocka_run_group_tests_name("query/near", tests, NULL, NULL);
