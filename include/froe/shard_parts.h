@@ -165,7 +165,10 @@ FROE_API froe_status froe_shard_draft_end(froe_shard_draft *draft, froe_status s
  * counts[0] of them, then those for process 1, and so on. What is received goes into `in`, which is empty, in the same
  * way; its memory comes from in->alloc. All counts are multiples of 8. `status` says whether this process has failed,
  * and diag, which is never NULL, why. If one has, nothing is sent, and all processes return the failure and diagnostic
- * of the first that has. All of them call it at the same time. */
+ * of the first that has. All of them call it at the same time. FROE_OK says that all bytes have come as they were sent,
+ * to all processes. Where some are lost all the same, questions mostly end in FROE_E_FORMAT; but a process that lacks
+ * the first words of a last exchange waits for another one for ever. So the function, like MPI, has to notice what is
+ * lost, and that another process has ended; it returns a failure in all processes then, or ends them. */
 typedef froe_status froe_shards_trade_fn(void *user, froe_status status, const froe_shard_records *out,
                                          const size_t *counts, froe_shard_records *in, size_t *in_counts,
                                          froe_diagnostic *diag);

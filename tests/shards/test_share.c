@@ -559,8 +559,9 @@ static bool is_spoilt(const questions *q, int kind, office o) {
     return o.spoilt;
 }
 
-/* Words that are lost are noticed wherever that happens; others instead of them end in a status. The first word stays:
- * without it a process cannot tell whether there is another round. */
+/* Words that are lost are noticed wherever that happens; others instead of them end in a status. Behind the first
+ * trade the first word stays: without that of the last round a process cannot tell that there is no other, and a
+ * function that exchanges bytes must not lose it (froe_shards_trade_fn). */
 static void words_that_are_spoilt_are_refused(void **state) {
     (void)state;
     questions *q = calloc(1, sizeof *q);
@@ -571,7 +572,7 @@ static void words_that_are_spoilt_are_refused(void **state) {
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
         for (int number = 1; number <= 3; number++) {
             bool spoilt = true;
-            for (size_t kept = 1; kept < 16 && spoilt; kept++)
+            for (size_t kept = number > 1; kept < 16 && spoilt; kept++)
                 spoilt = is_spoilt(q, kinds[k], (office){.spoilt_trade = number, .kept = kept});
             for (size_t at = 1; at < 8; at++)
                 (void)is_spoilt(
