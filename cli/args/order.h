@@ -4,11 +4,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-typedef struct cli_order {
-    uint32_t *ids; /**< to be freed */
-    size_t count;
-} cli_order;
-
-/** Reads object ids, one a line (blank lines and lines that begin with # are passed over). Exit code, 0: read. */
-int cli_read_order(const char *path, cli_order *out);
+/** Reads the ids of so many objects, each once, one a line (blank lines and lines that begin with # are passed over).
+ * *out is to be freed, also on failure. Exit code, 0: read. */
+int cli_read_order(const char *path, size_t objects, uint32_t **out);
 #endif

@@ -59,28 +59,27 @@ static const cli_part parts[] = {
 };
 
 static int build(const build_args *args, froe_scene *scene, froe_tree **tree) {
-    cli_order order = {NULL, 0};
-    int code = args->order ? cli_read_order(args->order, &order) : 0;
-    if (code) return code;
+    uint32_t *order = NULL;
+    const size_t objects = froe_scene_object_count(scene);
+    int code = args->order ? cli_read_order(args->order, objects, &order) : 0;
     /* The settings with what other options stand for. */
     const char *more = args->split_intersections ? "crossing=split" : "", *given = args->settings ? args->settings : "";
     const size_t size = strlen(given) + strlen(more) + 2;
     char *settings = malloc(size);
-    if (settings) {
+    if (!code && !settings) code = cli_fail_memory();
+    if (!code) {
         snprintf(settings, size, "%s %s", given, more);
         froe_build_options o = froe_build_defaults();
         o.method = args->method;
         o.purpose = purposes[args->purpose < 0 ? 0 : args->purpose];
         o.settings = settings;
-        o.order = order.ids;
-        o.order_count = order.count;
+        o.order = order;
+        o.order_count = order ? objects : 0;
         o.leaf = (uint32_t)args->leaf;
         code = cli_build_tree(&args->common, args->scene.path, args->max_fragments, scene, &o, tree);
-    } else {
-        code = cli_fail_memory();
     }
     free(settings);
-    free(order.ids);
+    free(order);
     return code;
 }
 
