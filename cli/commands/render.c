@@ -204,6 +204,16 @@ static froe_status render_turning(const render_args *args, render_fn *write, con
     return status;
 }
 
+/* Is there something that a camera can look at? That is a question of the scene; of other failures, which come again,
+ * options or the output are told. */
+static int check_view(const render_args *args, const froe_scene *scene, const froe_render_options *o) {
+    froe_diagnostic diag;
+    froe_projection view;
+    const froe_status status = froe_camera_place(&o->camera, scene, &view, &diag);
+    if (status != FROE_E_INPUT && status != FROE_E_UNSUPPORTED) return 0;
+    return cli_fail_status(CLI_WORKING, args->tree.scene.path, status, &diag);
+}
+
 static int render(const render_args *args, const froe_tree *tree, froe_render_options *o) {
     froe_diagnostic diag;
     froe_render_report report;
@@ -216,7 +226,8 @@ static int render(const render_args *args, const froe_tree *tree, froe_render_op
     if (args->turntable && !args->animate && !render_names_frames(args->output.path))
         return cli_fail(CLI_USE, NULL, "--turntable: '%s' is not like pic-%%03d.svg.", args->output.name);
     render_fn *write = froe_render;
-    const int code = render_find_writer(args->output.path, &write);
+    int code = render_find_writer(args->output.path, &write);
+    if (!code) code = check_view(args, froe_tree_scene(tree), o);
     if (code) return code;
     cli_progress bar = cli_progress_begin(&args->common, "looking");
     o->progress = cli_progress_step;

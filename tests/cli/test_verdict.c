@@ -104,6 +104,13 @@ static void a_tree_of_nothing_is_told_about_and_asked(void **state) {
     for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
         if (run_froe(lines[i].arguments, said, sizeof said) || !strstr(said, lines[i].said))
             fail_msg("froe %s: %s", lines[i].arguments, said);
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    assert_int_equal(froe_build(scene, &options, &tree, NULL), FROE_OK);
+    froe_scene_free(scene);
+    assert_int_equal(froe_tree_save(tree, "space.froe", NULL), FROE_OK);
+    froe_tree_free(tree);
+    assert_int_equal(run_froe("render space.froe -o space.svg", said, sizeof said), 3);
+    assert_string_equal(said, "froe: space.froe: There is nothing before the eye to fit.\n");
 }
 
 /* Settings are words of the builder's, numbers or not; a file may hold others. */
