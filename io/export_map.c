@@ -24,7 +24,8 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { PATH_ROOM = 4096, MOST_SIBLINGS = 8, TEXT_OF_DBF = 254 };
+/* Of a path that does not fit into PATH_OF_OGR bytes OGR may lose the folder, and write into the current one. */
+enum { PATH_ROOM = 4096, PATH_OF_OGR = 2048, MOST_SIBLINGS = 8, TEXT_OF_DBF = 254 };
 static const uint64_t number_of_dbf = 999999999999999999u; /* 18 digits: more would be read as a double */
 
 /** A format of OGR. */
@@ -54,7 +55,7 @@ typedef struct map_export {
     froe_diagnostic *diag;
     froe_allocator alloc;
     io_heard heard;
-    char folder[PATH_ROOM], file[PATH_ROOM], layer_name[256]; /* of OGR */
+    char folder[PATH_OF_OGR], file[PATH_OF_OGR], layer_name[256]; /* of OGR */
     GDALDatasetH data;
     OGRLayerH layer;
     OGRwkbGeometryType type; /* of all parts; wkbNone: there are none so far, wkbUnknown: of several */
@@ -287,26 +288,26 @@ static froe_status check_old(map_export *m) {
                         support_short(m->path), others.text);
 }
 
+/* A new folder within one whose path has so many bytes, and the file in it. False: errno says why there is none. */
+static bool make_folder_in(map_export *m, const char *path, int length, const char *name) {
+    const size_t room = (size_t)snprintf(m->file, sizeof m->file, "%.*s.froe-XXXXXX/%s", length, path, name);
+    if (room >= sizeof m->file) return errno = ENAMETOOLONG, false;
+    snprintf(m->folder, sizeof m->folder, "%.*s", (int)(room - strlen(name) - 1), m->file);
+    if (!mkdtemp(m->folder)) return *m->folder = '\0', false;
+    memcpy(m->file, m->folder, strlen(m->folder));
+    return true;
+}
+
 /* A folder for OGR beside the file, or where temporary files are. */
 static froe_status make_folder(map_export *m) {
-    const char *name = strrchr(m->path, '/'), *temporary = getenv("TMPDIR");
+    const char *name = strrchr(m->path, '/'), *given = getenv("TMPDIR");
+    char temporary[PATH_OF_OGR];
     name = name ? name + 1 : m->path;
-    snprintf(m->folder, sizeof m->folder, "%.*s.froe-XXXXXX", (int)(name - m->path), m->path);
-    bool made = mkdtemp(m->folder) != NULL;
-    if (!made) {
-        snprintf(m->folder, sizeof m->folder, "%s/froe-XXXXXX", temporary && *temporary ? temporary : "/tmp");
-        made = mkdtemp(m->folder) != NULL;
-    }
-    if (!made) {
-        const int error = errno;
-        *m->folder = '\0';
-        return support_fail_file(m->diag, "written", m->path, error);
-    }
+    const int length = snprintf(temporary, sizeof temporary, "%s/", given && *given ? given : "/tmp");
+    if (!make_folder_in(m, m->path, (int)(name - m->path), name) && !make_folder_in(m, temporary, length, name))
+        return support_fail_file(m->diag, "written", m->path, errno);
     snprintf(m->layer_name, sizeof m->layer_name, "%.*s",
              (int)(strlen(name) - strlen(support_path_extension(name).text) - 1), name);
-    const int length = snprintf(m->file, sizeof m->file, "%s/%s", m->folder, name);
-    if (length < 0 || (size_t)length >= sizeof m->file)
-        return support_fail_file(m->diag, "written", m->path, ENAMETOOLONG);
     return FROE_OK;
 }
 

@@ -315,6 +315,32 @@ static void long_paths_need_another_folder(void **state) {
     froe_tree_free(tree);
 }
 
+/* OGR takes 2047 bytes. Of a longer path it loses the folder, and would write into the one where the program runs. */
+static void ogr_is_spared_long_paths(void **state) {
+    (void)state;
+    static const char *const endings[] = {"shp", "fgb", "gpkg"};
+    static const size_t lengths[] = {2000, 2020, 2021, 2047, 2048, 3000};
+    static char path[3001];
+    froe_tree *tree = tree_of("segments", 100);
+    assert_int_equal(system("rm -rf deep far.*; mkdir deep"), 0);
+    for (size_t i = 0; i < 3 * (sizeof lengths / sizeof *lengths); i++) {
+        const size_t length = lengths[i / 3];
+        char name[16];
+        froe_diagnostic why;
+        snprintf(name, sizeof name, "/far.%s", endings[i % 3]);
+        memset(path, '/', length); /* slashes mean one */
+        memcpy(path, "deep", 4), strcpy(path + length - strlen(name), name);
+        if (froe_export_map(tree, path, FROE_EXPORT_FRAGMENTS, NULL, &why))
+            fail_msg("%zu, %s: %s", length, name, why.message);
+        snprintf(path, sizeof path, "deep%s", name);
+        assert_true(objects_of(path) >= 100);
+        assert_int_equal(system("! ls -A deep | grep ^.froe && ! ls -A | grep ^far && rm -r deep/far.*"), 0);
+        assert_int_not_equal(access(path, F_OK), 0);
+    }
+    rmdir("deep");
+    froe_tree_free(tree);
+}
+
 /* What is no GeoPackage is replaced, and one with other layers is kept. */
 static void other_layers_are_not_lost(void **state) {
     (void)state;
@@ -363,6 +389,7 @@ int main(void) {
         cmocka_unit_test(a_full_disk_leaves_the_old_file),
         cmocka_unit_test(places_that_cannot_be_taken_are_told),
         cmocka_unit_test(long_paths_need_another_folder),
+        cmocka_unit_test(ogr_is_spared_long_paths),
         cmocka_unit_test(other_layers_are_not_lost),
         cmocka_unit_test(a_gdal_without_the_driver_is_told),
     };
