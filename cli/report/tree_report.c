@@ -1,10 +1,11 @@
 /* tree_report.c: a tree's counts, promises and filter statistics as JSON. */
 #include "report/tree_report.h"
 #include "exit.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* A number if it is one from end to end, else text. */
+/* A number if it is a finite one from end to end, else text. */
 static json_t *value_json(const char *text, size_t length) {
     char copy[64];
     if (length && length < sizeof copy) {
@@ -13,7 +14,7 @@ static json_t *value_json(const char *text, size_t length) {
         char *end;
         const double value = strtod(copy, &end);
         const bool whole = value >= -9e15 && value <= 9e15 && value == (double)(json_int_t)value;
-        if (!*end) return whole ? json_integer((json_int_t)value) : json_real(value);
+        if (!*end && isfinite(value)) return whole ? json_integer((json_int_t)value) : json_real(value);
     }
     return json_stringn(text, length);
 }

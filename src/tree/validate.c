@@ -176,7 +176,7 @@ bool tree_meta_fits(const froe_tree *t) {
     if (m->leaf > INT32_MAX || m->promise_count > TREE_PROMISES) return false;
     for (uint32_t i = 0; i < TREE_PROMISES; i++) {
         const tree_promise *p = m->promises + i;
-        if (!text_fits(p->name, sizeof p->name) || isnan(p->promised) || isnan(p->measured)) return false;
+        if (!text_fits(p->name, sizeof p->name) || !isfinite(p->promised) || !isfinite(p->measured)) return false;
         const bool empty = !p->name[0] && p->promised == 0 && p->measured == 0;
         if (i < m->promise_count ? !p->name[0] : !empty) return false;
     }

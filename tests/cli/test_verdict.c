@@ -119,7 +119,7 @@ static void settings_are_told_as_they_are(void **state) {
     char said[8000];
     froe_tree *tree = two_points();
     snprintf(tree->meta.settings, sizeof tree->meta.settings,
-             "whole=7 real=0.5 huge=1e300 low=-1e300 text=7x none= word long=%070d", 1);
+             "whole=7 real=0.5 huge=1e300 low=-1e300 far=inf more=1e999 text=7x none= word long=%070d", 1);
     memset(tree->meta.promises, 0, sizeof tree->meta.promises);
     tree->meta.promise_count = 1;
     tree->meta.promises[0] = (tree_promise){.name = "far", .promised = 123456789.5, .measured = 2};
@@ -132,6 +132,8 @@ static void settings_are_told_as_they_are(void **state) {
     assert_non_null(strstr(settings, "\"real\": 0.5,"));
     assert_non_null(strstr(settings, "\"huge\": 1e+300,"));
     assert_non_null(strstr(settings, "\"low\": -1e+300,"));
+    assert_non_null(strstr(settings, "\"far\": \"inf\","));
+    assert_non_null(strstr(settings, "\"more\": \"1e999\","));
     assert_non_null(strstr(settings, "\"text\": \"7x\","));
     assert_non_null(strstr(settings, "\"none\": \"\","));
     assert_non_null(strstr(settings, "0001\""));

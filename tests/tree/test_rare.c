@@ -93,18 +93,27 @@ static void empty_files_are_no_trees(void **state) {
     unlink("empty.froe");
 }
 
+/* And promises are finite. */
 static void texts_of_descriptions_are_printable_and_end(void **state) {
     (void)state;
+    static const double numbers[] = {1, 2, NAN, 2, 1, NAN, 1, INFINITY, -INFINITY, 2, -INFINITY, INFINITY};
     const tree_file f = tree_file_of(trees_grow(2, FROE_SEGMENT, 20, 0, 0.4, "autopartition", 1));
     tree_meta *m = tree_file_at(&f, FILE_META), right = *m;
-    for (int wrong = 0; wrong < 6; wrong++) {
+    m->promise_count = 1;
+    for (int i = 0; i < 6; i++) {
+        m->promises[0] = (tree_promise){.name = "far", .promised = numbers[2 * i + 1], .measured = numbers[2 * i]};
+        forge_checksums(f.bytes, f.size);
+        if (i)
+            assert_refused(&f, "its description is wrong");
+        else
+            assert_int_equal(read_whole(&f, NULL), FROE_OK);
+    }
+    for (int wrong = 0; wrong < 4; wrong++) {
         *m = right;
         if (wrong == 0) memset(m->method, 'a', sizeof m->method);
         if (wrong == 1) m->method[1] = 0x7f;
         if (wrong == 2) m->method[1] = '\n';
         if (wrong == 3) m->method[sizeof m->method - 1] = 'a';
-        if (wrong == 4) m->promises[0].promised = NAN;
-        if (wrong == 5) m->promises[0].measured = NAN;
         forge_checksums(f.bytes, f.size);
         assert_refused(&f, "its description is wrong");
     }
