@@ -6,23 +6,51 @@
 #include <cpl_error.h>
 #include <cpl_string.h>
 #include <cpl_vsi.h>
+#include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 void io_crs_free(io_crs *crs) {
     if (crs->system) OSRRelease(crs->system);
     crs->system = NULL;
 }
 
-/* Does the text say "crs": null? */
-static bool denies_crs(const char *head) {
-    static const char blank[] = " \t\r\n";
-    for (const char *at = head; (at = strstr(at, "\"crs\""));) {
-        at += strlen("\"crs\"");
-        at += strspn(at, blank);
-        if (*at == ':' && !strncmp(at + 1 + strspn(at + 1, blank), "null", 4)) return true;
+static const char *behind_string(const char *at) {
+    for (at++; *at && *at != '"'; at++) at += *at == '\\' && at[1];
+    return at + (*at == '"');
+}
+
+static const char *behind_blanks(const char *at) {
+    return at + strspn(at, " \t\r\n");
+}
+
+/* The value of the member `crs` of the object that a text begins with, in capitals or not. NULL: it has none. */
+static const char *find_crs(const char *head) {
+    static const char word[] = "\"crs\"";
+    int depth = 0;
+    for (const char *at = head; *at;) {
+        if (*at != '"') {
+            depth += (*at == '{' || *at == '[') - (*at == '}' || *at == ']');
+            at++;
+            continue;
+        }
+        const char *behind = behind_blanks(behind_string(at));
+        if (depth == 1 && *behind == ':' && !strncasecmp(at, word, strlen(word))) return behind_blanks(behind + 1);
+        at = behind;
     }
+    return NULL;
+}
+
+/* Does the value of a member `crs`, whose only text is that name, say WGS 84? */
+static bool names_degrees(const char *value) {
+    static const char *const names[] = {"4326", "4979", "CRS84", "WGS84", "WGS 84"};
+    const size_t length = strcspn(value, "}");
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        for (const char *at = value; (at = strstr(at, names[i])) && at < value + length; at++)
+            if (at > value && !isalnum((unsigned char)at[-1]) && !isalnum((unsigned char)at[strlen(names[i])]))
+                return true;
     return false;
 }
 
@@ -44,7 +72,9 @@ io_crs_promise io_crs_promise_of(GDALDatasetH data) {
     if (file) head[VSIFReadL(head, 1, sizeof head - 1, file)] = '\0';
     if (file) VSIFCloseL(file);
     CSLDestroy(files);
-    return denies_crs(head) || !has_database() ? IO_CRS_NONE : topology ? IO_CRS_GUESSED : IO_CRS_DEGREES;
+    const char *crs = find_crs(head);
+    if (!has_database() || (crs && !strncmp(crs, "null", 4))) return IO_CRS_NONE;
+    return topology ? IO_CRS_GUESSED : crs && !names_degrees(crs) ? IO_CRS_OTHER : IO_CRS_DEGREES;
 }
 
 static froe_crs_kind kind_of_system(OGRSpatialReferenceH system) {
@@ -81,6 +111,12 @@ static bool is_undefined(OGRSpatialReferenceH system) {
     return name && (!strcmp(name, "Undefined geographic SRS") || !strcmp(name, "Undefined Cartesian SRS"));
 }
 
+/* WGS 84, in the plane or with heights? */
+static bool is_default(OGRSpatialReferenceH system) {
+    const char *code = OSRGetAuthorityCode(system, NULL);
+    return code && (!strcmp(code, "4326") || !strcmp(code, "4979"));
+}
+
 static const char *name_of(OGRSpatialReferenceH system) {
     const char *name = system ? OSRGetName(system) : "none";
     return name ? name : "without a name";
@@ -95,7 +131,7 @@ static bool same(OGRSpatialReferenceH a, OGRSpatialReferenceH b) {
 static froe_status take_system(io_crs *crs, formats_sink *sink, OGRLayerH layer) {
     OGRSpatialReferenceH system = crs->promise == IO_CRS_NONE ? NULL : OGR_L_GetSpatialRef(layer), made = NULL;
     froe_status status = FROE_OK;
-    if (system && is_undefined(system)) system = NULL;
+    if (system && (is_undefined(system) || (crs->promise == IO_CRS_OTHER && is_default(system)))) system = NULL;
     if (!system && crs->promise == IO_CRS_GUESSED) {
         made = system = OSRNewSpatialReference(NULL);
         (void)OSRImportFromEPSG(made, 4326); /* there is a database */

@@ -12,6 +12,7 @@ typedef enum io_crs_promise {
     IO_CRS_BY_FILE, /**< nothing */
     IO_CRS_DEGREES, /**< they are longitudes and latitudes of WGS 84, in degrees */
     IO_CRS_GUESSED, /**< nothing, but in practice the same, where they can be degrees */
+    IO_CRS_OTHER,   /**< the file names one that is not WGS 84, which GDAL takes for what it does not know */
     IO_CRS_NONE     /**< the file says that there is no system */
 } io_crs_promise;
 

@@ -389,29 +389,50 @@ static void wrong_filters_are_told_in_a_line(void **state) {
     refuse_with("two.kml", &o, FROE_E_OPTIONS, "nothing");
 }
 
-/* A member with the value "crs" is none of that name. */
-static void geojson_denies_its_system_by_a_member_alone(void **state) {
+#define NAMED(name) "\"crs\":{\"type\":\"name\",\"properties\":{\"name\":\"" name "\"}},"
+
+/* The system is what a member of the collection says. GDAL takes WGS 84 for what it cannot look up, which is not
+ * believed then. A member with the value "crs" is none of that name. */
+static void geojson_has_the_system_that_its_member_names(void **state) {
     (void)state;
     static const char format[] =
         "{\"type\":\"FeatureCollection\",\"kind\":\"crs\",%s\"features\":[{\"type\":\"Feature\","
-        "\"properties\":{},\"geometry\":{\"type\":\"Point\",\"coordinates\":[1,2]}}]}";
+        "\"properties\":{\"crs\":null},\"geometry\":{\"type\":\"Point\",\"coordinates\":[1,2%s]}}]}";
     static const struct {
         const char *member;
         froe_crs_kind kind;
     } cases[] = {
         {"", FROE_CRS_GEOGRAPHIC},
+        {"\"other\":{\"crs\":\"EPSG:99999\"},", FROE_CRS_GEOGRAPHIC},
         {"\"crs\" : null,", FROE_CRS_UNKNOWN},
-        {"\"crs\":{\"type\":\"name\",\"properties\":{\"name\":\"urn:ogc:def:crs:EPSG::3857\"}},", FROE_CRS_PROJECTED},
+        {"\"CRS\":null,", FROE_CRS_UNKNOWN},
+        {NAMED("urn:ogc:def:crs:EPSG::3857"), FROE_CRS_PROJECTED},
+        {NAMED("urn:ogc:def:crs:EPSG::99999"), FROE_CRS_UNKNOWN},
+        {NAMED("EPSG:14326"), FROE_CRS_UNKNOWN},
+        {NAMED("EPSG:43260"), FROE_CRS_UNKNOWN},
+        {"\"note\":\"of \\\" and \\\\\"," NAMED("EPSG:99999") "\"more\":\"EPSG:4326\",", FROE_CRS_UNKNOWN},
+        {NAMED(""), FROE_CRS_UNKNOWN},
+        {"\"crs\":{\"type\":\"EPSG\",\"properties\":{\"code\":99999}},", FROE_CRS_UNKNOWN},
+        {"\"crs\":{\"type\":\"EPSG\",\"properties\":{\"code\":4326}},", FROE_CRS_GEOGRAPHIC},
+        {"\"crs\":\"EPSG:3857\",", FROE_CRS_UNKNOWN},
+        {"\"crs\":5,", FROE_CRS_UNKNOWN},
+        {NAMED("urn:ogc:def:crs:OGC:1.3:CRS84"), FROE_CRS_GEOGRAPHIC},
+        {NAMED("urn:ogc:def:crs:OGC::CRS84"), FROE_CRS_GEOGRAPHIC},
+        {NAMED("urn:ogc:def:crs:EPSG:6.6:4326"), FROE_CRS_GEOGRAPHIC},
+        {NAMED("EPSG:4979"), FROE_CRS_GEOGRAPHIC},
+        {NAMED("WGS84"), FROE_CRS_GEOGRAPHIC},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+    unlink("denied.zip");                                             /* of an earlier run */
+    for (size_t i = 0; i < 2 * (sizeof cases / sizeof *cases); i++) { /* flat, and with heights */
         char text[600];
-        snprintf(text, sizeof text, format, cases[i].member);
+        const char *member = cases[i / 2].member;
+        snprintf(text, sizeof text, format, member, i % 2 ? ",3" : "");
         VSILFILE *archive = VSIFOpenL("/vsizip/{denied.zip}/denied.geojson", "wb"); /* GDAL reads what is in archives */
         assert_int_equal(VSIFWriteL(text, 1, strlen(text), archive), strlen(text));
         VSIFCloseL(archive);
         froe_scene *scene = read_scene("denied.zip", NULL);
-        if (froe_scene_crs(scene).kind != cases[i].kind)
-            fail_msg("%s: %s", cases[i].member, froe_scene_crs(scene).name);
+        const froe_crs crs = froe_scene_crs(scene);
+        if (crs.kind != cases[i / 2].kind) fail_msg("%s: %s, %s", member, crs.name, crs.code);
         froe_scene_free(scene);
         unlink("denied.zip");
     }
@@ -469,7 +490,7 @@ int main(void) {
         cmocka_unit_test(systems_are_of_degrees_or_of_something_else),
         cmocka_unit_test(layers_in_different_systems_are_refused),
         cmocka_unit_test(wrong_filters_are_told_in_a_line),
-        cmocka_unit_test(geojson_denies_its_system_by_a_member_alone),
+        cmocka_unit_test(geojson_has_the_system_that_its_member_names),
         cmocka_unit_test(triangles_and_empty_rings_are_read),
         cmocka_unit_test(every_allocation_may_fail),
     };
