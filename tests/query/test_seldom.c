@@ -461,6 +461,49 @@ static void segments_are_found_across_lines_that_were_made_crooked(void **state)
     froe_tree_free(tree);
 }
 
+/* A heap of segments just above the cut of the root. The next cut lies just above the heap, on the same line of the
+ * table, and no core of a cell has what is between them: rays find it all the same. */
+static void segments_between_cuts_of_a_crooked_line_are_found(void **state) {
+    enum { HEAP = 64, OTHERS = 4000, POINTS = 100 };
+    static const double width = 0x1p-8, heap = 0x1p-40;
+    static double coords[HEAP + OTHERS][4], points[POINTS][2];
+    double cut = 0.5;
+    uint32_t found[2][2][POINTS]; /* by index, and by another method; down, and up */
+    (void)state;
+    for (int i = 0; i < OTHERS; i++) {
+        const double y = i ? 0.5 * i / OTHERS : 1; /* all but one below the cut, so that there are many lines */
+        memcpy(coords[HEAP + i], (double[]){0, y, width / 4, y}, sizeof *coords);
+    }
+    for (int i = 0; i < POINTS; i++) points[i][0] = width * 0.75, points[i][1] = (i + 0.5) / POINTS;
+    for (int turn = 0; turn < 3; turn++) { /* the first tells the cut of the root */
+        froe_build_options o = froe_build_defaults();
+        froe_scene *scene;
+        froe_tree *tree;
+        froe_query *q;
+        o.method = turn < 2 ? "index" : "autopartition", o.leaf = 2;
+        for (int i = 0; i < HEAP; i++) {
+            const double x = width * 0.75, y = cut + heap * (i + 1) / HEAP;
+            memcpy(coords[i], (double[]){x - heap, y, x + heap, y}, sizeof *coords);
+        }
+        assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+        assert_int_equal(trees_add(scene, FROE_SEGMENT, HEAP + OTHERS, coords[0], NULL, NULL), FROE_OK);
+        assert_int_equal(froe_build(scene, &o, &tree, NULL), FROE_OK);
+        if (turn < 2) {
+            const tree_table *table = tree->packed.table;
+            assert_int_equal(tree->nodes->axis, 1);
+            assert_int_equal(table->crooked[1][table->cells[1] / 2], turn);
+            cut = tree->nodes->u.value;
+        }
+        assert_int_equal(froe_query_new(tree, &q, NULL), FROE_OK);
+        for (int up = 0; up < 2 && turn; up++)
+            assert_int_equal(froe_batch_vertical(q, points[0], POINTS, up ? 1 : -1, NULL, found[turn - 1][up], NULL),
+                             FROE_OK);
+        froe_query_free(q), froe_tree_free(tree), froe_scene_free(scene);
+    }
+    assert_memory_equal(found[0], found[1], sizeof found[0]);
+    assert_true(found[0][0][POINTS - 1] == HEAP - 1 && found[0][1][0] == 0);
+}
+
 /* Objects that touch in the upper sides of cells, where the next cell begins: each pair is told once. */
 static void pairs_that_touch_in_sides_of_cells_are_told_once(void **state) {
     enum { LINES = 17 };
@@ -635,6 +678,7 @@ int main(void) {
         cmocka_unit_test(batches_of_groups_without_borders_are_single_questions),
         cmocka_unit_test(segments_are_found_above_cuts_that_are_not_quite_on_one_line),
         cmocka_unit_test(segments_are_found_across_lines_that_were_made_crooked),
+        cmocka_unit_test(segments_between_cuts_of_a_crooked_line_are_found),
         cmocka_unit_test(pairs_that_touch_in_sides_of_cells_are_told_once),
         cmocka_unit_test(windows_of_a_large_map_hold_what_lies_in_them),
         cmocka_unit_test(areas_that_begin_outside_of_the_question_are_not_within),
