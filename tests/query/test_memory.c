@@ -59,6 +59,19 @@ static void add_ring(froe_scene *scene, const double (*corners)[2], size_t count
     }
 }
 
+/* Triangles on both sides of lines through one point, but for one side of the first line: where there is room for one
+ * more group, it is taken by the first of a border's two. */
+static froe_scene *star(void) {
+    froe_scene *scene;
+    assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+    for (int i = 0; i < MANY; i++) {
+        const double p = (MANY - i) / 64.0, q = (i + 1) / 64.0, a[2] = {0.5 - p, 0.5 - q}, b[2] = {0.5 + p, 0.5 + q};
+        add_ring(scene, (const double[][2]){{a[0], a[1]}, {b[0], b[1]}, {0.5 - q, 0.5 + p}}, 3);
+        if (i) add_ring(scene, (const double[][2]){{b[0], b[1]}, {a[0], a[1]}, {0.5 + q, 0.5 - p}}, 3);
+    }
+    return scene;
+}
+
 /* Squares one in the other around all that is asked for. */
 static froe_scene *rings(void) {
     froe_scene *scene;
@@ -259,7 +272,10 @@ static void memory_may_end_among_many_areas(void **state) {
         froe_scene *(*make)(void);
         const char *method;
         int leaf, question;
-    } cases[] = {{shared_fan, "kd", 200, MIDDLE}, {rings, "kd", 1, COVERS}, {yard, "autopartition", 4, GROUPS}};
+    } cases[] = {{shared_fan, "kd", 200, MIDDLE},
+                 {star, "kd", 200, MIDDLE},
+                 {rings, "kd", 1, COVERS},
+                 {yard, "autopartition", 4, GROUPS}};
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         froe_scene *scene = cases[i].make();
