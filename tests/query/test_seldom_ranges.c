@@ -143,12 +143,14 @@ static void an_eps_without_a_margin_adds_nothing(void **state) {
     static const double cube[8][4] = {{1, 0, 0, 0}, {-1, 0, 0, 0}, {0, 1, 0, 0}, {0, -1, 0, 0},
                                       {0, 0, 1, 0}, {0, 0, -1, 0}, {0, 0, 0, 1}, {0, 0, 0, -1}};
     static const double half[] = {0.5, 0, 0.5, 0, 0.5, 0, 0.5, 0}, flat[] = {0.5, -0.5, 0.5, 0, 0.5, 0, 0.5, 0};
-    static const double apart[] = {0, -1, 0, -1, 0, -1, 0, -1}, huge[8] = {0, 0, 0, 0, 64, 64, 64, 64};
-    static const double wide[] = {64, 0, 64, 0, 64, 0, 64, 0};
+    static const double apart[] = {0, -1, 0, -1, 0, -1, 0, -1}, huge[8] = {-64, -64, -64, -64, 0.5, 0.5, 0.5, 0.5};
+    static const double wide[] = {0.5, 64, 0.5, 64, 0.5, 64, 0.5, 64};
     (void)state;
-    for (size_t objects = 0; objects <= 80; objects += 80)
-        for (int which = 0; which < 7; which++) {
-            froe_query *q = ask(trees_grow(4, FROE_BOX, objects, 0, 0.9, "density", 2));
+    for (int tree = 0; tree < 3; tree++)
+        for (int which = 1; which < 7; which++) {
+            const size_t objects = tree ? 80 : 0;
+            froe_query *q = ask(tree < 2 ? trees_grow(4, FROE_BOX, objects, 0, 0.9, "density", 2)
+                                         : trees_grow(4, FROE_POINT, objects, 0, 0, "kd", 1));
             froe_list found;
             size_t count = 0;
             for (int eps = 0; eps < 2; eps++) {
@@ -157,7 +159,7 @@ static void an_eps_without_a_margin_adds_nothing(void **state) {
                 r.points = which != 5 ? cube[0] : huge;
                 r.offsets = which == 1 ? flat : which == 2 || which == 3 ? apart : which == 6 ? wide : half;
                 r.count = which == 3 ? 2 : 8;
-                r.eps = !eps ? 0 : which == 0 || which >= 5 ? 0x1p1023 : 0.125;
+                r.eps = !eps ? 0 : which >= 5 ? 0x1p1023 : 0.125;
                 if (which == 4) r.eps = eps ? INFINITY : 0;
                 const froe_status status = froe_query_range(q, &r, &found, NULL);
                 assert_int_equal(status, which == 4 && eps ? FROE_E_INPUT : FROE_OK);
@@ -171,7 +173,7 @@ static void an_eps_without_a_margin_adds_nothing(void **state) {
                 bool meets = true;
                 scene_object_bounds(q->tree->scene, i, lo, hi);
                 for (int k = 0; k < 4; k++)
-                    meets = meets && lo[k] <= (which >= 5 ? 64 : 0.5) && hi[k] >= (which == 1 && k == 0 ? 0.5 : 0);
+                    meets = meets && lo[k] <= 0.5 && hi[k] >= (which >= 5 ? -64 : which == 1 && k == 0 ? 0.5 : 0);
                 met += meets;
             }
             assert_int_equal(count, met);
