@@ -10,11 +10,11 @@
 #include <unistd.h>
 
 static const int signals[] = {SIGSEGV, SIGBUS, SIGABRT, SIGFPE, SIGILL};
-enum { SIGNALS = sizeof signals / sizeof *signals };
+enum { SIGNALS = sizeof signals / sizeof *signals, NAME = 4200, SENTENCE = 200 };
 
 /* What the handler needs. */
 static struct {
-    char name[4200]; /* of the program, then of the file */
+    char line[NAME + SENTENCE]; /* the names of the program and of the file; then the sentence */
     cli_spool spool;
     volatile sig_atomic_t reading;
     struct sigaction before[SIGNALS];
@@ -22,9 +22,10 @@ static struct {
 } crash_guard;
 
 _Noreturn static void end(int code, const char *said) {
-    const char *name = crash_guard.name;
-    if (write(STDERR_FILENO, name, strlen(name)) < 0) code = CLI_RESOURCES;
-    if (write(STDERR_FILENO, said, strlen(said)) < 0) code = CLI_RESOURCES;
+    char *line = crash_guard.line;
+    strncat(line, said, SENTENCE - 1);
+    const size_t length = strlen(line);
+    if (write(STDERR_FILENO, line, length) != (ssize_t)length) code = CLI_RESOURCES;
     if (*crash_guard.spool.folder) {
         unlink(crash_guard.spool.copy);
         rmdir(crash_guard.spool.folder);
@@ -48,10 +49,14 @@ void cli_crash_late(void) {
     if (crash_guard.reading) end(CLI_RESOURCES, ": It takes longer than --limit-time allows.\n");
 }
 
+static void begin_line(const char *name) {
+    snprintf(crash_guard.line, NAME, "froe: %s", name);
+    support_one_line(crash_guard.line);
+}
+
 void cli_crash_mapped(const char *name) {
     struct sigaction action;
-    snprintf(crash_guard.name, sizeof crash_guard.name, "froe: %s", name);
-    support_one_line(crash_guard.name);
+    begin_line(name);
     memset(&action, 0, sizeof action);
     action.sa_handler = on_lost_page;
     sigaction(SIGBUS, &action, NULL);
@@ -60,8 +65,7 @@ void cli_crash_mapped(const char *name) {
 void cli_crash_begin(const cli_spool *spool) {
     const stack_t own = {.ss_sp = crash_guard.stack, .ss_size = sizeof crash_guard.stack};
     struct sigaction action;
-    snprintf(crash_guard.name, sizeof crash_guard.name, "froe: %s", spool->name);
-    support_one_line(crash_guard.name);
+    begin_line(spool->name);
     crash_guard.spool = *spool;
     memset(&action, 0, sizeof action);
     action.sa_handler = on_crash;
