@@ -143,7 +143,7 @@ froe_status query_region_sides(const query_region *r, num_context *numbers, cons
     query_leaf leaf;
     bool touching = false;
     sides[REGION_LEFT] = sides[REGION_RIGHT] = false;
-    if (!r->areas->borders || !query_in_scene(t->tree->scene, p)) return FROE_OK;
+    if (!r->areas->borders) return FROE_OK;
     for (size_t i = 0; i < count && !touching; i++) touching = lines[i].border && is_on(numbers, lines + i, p);
     t->groups.inside.count = t->groups.touched.count = 0;
     /* one way: while areas were made leaves were found, and all that this needs is kept */
