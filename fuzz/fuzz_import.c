@@ -164,7 +164,9 @@ static void put_nodes(written *w, int count) {
     put(w, "],");
 }
 
-static void put_animation(written *w, int nodes) {
+/* Assimp reads a value for each instant, and three where the way is a spline, however many there are. So there are
+ * never too few. */
+static void put_animation(written *w, int nodes, bool splines) {
     static const char *const paths[] = {"translation", "rotation", "scale", "weights"};
     static const char *const ways[] = {"LINEAR", "STEP", "CUBICSPLINE"};
     const int channels = 1 + any(w, MOST_CHANNELS - 1);
@@ -174,22 +176,25 @@ static void put_animation(written *w, int nodes) {
             any(w, nodes - 1), paths[any(w, 15) ? any(w, 1) : any(w, 3)]);
     put(w, "],\"samplers\":[");
     for (int i = 0; i < channels; i++)
-        put(w, "%s{\"input\":1,\"output\":%d,\"interpolation\":\"%s\"}", i ? "," : "", 2 + any(w, 2), ways[any(w, 2)]);
+        put(w, "%s{\"input\":1,\"output\":%d,\"interpolation\":\"%s\"}", i ? "," : "", 2 + any(w, 2),
+            ways[any(w, splines ? 2 : 1)]);
     put(w, "]}],");
 }
 
 static void put_model(written *w) {
-    const int nodes = 1 + any(w, MOST_NODES - 1), keys = 1 + any(w, 4), splines = any(w, 2) ? 1 : 3;
+    const int nodes = 1 + any(w, MOST_NODES - 1), keys = 1 + any(w, 4);
+    const bool splines = any(w, 2) == 0;
+    const int values = keys * (splines ? 3 : 1);
     put(w, "{\"asset\":{\"version\":\"2.0\"},");
     put_nodes(w, nodes);
-    put_animation(w, nodes);
+    put_animation(w, nodes, splines);
     put(w, "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"accessors\":[");
     put(w, "{\"bufferView\":0,\"componentType\":5126,\"count\":6,\"type\":\"VEC3\",\"min\":[0,0,0],\"max\":[1,1,0]},");
     put(w, "{\"bufferView\":1,\"componentType\":5126,\"count\":%d,\"type\":\"SCALAR\"},", keys);
-    put(w, "{\"bufferView\":2,\"componentType\":5126,\"count\":%d,\"type\":\"VEC3\"},", keys * splines);
-    put(w, "{\"bufferView\":2,\"componentType\":5126,\"count\":%d,\"type\":\"VEC4\"},", keys * splines);
+    put(w, "{\"bufferView\":2,\"componentType\":5126,\"count\":%d,\"type\":\"VEC3\"},", values);
+    put(w, "{\"bufferView\":2,\"componentType\":5126,\"count\":%d,\"type\":\"VEC4\"},", values);
     put(w, "{\"bufferView\":%d,\"componentType\":%d,\"count\":%d,\"type\":\"VEC4\"}],", any(w, 3), 5120 + any(w, 6),
-        any(w, 20));
+        values + any(w, 20));
     put(w, "\"bufferViews\":[{\"buffer\":0,\"byteLength\":72},{\"buffer\":0,\"byteOffset\":72,\"byteLength\":24},");
     put(w, "{\"buffer\":0,\"byteOffset\":112,\"byteLength\":%zu}],", sizeof(float) * FLOATS - 112);
     put(w, "\"buffers\":[{\"byteLength\":%zu,\"uri\":\"data:application/octet-stream;base64,", sizeof(float) * FLOATS);
