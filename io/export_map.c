@@ -333,7 +333,7 @@ static froe_status export_map(map_export *m, const froe_tree *tree, froe_export_
     io_gdal_begin(&m->heard);
     if (!status) status = check_old(m);
     if (!status) status = make_dataset(m, tree, what, options);
-    io_gdal_end();
+    io_gdal_end(&m->heard);
     status = status ? support_writer_close(&out, status) : take_places(m, &out);
     remove_folder(m);
     return status;

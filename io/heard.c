@@ -25,9 +25,11 @@ void io_gdal_begin(io_heard *heard) {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     CPLPushErrorHandlerEx(hear, heard);
     pthread_once(&once, register_drivers);
+    if (!heard->online) io_offline_begin(&heard->offline);
 }
 
-void io_gdal_end(void) {
+void io_gdal_end(io_heard *heard) {
+    if (!heard->online) io_offline_end(&heard->offline);
     CPLPopErrorHandler();
     CPLErrorReset();
 }

@@ -3,17 +3,20 @@
 #define FROE_IO_HEARD_H
 
 #include "formats/input/sink.h"
+#include "offline.h"
 
 /** The first failure of which GDAL has told. */
 typedef struct io_heard {
     const char *path; /**< set by the owner: what froe names itself, and no message needs to */
+    bool online;      /**< set by the owner: the path may lead to the network, by the user's wish */
     bool failed;
     char text[160]; /**< "" where it names the path */
+    io_offline offline;
 } io_heard;
 
-/** Registers the drivers, once, and listens until io_gdal_end(). */
+/** Registers the drivers, once, and listens until io_gdal_end(), offline unless `online`. */
 void io_gdal_begin(io_heard *heard);
-void io_gdal_end(void);
+void io_gdal_end(io_heard *heard);
 
 /** A failure about `path`: what was heard, or else the sentence. */
 froe_status io_gdal_fail(const io_heard *heard, froe_diagnostic *diag, froe_status status, const char *path,

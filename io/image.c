@@ -1,5 +1,6 @@
 /* image.c: images by GDAL, for textures. Large ones come smaller, as means of their pixels: of a face the mean is
  * wanted alone. */
+#include "offline.h"
 #include "readers.h"
 #include <cpl_conv.h>
 #include <cpl_error.h>
@@ -84,9 +85,11 @@ bool io_read_image(void *user, const char *path, const void *bytes, size_t count
                    froe_image *out) {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     char name[64];
+    io_offline offline;
     (void)user;
     pthread_once(&once, register_rasters);
     CPLPushErrorHandler(CPLQuietErrorHandler);
+    io_offline_begin(&offline);
     if (bytes) { /* a name of this call alone: the image is on its stack */
         snprintf(name, sizeof name, "/vsimem/froe-image-%p", (void *)name);
         VSILFILE *file = VSIFileFromMemBuffer(name, (GByte *)bytes, count, FALSE);
@@ -96,6 +99,7 @@ bool io_read_image(void *user, const char *path, const void *bytes, size_t count
     const bool ok = data && read_data(data, alloc, out);
     if (data) GDALClose(data);
     if (bytes) VSIUnlink(name);
+    io_offline_end(&offline);
     CPLPopErrorHandler();
     return ok;
 }

@@ -221,6 +221,16 @@ static const char *gdal_name(const formats_source *source, support_extension *in
     return CPLSPrintf(systems[i][1], source->file);
 }
 
+/* A virtual file (VRT) names files, databases and services, which GDAL then opens, too. So a file must have the name of
+ * one to be read as one. */
+static froe_status refuse_virtual(map *m, const char *name) {
+    static const char *const virtual[] = {"OGR_VRT", NULL};
+    if (!strcmp(m->extension.text, "vrt") || !GDALIdentifyDriverEx(name, GDAL_OF_VECTOR, virtual, NULL)) return FROE_OK;
+    return support_fail(m->sink->diag, FROE_E_FORMAT,
+                        "%s: It is a virtual file, which names others, and its name does not end in .vrt.",
+                        support_short(m->source->path));
+}
+
 froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
     /* columns with geometry have many names */
     static const char *const wkt[] = {"GEOM_POSSIBLE_NAMES=WKT,geometry,geom", NULL};
@@ -231,7 +241,7 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
     const bool is_csv = !strcmp(extension.text, "csv") || !strcmp(extension.text, "tsv");
     map m = {.source = source,
              .sink = sink,
-             .heard.path = source->file,
+             .heard = {.path = source->file, .online = source->beyond},
              .shapes.outlines.wrap = source->options->wrap,
              .crs.wrap = source->options->wrap};
     m.extension = extension;
@@ -240,9 +250,12 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
     froe_status status = formats_sink_open(sink, 2);
     if (status) return status;
     io_gdal_begin(&m.heard);
-    m.data = GDALOpenEx(name, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL,
-                        is_csv ? formats_csv_has_geometry(source) ? wkt : places : NULL, NULL);
-    if (!m.data) status = refuse_content(&m, name);
+    status = refuse_virtual(&m, name);
+    if (!status) {
+        m.data = GDALOpenEx(name, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL,
+                            is_csv ? formats_csv_has_geometry(source) ? wkt : places : NULL, NULL);
+        if (!m.data) status = refuse_content(&m, name);
+    }
     if (!status) {
         formats_report_format(sink, "float64", "%s", GDALGetDriverShortName(GDALGetDatasetDriver(m.data)));
         m.shapes.cuts = strstr(sink->report.format, "JSON") != NULL;
@@ -251,7 +264,7 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
     }
     io_crs_free(&m.crs);
     if (m.data) GDALClose(m.data);
-    io_gdal_end();
+    io_gdal_end(&m.heard);
     io_shapes_free(&sink->alloc, &m.shapes);
     array_free(&sink->alloc, &m.texts);
     return status;

@@ -160,7 +160,7 @@ froe_status froe_render_dxf(const froe_tree *tree, const char *path, const froe_
             support_fail(diag, status, "GDAL cannot write DXF: its file header.dxf is missing.");
         if (!status) status = write_drawing(&d, path, &found.bytes, diag);
     }
-    io_gdal_end();
+    io_gdal_end(&d.heard);
     if (!status && report) *report = found;
     array_free(&d.alloc, &d.layers);
     array_free(&d.alloc, &d.lines);
