@@ -26,6 +26,7 @@ static const kind_of_scene kinds[] = {
     {"tiny", 200, 0, 6, 0.5, 0x1p-390, 0, false},
     {"far away", 300, 0, 8, 0.2, 1, 0x1p30, false},
     {"so far away that units are less than doubles can tell", 300, 0, 8, 0.2, 0x1p-8, 0x1p40, false},
+    {"small beside a large one", 300, 0, 8, 0.2, 0x1p-34, 0.3, false},
     {"one", 1, 0, 24, 0.2, 1, 0, false},
     {"triangles", 600, 0, 24, 0.2, 1, 0, true},
 };
@@ -41,6 +42,9 @@ static froe_tree *tree_of(const kind_of_scene *k) {
     froe_tree *tree;
     froe_diagnostic why;
     assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    /* Around a small part of a scene, rounding is far more than a unit of its leaves. */
+    const double large[9] = {0, 0, 1, 1, 0, 1, 0, 1, 1};
+    if (k->shift > 0 && k->shift < 1) assert_int_equal(trees_add(scene, FROE_POLYGON, 1, large, NULL, NULL), FROE_OK);
     for (uint32_t i = 0; i < k->count; i++) {
         double c[9], lo[3], hi[3], radius = 0.05 * k->scale;
         for (uint32_t j = 0; j < 9; j++) {
