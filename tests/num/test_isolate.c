@@ -115,6 +115,19 @@ static void check_roots(num_arena *arena, const made *p, num_isolation *f, const
     }
 }
 
+/* A factor without a root in [0, 1] has Bernstein coefficients of one sign there, and so has a product of these. */
+static void check_sign_throughout(num_arena *arena, const made *p, const num_poly *f) {
+    enum { EXACT_DEGREE = 4 }; /* doubles hold all that is computed of these */
+    const size_t mark = arena->top;
+    const num_ball_poly near = num_poly_balls(arena, f);
+    const int sign = num_ball_poly_sign_throughout(&near);
+    bool apart = true;
+    for (int i = 0; i < p->count; i++) apart = apart && (p->top[i] < 0 || p->top[i] > p->bottom[i]);
+    if (!apart || p->degree <= EXACT_DEGREE || sign != NUM_UNSURE)
+        assert_int_equal(sign, apart ? sign_at(p, 1, 2) : NUM_UNSURE);
+    arena->top = mark;
+}
+
 static void check_order(num_arena *arena, const made *p, num_isolation *f, const made *q, num_isolation *g) {
     int a[NUM_DEGREE], b[NUM_DEGREE], m = inside(p, a), n = inside(q, b);
     for (int i = 0; i < m; i++)
@@ -138,6 +151,7 @@ static void roots_are_isolated_compared_and_asked_exactly(void **state) {
             multiply_root(&q, p.top[0], p.bottom[0]);
         num_poly f = poly_of(&arena, &p), g = poly_of(&arena, &q);
         num_isolation in_f, in_g;
+        check_sign_throughout(&arena, &p, &f);
         num_isolate(&arena, &f, &in_f);
         num_isolate(&arena, &g, &in_g);
         check_order(&arena, &p, &in_f, &q, &in_g);
