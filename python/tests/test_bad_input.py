@@ -42,6 +42,11 @@ def tree():
         (5, r"\(\)"),
         ([[0, 0, 1], [0]], "cannot become an array"),
         ([[2**60 + 1, 0, 0, 0]], "1152921504606846977"),
+        ([[2**53 + 1, 0.5, 0, 0]], r"9007199254740993 at \(0, 0\)"),
+        ([[0, 0, 1, 1], [0.5, 0, 0, -(2**53) - 1]], r"-9007199254740993 at \(1, 3\)"),
+        ([[2**63 + 1, 0, 0, -1]], "9223372036854775809"),
+        (np.array([[2**64 - 1, 0, 0, 0]], np.uint64), "18446744073709551615"),
+        ([np.array([2**60 + 1, 0]), np.array([0.5, 0])], "1152921504606846977"),
         ([[2**80, 0, 0, 0]], "object"),
         (np.ma.masked_array(np.zeros((1, 4)), mask=[[1, 0, 0, 0]]), "masked"),
     ],
@@ -76,10 +81,29 @@ def test_numbers_that_are_not_finite(number):
         SEGMENTS.reshape(3, 2, 2),
         np.frombuffer(b"x" + SEGMENTS.tobytes(), "f8", 12, 1).reshape(3, 4),
         np.ma.masked_array(SEGMENTS),
+        [[0, 0, 2, 2], [0.0, 2, np.float32(2), np.int8(0)], np.array([5, 5, 6, 6])],
     ],
 )
 def test_layouts_that_lose_nothing(same):
     assert np.array_equal(froe.segments(same).arrays().coords, froe.segments(SEGMENTS).arrays().coords)
+
+
+@pytest.mark.parametrize("number", [2**60, -(2**63), 2**63, 2**54 + 4])
+def test_large_whole_numbers_that_are_doubles(number):
+    kind = np.uint64 if number >= 2**63 else np.int64
+    assert froe.points(np.array([[number, 0]], kind)).bounds[0, 0] == number
+    assert froe.points([[number, 0.5]]).bounds[0, 0] == number
+
+
+def test_large_tags():
+    tags = [2**64 - 1, 2**53 + 1, 2**63, 0]  # numpy 1 makes doubles of such a list
+    scene = froe.Scene(2)
+    scene.add_points(np.zeros((4, 2)), tags=tags)
+    assert scene.arrays().tags.tolist() == tags
+    with pytest.raises(ArrayError, match="18446744073709551616"):
+        scene.add_points([[0, 0], [1, 1]], tags=[1, 2**64])
+    with pytest.raises(ArrayError, match="float64"):
+        scene.add_points([[0, 0], [1, 1]], tags=[1.0, 2])
 
 
 def test_empty_arrays(tree):

@@ -40,6 +40,9 @@ def doubles(values: npt.ArrayLike, name: str) -> Doubles:
     array = plain(values, name)
     if array.dtype != np.float64:
         array = _converted(array, name)
+    elif not isinstance(values, np.ndarray) and (np.abs(array) >= EXACT).any():
+        given = np.asarray(values, object)
+        _refuse(given, _rounded(given, array), name)
     return np.require(array, np.float64, ["C", "A"])
 
 
@@ -49,13 +52,29 @@ def _converted(array: npt.NDArray[Any], name: str) -> Doubles:
     if array.dtype.kind not in "fiu":
         raise ArrayError(f"{name} must be an array of float64, and its type is {array.dtype}.")
     converted = array.astype(np.float64)
-    lost = (array < -EXACT) | (array > EXACT) if array.dtype.kind in "iu" else converted.astype(array.dtype) != array
-    lost &= array == array
+    if array.dtype.kind in "iu":
+        lost = _rounded(array, converted)
+    else:
+        lost = (converted.astype(array.dtype) != array) & (array == array)
+    _refuse(array, lost, name)
+    converted.flags.writeable = False
+    return converted
+
+
+def _rounded(array: npt.NDArray[Any], converted: Doubles) -> npt.NDArray[np.bool_]:
+    """Where whole numbers are not the doubles that were made of them. Of a list with whole numbers and others numpy
+    makes doubles by itself."""
+    rounded: npt.NDArray[np.bool_] = np.asarray(np.abs(converted) >= EXACT)
+    for where in map(tuple, np.argwhere(rounded)):
+        number = array[where]
+        rounded[where] = isinstance(number, (int, np.integer)) and int(number) != float(converted[where])
+    return rounded
+
+
+def _refuse(array: npt.NDArray[Any], lost: npt.NDArray[np.bool_], name: str) -> None:
     if lost.any():
         where = tuple(int(i) for i in np.argwhere(lost)[0])
         raise ArrayError(f"{name} has the number {array[where]} at {where}, which float64 cannot hold.")
-    converted.flags.writeable = False
-    return converted
 
 
 def rows(values: npt.ArrayLike, name: str, width: int, inner: int) -> Doubles:
@@ -87,13 +106,22 @@ def whole(values: npt.ArrayLike, name: str, kind: type[np.unsignedinteger[Any]])
     if array.size == 0:
         return np.empty(array.shape, kind)
     if array.dtype.kind not in "iu":
-        raise ArrayError(f"{name} must be an array of whole numbers, and its type is {array.dtype}.")
+        array = _listed(values, array.dtype, name)
     most = np.iinfo(kind).max
     bad = (array < 0) | (array > most)
     if bad.any():
         where = tuple(int(i) for i in np.argwhere(bad)[0])
         raise ArrayError(f"{name} has the number {array[where]} at {where}, which is not between 0 and {most}.")
     return np.ascontiguousarray(array, kind)
+
+
+def _listed(values: npt.ArrayLike, made: np.dtype[Any], name: str) -> npt.NDArray[Any]:
+    """The whole numbers of a list that has large ones, of which numpy makes doubles or objects."""
+    given = np.asarray(values, object)
+    are_whole = all(type(item) is int or isinstance(item, np.integer) for item in given.flat)
+    if isinstance(values, np.ndarray) or not are_whole:
+        raise ArrayError(f"{name} must be an array of whole numbers, and its type is {made}.")
+    return given
 
 
 def point(values: npt.ArrayLike, name: str, dim: int) -> Doubles:
