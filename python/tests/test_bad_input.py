@@ -39,7 +39,7 @@ def tree():
         ([[0, 0, 1]], r"\(1, 3\)"),
         (np.zeros((2, 3, 3)), r"\(2, 3, 3\)"),
         (np.zeros((1, 1, 4)), r"\(1, 1, 4\)"),
-        (5, r"\(\)"),
+        (5, r"\(n, 2 dim\), and has \(\)"),
         ([[0, 0, 1], [0]], "cannot become an array"),
         ([[2**60 + 1, 0, 0, 0]], "1152921504606846977"),
         ([[2**53 + 1, 0.5, 0, 0]], r"9007199254740993 at \(0, 0\)"),
@@ -54,6 +54,11 @@ def tree():
 def test_arrays_that_are_none(bad, word):
     with pytest.raises(ArrayError, match=word):
         froe.segments(bad)
+
+
+def test_one_point_is_no_array_of_points():
+    with pytest.raises(ArrayError, match=r"points must have the shape \(n, dim\), and has \(2,\)"):
+        froe.points([0, 1])
 
 
 @pytest.mark.parametrize("number", [np.nan, np.inf, -np.inf])
@@ -109,6 +114,13 @@ def test_large_tags():
 def test_empty_arrays(tree):
     for empty in ([], np.zeros((0, 4)), np.zeros((0, 2, 2))):
         assert len(froe.segments(empty)) == 0 and len(tree.query(empty)) == 0
+    assert froe.segments(np.zeros((0, 6))).dim == froe.points(np.zeros((0, 3))).dim == 3
+    assert froe.boxes(np.zeros((0, 2, 4))).dim == 4 and len(froe.boxes([], [])) == 0
+    for rows_of_nothing in ([[]], np.zeros((5, 0))):
+        with pytest.raises(ArrayError, match=r"has \([15], 0\)"):
+            tree.query(rows_of_nothing)
+        with pytest.raises(ArrayError, match=r"has \([15], 0\)"):
+            froe.points(rows_of_nothing)
     nothing = froe.segments([]).build()
     assert nothing.query([[0, 0, 1, 1]]).counts().tolist() == [0]
     ids, distances = nothing.nearest([[0, 0]])

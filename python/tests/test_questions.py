@@ -38,6 +38,8 @@ def test_one_ball_and_one_polygon(tree):
         tree.query(ball=([3, 3], -1))
     with pytest.raises(TypeError, match="one kind"):
         tree.query([[0, 0, 1, 1]], ball=([3, 3], 1))
+    with pytest.raises(TypeError, match="one kind, and 2"):
+        tree.query(ball=([3, 3], 1), polygon=[[0, 0], [1, 0], [0, 1]])
 
 
 @pytest.mark.parametrize(
@@ -95,3 +97,19 @@ def test_a_tree_of_whole_objects_names_the_purpose_to_draw():
         tree.render()
     with pytest.raises(UnsupportedError, match='purpose "draw"'):
         tree.order([0, 0, 1])
+
+
+def test_rows_of_ragged_arrays_are_counted_from_both_ends(tree):
+    pieces, answers = tree.pieces(), tree.query(SEGMENTS)
+    for ragged, first, last in ((pieces, pieces.coords[:2], pieces.coords[-2:]), (answers, [0], [2])):
+        assert np.array_equal(ragged[0], first) and np.array_equal(ragged[-3], first)
+        assert np.array_equal(ragged[-1], last) and np.array_equal(ragged[np.uint8(2)], last)
+        for number in (3, -4):
+            with pytest.raises(IndexError, match=f"no (piece|question) {number}: there are 3"):
+                ragged[number]
+        for wrong in (slice(2), 1.0, np.array([0, 1])):
+            with pytest.raises(TypeError, match="integer|index"):
+                ragged[wrong]
+        assert len(list(ragged)) == 3
+    all_of_them = froe.Answers(np.arange(257), np.arange(256))
+    assert all_of_them[np.uint8(255)].tolist() == [255]  # numpy 2 adds 1 to it and has 0

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Callable
-from typing import Any
+from typing import Any, SupportsIndex
 
 import numpy as np
 import numpy.typing as npt
@@ -65,7 +66,8 @@ def _rounded(array: npt.NDArray[Any], converted: Doubles) -> npt.NDArray[np.bool
     """Where whole numbers are not the doubles that were made of them. Of a list with whole numbers and others numpy
     makes doubles by itself."""
     rounded: npt.NDArray[np.bool_] = np.asarray(np.abs(converted) >= EXACT)
-    for where in map(tuple, np.argwhere(rounded)):
+    for found in np.argwhere(rounded):
+        where = tuple(int(i) for i in found)
         number = array[where]
         rounded[where] = isinstance(number, (int, np.integer)) and int(number) != float(converted[where])
     return rounded
@@ -84,7 +86,7 @@ def rows(values: npt.ArrayLike, name: str, width: int, inner: int) -> Doubles:
     (1, 4)
     """
     array = doubles(values, name)
-    if array.size == 0 and array.ndim < 3:
+    if array.ndim in (1, 2) and len(array) == 0:
         return array.reshape(0, width)
     if array.shape[1:] not in ((width,), (width // inner, inner)):
         shapes = f"(n, {width})" + (f" or (n, {width // inner}, {inner})" if width != inner else "")
@@ -130,3 +132,12 @@ def point(values: npt.ArrayLike, name: str, dim: int) -> Doubles:
     if array.shape != (dim,):
         raise ArrayError(f"{name} must have the shape ({dim},), and has {array.shape}.")
     return array
+
+
+def part(values: npt.NDArray[Any], starts: npt.NDArray[Any], number: SupportsIndex, name: str) -> npt.NDArray[Any]:
+    """One row of a ragged array; those below 0 are counted from the end."""
+    count, row = len(starts) - 1, operator.index(number)
+    if not -count <= row < count:
+        raise IndexError(f"There is no {name} {row}: there are {count}.")
+    row %= count
+    return values[starts[row] : starts[row + 1]]

@@ -36,6 +36,8 @@ def one_or_many(
     **many: Any,
 ) -> tuple[bool, Ranges]:
     """Is a single range asked for? And the ranges."""
+    if ball is not None and polygon is not None:
+        raise TypeError("A query takes ranges of one kind, and 2 are given.")
     if ball is not None:
         if not isinstance(ball, tuple) or len(ball) != 2:
             raise ArrayError("A ball is a tuple of its centre and its radius.")

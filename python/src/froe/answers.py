@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import Any, SupportsIndex
 
 import numpy as np
 import numpy.typing as npt
 
-from ._arrays import Doubles, Ids
+from ._arrays import Doubles, Ids, part
 
 
 class Answers:
@@ -38,12 +38,8 @@ class Answers:
     def __len__(self) -> int:
         return len(self.starts) - 1
 
-    def __getitem__(self, question: int) -> Ids:
-        count = len(self)
-        if not -count <= question < count:
-            raise IndexError(f"There is no question {question}: there are {count}.")
-        question %= count
-        return self.ids[self.starts[question] : self.starts[question + 1]]
+    def __getitem__(self, question: SupportsIndex) -> Ids:
+        return part(self.ids, self.starts, question, "question")
 
     def __iter__(self) -> Iterator[Ids]:
         return (self[i] for i in range(len(self)))

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import SupportsIndex
 
 import numpy as np
 import numpy.typing as npt
 
-from ._arrays import Doubles, Ids
+from ._arrays import Doubles, Ids, part
 
 
 @dataclass(frozen=True)
@@ -32,9 +33,9 @@ class Pieces:
     def __len__(self) -> int:
         return len(self.objects)
 
-    def __getitem__(self, piece: int) -> Doubles:
+    def __getitem__(self, piece: SupportsIndex) -> Doubles:
         """The corners of a piece."""
-        return self.coords[self.starts[piece] : self.starts[piece + 1]]
+        return part(self.coords, self.starts, piece, "piece")
 
 
 @dataclass(frozen=True)

@@ -348,11 +348,12 @@ def _dim(array: Doubles, name: str, ends: int, dim: int | None) -> int:
     """The dimension that an array has where none is given: that of its rows of one or two ends."""
     if dim is not None:
         return dim
-    if array.size == 0:
-        return 2
     width = array.shape[-1] * (ends if array.ndim == 3 else 1) if array.ndim else 0
+    if array.size == 0 and (array.ndim < 2 or width == 0):
+        return 2
     if array.ndim < 2 or width % ends:
-        raise ArrayError(f"{name} must have the shape (n, {ends} dim), and has {array.shape}.")
+        each = f"{ends} dim" if ends > 1 else "dim"
+        raise ArrayError(f"{name} must have the shape (n, {each}), and has {array.shape}.")
     return width // ends
 
 
@@ -409,7 +410,7 @@ def boxes(boxes: npt.ArrayLike, hi: npt.ArrayLike | None = None, dim: int | None
     array = doubles(boxes, "boxes")
     if hi is not None:
         upper = doubles(hi, "hi")
-        if upper.shape != array.shape or array.ndim != 2:
+        if upper.shape != array.shape or (array.ndim != 2 and array.size):
             raise ArrayError(f"Lower and upper corners have the shapes {array.shape} and {upper.shape}.")
         array = np.hstack([array, upper])
     scene = Scene(_dim(array, "boxes", 2, dim))
