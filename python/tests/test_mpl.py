@@ -96,3 +96,17 @@ def test_cells_and_pieces_of_a_map():
     assert len(lines.get_segments()) == len(tree.pieces())
     assert axes.get_xlim() == (0, 4)
     pyplot.close(figure)
+
+
+def test_solids_of_the_plane_are_drawn_by_their_borders():
+    scene = froe.Scene(2)
+    scene.add_boxes([[0, 0, 4, 2]])
+    scene.add_balls([[6, 6]], [2])
+    figure, axes = pyplot.subplots()
+    tree = scene.build("kd")
+    _, lines = froe.mpl.draw(axes, tree)
+    found = dict(zip(tree.pieces().objects.tolist(), lines.get_segments()))
+    assert len(np.unique(found[0], axis=0)) == 4 and np.allclose(np.hypot(*(found[1] - 6).T), 2)
+    assert axes.get_xlim() == (0, 8) and axes.get_ylim() == (0, 8)
+    froe.mpl.draw(axes, froe.Scene(2).build())
+    pyplot.close(figure)

@@ -1,5 +1,7 @@
 """Pictures, files of scenes, measures and comparisons."""
 
+import math
+import re
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
@@ -89,6 +91,44 @@ def test_a_partition_as_a_picture(tmp_path):
         picture.save(tmp_path / "a.pdf")
     for scene in (froe.Scene(2), froe.points([[1, 1]])):
         assert scene.build("kd").draw().svg.startswith("<svg")
+
+
+def drawn_lines(svg):
+    """The corners of each piece in a picture, in pixels."""
+    (path,) = re.findall(r'<path fill="none"[^>]* d="([^"]*)"', svg)
+    return [[tuple(map(float, corner.split())) for corner in line.split("L")] for line in path.split("M")[1:]]
+
+
+def test_solids_of_the_plane_are_drawn_by_their_borders():
+    scene = froe.Scene(2)
+    scene.add_boxes([[0, 0, 4, 2]])
+    scene.add_balls([[6, 6]], [2])
+    scene.add_hulls([[0, 8], [2, 8], [0.5, 7.5], [0, 6]], [0, 4])  # not in order, with a point inside
+    tree = scene.build("kd")
+    lines = dict(zip(tree.pieces().objects.tolist(), drawn_lines(tree.draw(width=800, lo=[0, 0], hi=[8, 8]).svg)))
+    assert lines[0] == [(0, 800), (400, 800), (400, 600), (0, 600), (0, 800)]
+    assert all(abs(math.hypot(x - 600, y - 200) - 200) < 0.02 for x, y in lines[1]) and len(lines[1]) > 32
+    assert set(lines[2]) == {(0, 0), (200, 0), (0, 200)} and lines[2][0] == lines[2][-1] and len(lines[2]) == 4
+
+
+@pytest.mark.parametrize("ends", [
+    [1e17, 1e17, 1e17, 1e17], [1e17, 1e17, 1e17 + 64, 1e17], [0, 0, 5e-324, 5e-324], [3, 3, 3, 3], [0, 7, 9, 7],
+    [-1.7e308, -1.7e308, 1.7e308, 1.7e308], [1.7e308, 0, 1.7e308, 0],
+])  # fmt: skip
+def test_pictures_of_scenes_of_every_size(ends):
+    svg = froe.segments([ends]).build("kd").draw(width=500).svg
+    root = ElementTree.fromstring(svg)
+    assert root.get("width") == "500.00" and 0 < float(root.get("height")) < 600
+    (line,) = drawn_lines(svg)
+    assert all(0 <= x <= 500 and 0 <= y <= float(root.get("height")) for x, y in line)
+
+
+@pytest.mark.parametrize("wrong", [{"width": -5}, {"width": 0}, {"width": math.nan}, {"width": math.inf},
+                                   {"lo": [1, 1], "hi": [1, 1]}, {"lo": [5, 5], "hi": [1, 1]},
+                                   {"lo": [0, math.nan]}, {"hi": [math.inf, 9]}])  # fmt: skip
+def test_pictures_without_extent_are_refused(wrong):
+    with pytest.raises((OptionError, ArgumentError), match="width|extent"):
+        froe.segments([[0, 0, 2, 2]]).build().draw(**wrong)
 
 
 def test_scenes_as_files(tmp_path):

@@ -22,6 +22,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from . import _outlines
+
 if TYPE_CHECKING:
     from froe.tree import Tree
 
@@ -44,7 +46,7 @@ def draw(
 
     :param ax: axes of matplotlib
     :param tree: a tree of the plane
-    :param lo, hi: (2,), corners of what is drawn; None: those of all pieces
+    :param lo, hi: (2,), corners of what is drawn; None: those of all objects
     :param cmap, alpha: colours of the cells
     :param color, linewidth: of the pieces
     :returns: the two collections that were added to the axes
@@ -60,15 +62,13 @@ def draw(
     """
     from matplotlib.collections import LineCollection, PolyCollection
 
-    pieces = tree.pieces()
-    lower = pieces.coords.min(axis=0) if lo is None else np.asarray(lo, np.float64)
-    upper = pieces.coords.max(axis=0) if hi is None else np.asarray(hi, np.float64)
-    found = tree.cells(lower, upper)
-    if found.dim != 2:
+    if tree.dim != 2:
         raise ValueError("The tree is not one of the plane.")
+    found = tree.cells(lo, hi)
+    lower, upper = found.coords.min(axis=0), found.coords.max(axis=0)
     cells = PolyCollection(found.polygons(), cmap=cmap, alpha=alpha, edgecolors="white", linewidths=0.4)
     cells.set_array(found.depths.astype(np.float64))
-    lines = LineCollection([pieces[i] for i in range(len(pieces))], colors=color, linewidths=linewidth)
+    lines = LineCollection(_outlines.of_pieces(tree), colors=color, linewidths=linewidth)
     ax.add_collection(cells)
     ax.add_collection(lines)
     ax.set_xlim(lower[0], upper[0])

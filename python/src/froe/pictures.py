@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -11,8 +12,9 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from ._arrays import doubles
-from .errors import OptionError, UnsupportedError
+from . import _outlines
+from ._arrays import Doubles, doubles, point
+from .errors import ArgumentError, OptionError, UnsupportedError
 
 if TYPE_CHECKING:
     from .tree import Tree
@@ -161,13 +163,17 @@ def _shade(depth: int, most: int) -> str:
     return "#" + "".join(f"{round(float(part)):02x}" for part in mixed)
 
 
-def _window(tree: Tree, lo: npt.ArrayLike | None, hi: npt.ArrayLike | None) -> tuple[Any, Any]:
+def _window(tree: Tree, lo: npt.ArrayLike | None, hi: npt.ArrayLike | None) -> tuple[Doubles, Doubles]:
     """The box that is drawn: all objects, and a little more."""
     bounds = tree.scene.bounds
     found = np.array([[0.0, 0.0], [1.0, 1.0]]) if bounds is None else bounds
-    margin = 0.03 * float((found[1] - found[0]).max() or 1.0)
-    lower = found[0] - margin if lo is None else doubles(lo, "lo")
-    upper = found[1] + margin if hi is None else doubles(hi, "hi")
+    half = float((found[1] / 2 - found[0] / 2).max())
+    margin = max(0.06 * half or 1.0, 4 * float(np.spacing(np.abs(found).max())))
+    most = np.finfo(np.float64).max
+    lower = np.maximum(found[0], margin - most) - margin if lo is None else point(lo, "lo", 2)
+    upper = np.minimum(found[1], most - margin) + margin if hi is None else point(hi, "hi", 2)
+    if not (np.isfinite([lower, upper]).all() and (lower < upper).all()):
+        raise ArgumentError(f"The box from {lower.tolist()} to {upper.tolist()} has no extent that is a finite number.")
     return lower, upper
 
 
@@ -175,13 +181,16 @@ def draw(tree: Tree, width: float, lo: npt.ArrayLike | None, hi: npt.ArrayLike |
     """The picture that ``Tree.draw`` returns."""
     if tree.dim != 2:
         raise UnsupportedError(f"Partitions of the plane are drawn, and this tree has dimension {tree.dim}.")
+    if not 0 < width < math.inf:
+        raise OptionError(f"width is {width!r}, and must be a finite number above 0.")
     lower, upper = _window(tree, lo, hi)
-    cells, pieces = tree.cells(lower, upper), tree.pieces()
-    scale = width / float(upper[0] - lower[0])
-    height = scale * float(upper[1] - lower[1])
+    cells, shapes = tree.cells(lower, upper), _outlines.of_pieces(tree)
+    unit = 2.0 ** (math.frexp(float(np.abs([lower, upper]).max()))[1] - 1)  # so that no difference is too large
+    across, up = (float(length) for length in upper / unit - lower / unit)
+    height = width * (up / across)
 
     def page(points: Any) -> Any:
-        return (points - lower) * [scale, -scale] + [0.0, height]
+        return (points / unit - lower / unit) / [across, up] * [width, -height] + [0.0, height]
 
     def path(points: Any, end: str) -> str:
         return "M" + "L".join(f"{x:.2f} {y:.2f}" for x, y in page(points)) + end
@@ -191,11 +200,10 @@ def draw(tree: Tree, width: float, lo: npt.ArrayLike | None, hi: npt.ArrayLike |
     for depth, corners in zip(cells.depths.tolist(), cells.polygons()):
         by_depth.setdefault(depth, []).append(path(corners, "Z"))
     fills = [f'<path fill="{_shade(depth, most)}" d="{"".join(by_depth[depth])}"/>' for depth in sorted(by_depth)]
-    shapes = [pieces[i] for i in range(len(pieces))]
     lines = "".join(path(corners if len(corners) > 1 else corners[[0, 0]], "") for corners in shapes)
     return Picture(
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:.2f}" height="{height:.2f}" '
-        f'viewBox="0 0 {width:.2f} {height:.2f}">\n<title>{len(cells)} cells, {len(pieces)} pieces</title>\n'
+        f'viewBox="0 0 {width:.2f} {height:.2f}">\n<title>{len(cells)} cells, {len(shapes)} pieces</title>\n'
         f'<g stroke="#ffffff" stroke-width="0.6" stroke-linejoin="round">{"".join(fills)}</g>\n'
         f'<path fill="none" stroke="#1b2630" stroke-width="1.4" stroke-linecap="round" d="{lines}"/>\n</svg>\n'
     )

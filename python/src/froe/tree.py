@@ -222,6 +222,8 @@ class Tree(Questions):
         :param width: of the picture, in pixels
         :param lo, hi: (2,), corners of the box that is shown; None: all objects, and a little more
         :raises UnsupportedError: the tree is not one of the plane
+        :raises OptionError: the width is not a finite number above 0
+        :raises ArgumentError: the box has no extent
         :cost: O(height) for each cell that is shown
 
         >>> import froe
