@@ -263,7 +263,7 @@ def test_groups_of_a_closed_tree(tree):
     other.close()
     with pytest.raises(ClosedError):
         tree.join_groups(other)
-    with pytest.raises(AttributeError):
+    with pytest.raises(TypeError, match="questions is None"):
         tree.join_groups(None)
     with pytest.raises(ArrayError, match="no tree"):
         tree._core.group_join(0, froe.segments(SEGMENTS)._core, 0, None)
@@ -403,3 +403,45 @@ def test_messages_name_what_is_to_blame(call, message):
     with pytest.raises((froe.Error, ValueError)) as caught:
         call(tree)
     assert str(caught.value).startswith(message)
+
+
+def test_every_false_ends_a_call():
+    scene = froe.generate("segments", 50000)
+    for no in (False, np.False_, np.bool_(False)):
+        with pytest.raises(CancelledError):
+            scene.build("autopartition", progress=lambda done: no)
+    for yes in (None, True, np.True_, "", []):
+        assert len(scene.build("autopartition", progress=lambda done: yes).scene) == 50000
+
+
+@pytest.mark.parametrize(
+    "geometry, word",
+    [
+        ({"type": "LineString", "coordinates": [0, 0, 1, 1]}, r"Object 1 .*\(4,\)"),
+        ({"type": "Point", "coordinates": [1]}, r"Object 1 .*\(1, 1\)"),
+        ({"type": "Polygon", "coordinates": [[[[0, 0], [1, 1]]]]}, r"Object 1 .*\(1, 2, 2\)"),
+        ({"type": "Point", "coordinates": ["1", "2"]}, "Object 1 .*<U1"),
+    ],
+)
+def test_coordinates_that_are_no_places(geometry, word):
+    with pytest.raises(ValueError, match=word):
+        froe.from_shapely([None, geometry])
+
+
+def test_polygons_of_pyvista_with_negative_counts():
+    class mesh:
+        points, faces = np.eye(3), [3, 0, 1, 2, -1, 0, 1]
+
+    with pytest.raises(ValueError, match="Polygon 1 of the mesh has -1 corners"):
+        froe.from_pyvista(mesh)
+    mesh.faces = [0, 0, 0]
+    with pytest.raises(ValueError, match="Polygon 0 of the mesh has 0 corners"):
+        froe.from_pyvista(mesh)
+
+
+def test_arguments_of_other_kinds():
+    tree = froe.segments(SEGMENTS).build()
+    with pytest.raises(TypeError, match="questions is 5, and must be a froe.Tree"):
+        tree.join_groups(5)
+    with pytest.raises(TypeError, match="crs is 'EPSG:4326', and must be a froe.Crs or None"):
+        froe.Scene(2).crs = "EPSG:4326"

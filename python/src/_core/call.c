@@ -16,12 +16,13 @@ void core_call_begin(core_call *call, PyObject *progress) {
     call->saved = PyEval_SaveThread();
 }
 
-/* Looks for signals and tells the share; false: an exception is set, or the function returned False. */
+/* Looks for signals and tells the share; false: an exception is set, or the function returned False, which may be that
+ * of numpy: comparisons with its numbers give it. */
 static bool look(const core_call *call, double done) {
     if (PyErr_CheckSignals()) return false;
     if (call->progress == Py_None) return true;
     PyObject *answer = PyObject_CallFunction(call->progress, "d", done);
-    const bool goes_on = answer && answer != Py_False;
+    const bool goes_on = answer && PyObject_RichCompareBool(answer, Py_False, Py_EQ) == 0;
     Py_XDECREF(answer);
     return goes_on;
 }

@@ -260,6 +260,8 @@ class Questions:
         >>> parks.join_groups(things, relation="within").pairs().tolist()
         [[2, 2], [0, 1]]
         """
+        if not isinstance(questions, Questions):
+            raise TypeError(f"questions is {questions!r}, and must be a froe.Tree.")
         return Answers(*self._core.group_join(_ranges.relation(relation), questions._core, threads, progress))
 
     @overload

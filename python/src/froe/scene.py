@@ -118,6 +118,8 @@ class Scene:
         if crs is None:
             self._core.set_crs(0, "", "", "", "")
             return
+        if not isinstance(crs, Crs):
+            raise TypeError(f"crs is {crs!r}, and must be a froe.Crs or None.")
         if crs.kind not in _CRS[1:]:
             raise OptionError(f"kind is {crs.kind!r}, and must be one of {', '.join(_CRS[1:])}.")
         self._core.set_crs(_CRS.index(crs.kind), crs.wkt, crs.name, crs.code, crs.unit)

@@ -190,9 +190,13 @@ class _Chains:
         self.owners: list[int] = []
 
     def add(self, coordinates: Any, owner: int) -> None:
-        corners = np.asarray(coordinates, np.float64)
+        corners = np.asarray(coordinates)
         if corners.size:
-            self.corners.append(corners.reshape(len(corners), -1)[:, :2])
+            if corners.dtype.kind not in "fiu":
+                raise ValueError(f"its coordinates are of the type {corners.dtype}")
+            if corners.ndim != 2 or corners.shape[1] < 2:
+                raise ValueError(f"its coordinates have the shape {corners.shape}, and (n, 2) or (n, 3) is needed")
+            self.corners.append(corners[:, :2].astype(np.float64))
             self.owners.append(owner)
 
     def arrays(self) -> tuple[Floats, Integers, Integers]:

@@ -79,7 +79,7 @@ def _fans(faces: npt.NDArray[np.int64]) -> tuple[npt.NDArray[np.int64], npt.NDAr
         corners = faces[at + 1 : at + 1 + count]
         if count < 3 or len(corners) < count:
             raise ValueError(
-                f"Polygon {number} of the mesh has {max(count, 0)} corners, of which {len(corners)} exist."
+                f"Polygon {number} of the mesh has {count} corners, of which {len(corners)} exist."
             )
         fan = np.empty((count - 2, 3), np.int64)
         fan[:, 0], fan[:, 1], fan[:, 2] = corners[0], corners[1:-1], corners[2:]
