@@ -14,8 +14,8 @@ typedef struct io_heard {
     io_offline offline;
 } io_heard;
 
-/** Registers the drivers, once, and listens until io_gdal_end(), offline unless `online`. Until then GDAL writes no notes
- * beside files that it reads. */
+/** Registers the drivers, once, and listens until io_gdal_end(), offline unless `online`. Until then GDAL writes no
+ * notes beside files that it reads. */
 void io_gdal_begin(io_heard *heard);
 void io_gdal_end(io_heard *heard);
 
