@@ -59,7 +59,8 @@ int cli_fail_file(int code, const char *file, const char *done) {
 }
 
 int cli_fail_count(const char *option, size_t given, size_t needed) {
-    return cli_fail(CLI_USE, NULL, "--%s: There are %zu numbers, and %zu are needed.", option, given, needed);
+    return cli_fail(CLI_USE, NULL, "--%s: There %s %zu number%s, and %zu are needed.", option,
+                    given == 1 ? "is" : "are", given, support_plural(given), needed);
 }
 
 int cli_fail_unknown(const char *what, const char *name, const char *meant, const char *sentence) {

@@ -3,6 +3,7 @@
 #include "page.h"
 #include "lettering.h"
 #include "palette.h"
+#include "support/fail.h"
 #include "support/nice.h"
 #include <math.h>
 #include <stdio.h>
@@ -192,7 +193,7 @@ void draw_page_close(const draw_page *page, cairo_t *cr, const draw_legend *lege
     static const char *const notes[] = {
         "%s region%s too small or too deep to show: drawn as one each, in the mean depth of their %s cells",
         "%s part%s pulled apart, each in the mean depth of its cells, %s in all"};
-    snprintf(text, sizeof text, notes[legend->parts], merged, legend->merged == 1 ? "" : "s", leaves);
+    snprintf(text, sizeof text, notes[legend->parts], merged, support_plural(legend->merged), leaves);
     draw_set_color(cr, DRAW_SOFT, 1);
     fitted(page, cr, text, left, below, right - left);
 }

@@ -10,6 +10,7 @@
 #define FROE_SUPPORT_FAIL_H
 #include "support/arithmetic.h"
 #include <froe/froe.h>
+#include <stdint.h>
 
 /** Fills `diag` (unless NULL) with a printf-formatted sentence and returns `status`. */
 froe_status support_fail(froe_diagnostic *diag, froe_status status, const char *sentence, ...)
@@ -36,6 +37,10 @@ froe_status support_fail_irregular(froe_diagnostic *diag, const char *path, bool
 froe_status support_fail_ending(froe_diagnostic *diag, froe_status status, const char *path, const char *what,
                                 const char *endings);
 
+/** The ending of the noun behind a number: "s" unless that is 1. */
+static inline const char *support_plural(uint64_t count) {
+    return count == 1 ? "" : "s";
+}
 /** Replaces control characters, which would end the line or command a terminal, and bytes that are no UTF-8, such as
  * the first of a character at which a long name was cut, by question marks. support_fail() does so. */
 void support_one_line(char *text);

@@ -5,6 +5,7 @@
 #include "exit.h"
 #include "library.h"
 #include "progress.h"
+#include "support/fail.h"
 #include "support/path.h"
 #include <froe/shards.h>
 #include <stdio.h>
@@ -55,9 +56,10 @@ static void warn(const cli_common *common, const char *name, const froe_read_rep
                        r->format);
     if (r->unread)
         (void)cli_fail(0, name,
-                       "warning: Of %llu textures %llu are missing or unreadable, first of all '%s'. Their faces have "
+                       "warning: Of %llu texture%s %llu %s missing or unreadable, first of all '%s'. Their faces have "
                        "the colours of their materials.",
-                       (unsigned long long)r->textures, (unsigned long long)r->unread, r->unread_name);
+                       (unsigned long long)r->textures, support_plural(r->textures), (unsigned long long)r->unread,
+                       r->unread == 1 ? "is" : "are", r->unread_name);
     if (*r->unread_library)
         (void)cli_fail(
             0, name, "warning: The library of materials '%s' is missing or unreadable. Its materials have no colours.",

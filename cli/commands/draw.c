@@ -9,6 +9,7 @@
 #include "library.h"
 #include "progress.h"
 #include "report/report.h"
+#include "support/fail.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -145,7 +146,7 @@ static int set_options(const draw_args *args, const cli_draw *library, size_t di
 /* Towns in degrees on a map in metres are all outside. */
 static void note_outside(const draw_args *args, size_t outside, size_t count) {
     if (!outside || args->common.quiet) return;
-    (void)cli_fail(0, args->marks, "note: Of %zu mark%s, %zu %s outside of the picture.", count, count == 1 ? "" : "s",
+    (void)cli_fail(0, args->marks, "note: Of %zu mark%s, %zu %s outside of the picture.", count, support_plural(count),
                    outside, outside == 1 ? "is" : "are");
 }
 

@@ -5,6 +5,7 @@
 #include "exit.h"
 #include "library.h"
 #include "progress.h"
+#include "support/fail.h"
 #include <froe/query.h>
 #include <math.h>
 #include <stdio.h>
@@ -147,8 +148,9 @@ int measure_draw_cube(const cli_common *common, const char *path, froe_scene *sc
                       uint64_t max_fragments) {
     measured m = {.mark.kind = FROE_DRAW_MARK_BOX};
     for (int k = 0; k < froe_scene_dim(scene); k++) m.mark.lo[k] = clutter->lo[k], m.mark.hi[k] = clutter->hi[k];
-    snprintf(m.title, sizeof m.title, "Clutter: %u objects meet a %s that holds no corner of their boxes",
-             (unsigned)clutter->lower, froe_scene_dim(scene) == 2 ? "square" : "cube");
+    snprintf(m.title, sizeof m.title, "Clutter: %u object%s meet%s a %s that holds no corner of their boxes",
+             (unsigned)clutter->lower, support_plural(clutter->lower), clutter->lower == 1 ? "s" : "",
+             froe_scene_dim(scene) == 2 ? "square" : "cube");
     return draw(common, path, scene, &m, max_fragments);
 }
 
@@ -157,7 +159,8 @@ int measure_draw_ball(const cli_common *common, const char *path, froe_scene *sc
     measured m = {.mark.kind = FROE_DRAW_MARK_BALL, .least = density->radius};
     for (int k = 0; k < froe_scene_dim(scene); k++)
         m.mark.lo[k] = density->centre[k] - density->radius, m.mark.hi[k] = density->centre[k] + density->radius;
-    snprintf(m.title, sizeof m.title, "Density: %u objects as large as a %s meet it", (unsigned)density->lower,
-             froe_scene_dim(scene) == 2 ? "circle" : "ball");
+    snprintf(m.title, sizeof m.title, "Density: %u object%s as large as a %s meet%s it", (unsigned)density->lower,
+             support_plural(density->lower), froe_scene_dim(scene) == 2 ? "circle" : "ball",
+             density->lower == 1 ? "s" : "");
     return draw(common, path, scene, &m, max_fragments);
 }

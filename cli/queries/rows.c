@@ -217,8 +217,8 @@ static bool read_numbers(cli_rows *rows, double *values) {
     }
     if (field.last && column == rows->columns) return true;
     for (; !field.last; column++) field = support_csv_next(&at, rows->separator);
-    snprintf(rows->sentence, sizeof rows->sentence, "The row has %zu columns, and the header %zu.", column,
-             rows->columns);
+    snprintf(rows->sentence, sizeof rows->sentence, "The row has %zu column%s, and the header %zu.", column,
+             support_plural(column), rows->columns);
     return false;
 }
 

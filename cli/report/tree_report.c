@@ -1,6 +1,7 @@
 /* tree_report.c: a tree's counts, promises and filter statistics as JSON. */
 #include "report/tree_report.h"
 #include "exit.h"
+#include "support/fail.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -60,9 +61,9 @@ int cli_report_build(const cli_common *common, const char *scene, const char *ou
                      cli_build_seconds seconds) {
     const froe_report r = froe_tree_report(tree);
     char headline[400];
-    snprintf(headline, sizeof headline, "%.200s: %llu objects in %llu pieces, height %llu, by %s in %.3g s", scene,
-             (unsigned long long)r.objects, (unsigned long long)r.fragments, (unsigned long long)r.height, r.method,
-             seconds.build);
+    snprintf(headline, sizeof headline, "%.200s: %llu object%s in %llu piece%s, height %llu, by %s in %.3g s", scene,
+             (unsigned long long)r.objects, support_plural(r.objects), (unsigned long long)r.fragments,
+             support_plural(r.fragments), (unsigned long long)r.height, r.method, seconds.build);
     json_t *report = json_pack("{s:o, s:o*, s:o}", "scene", cli_name_json(scene), "tree", cli_name_json(output),
                                "seconds", json_pack("{s:f, s:f}", "read", seconds.read, "build", seconds.build));
     json_t *tree_report = cli_tree_json(tree);

@@ -4,6 +4,7 @@
 #include "exit.h"
 #include "progress.h"
 #include "report/report.h"
+#include "support/fail.h"
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -103,7 +104,7 @@ static int report_shards(const cli_common *common, const char *scene, const char
                          double seconds) {
     char headline[400];
     snprintf(headline, sizeof headline, "%.200s: %llu object%s in %u shard%s, the largest of %llu, in %.3g s", scene,
-             (unsigned long long)r->objects, r->objects == 1 ? "" : "s", r->shards, r->shards == 1 ? "" : "s",
+             (unsigned long long)r->objects, support_plural(r->objects), r->shards, support_plural(r->shards),
              (unsigned long long)r->most, seconds);
     return cli_report(common, headline,
                       json_pack("{s:o, s:o, s:I, s:I, s:I, s:I, s:I, s:f}", "scene", cli_name_json(scene), "folder",

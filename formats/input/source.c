@@ -134,8 +134,9 @@ static froe_status fill_scene(const formats_readers *readers, const formats_sour
     if (!status) status = formats_sink_end_feature(sink);
     if (!status && !sink->total)
         status = support_fail(sink->diag, FROE_E_INPUT,
-                              "%s: The file holds no objects (%llu features without geometry, %llu skipped).", name,
-                              (unsigned long long)sink->report.no_geometry, (unsigned long long)sink->report.skipped);
+                              "%s: The file holds no objects (%llu feature%s without geometry, %llu skipped).", name,
+                              (unsigned long long)sink->report.no_geometry, support_plural(sink->report.no_geometry),
+                              (unsigned long long)sink->report.skipped);
     if (!status) status = formats_sink_progress(sink, 1);
     return status ? status : formats_sink_take(sink, out);
 }

@@ -135,8 +135,9 @@ static froe_status read_pose(pose_reading *r, char **at, char separator) {
         }
     }
     if (column != r->columns)
-        return support_fail(r->diag, FROE_E_FORMAT, "%s: line %llu: The row has %d columns, and the header %d.",
-                            support_short(r->path), (unsigned long long)r->line, column, r->columns);
+        return support_fail(r->diag, FROE_E_FORMAT, "%s: line %llu: The row has %d column%s, and the header %d.",
+                            support_short(r->path), (unsigned long long)r->line, column,
+                            support_plural((uint64_t)column), r->columns);
     r->line += 1 + more;
     if (p.at[TIME] < r->first) r->first = p.at[TIME];
     if (p.at[TIME] > r->last) r->last = p.at[TIME];

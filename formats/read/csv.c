@@ -128,7 +128,8 @@ static froe_status read_row(csv_reader *c, char **at, uint64_t row) {
         if (status) return status;
     }
     if (column != t->columns)
-        return formats_sink_fail(sink, FROE_E_FORMAT, "The row has %d columns, and the header %d.", column, t->columns);
+        return formats_sink_fail(sink, FROE_E_FORMAT, "The row has %d column%s, and the header %d.", column,
+                                 support_plural((uint64_t)column), t->columns);
     if (t->kind == FROE_HULL) return take_corner(c, r);
     const froe_status status = begin_object(c, r);
     if (status) return status;

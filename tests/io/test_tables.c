@@ -183,7 +183,7 @@ static void bad_rows_are_named(void **state) {
     refuse_table("x,y\n1,two\n", FROE_E_FORMAT, "'two' is not a number");
     refuse_table("x,y\n1,2 3\n", FROE_E_FORMAT, "'2 3' is not a number");
     refuse_table("x,y\n1,\n", FROE_E_FORMAT, "missing");
-    refuse_table("x,y\n1\n", FROE_E_FORMAT, "The row has 1 columns, and the header 2.");
+    refuse_table("x,y\n1\n", FROE_E_FORMAT, "The row has 1 column, and the header 2.");
     refuse_table("x,y\n1,2,3\n", FROE_E_FORMAT, "The row has 3 columns, and the header 2.");
     refuse_table("x,y,tag\n1,2,-1\n", FROE_E_FORMAT, "tag");
     refuse_table("x,y,tag\n1,2,18446744073709551616\n", FROE_E_FORMAT, "tag");
