@@ -88,7 +88,7 @@ static int put_pairs(const pairs_args *args, writing *w) {
     cli_progress_end(&w->bar);
     for (int i = 0; i < 3 && args->count && !status; i++)
         cli_table_put(&w->table, &(cli_answer){.kind = kinds[i], .count = w->counts[i]});
-    const int closed = cli_table_close(&w->table);
+    const int closed = cli_table_close(&w->table, status != FROE_OK);
     if (!status && w->table.status) status = support_fail_memory(&diag);
     if (status) return cli_fail_status(CLI_WORKING, args->tree.scene.path, status, &diag);
     const int reported = args->common.json ? report_pairs(args, w) : 0;

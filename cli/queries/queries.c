@@ -347,7 +347,7 @@ static int ask_rows(query_run *r, double start) {
     else
         work(r);
     if (!code) code = r->code ? r->code : r->refused ? CLI_INPUT : 0;
-    const int closed = cli_table_close(&r->table);
+    const int closed = cli_table_close(&r->table, r->code != 0);
     warn_outside(r);
     const int reported = q->common->json && !r->code ? report_batch(r, start) : 0;
     return closed ? closed : reported ? reported : code;

@@ -46,7 +46,8 @@ int cli_table_open(const cli_common *common, const cli_table_args *args, const c
     return 0;
 }
 
-int cli_table_close(cli_table *table) {
+int cli_table_close(cli_table *table, bool failed) {
+    if (failed && !table->out.rows) table->out.mute = true;
     cli_answers_close(&table->out);
     cli_columns_free(&table->columns);
     free(table->group_ids);

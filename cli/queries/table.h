@@ -97,6 +97,7 @@ void cli_table_put_finds(cli_table *table, const froe_finds *finds, bool count);
 void cli_table_put_firsts(cli_table *table, const froe_find *finds, size_t queries, bool count);
 /** Puts the ids of each query in ascending order. */
 void cli_sort_answers(froe_answers *answers);
-/** Writes what stands behind the last row. Returns 0, or an exit code after saying why not all was written. */
-int cli_table_close(cli_table *table);
+/** Writes what stands behind the last row; of a command that has `failed` before its first row nothing is written, no
+ * header either. Returns 0, or an exit code after saying why not all was written. */
+int cli_table_close(cli_table *table, bool failed);
 #endif
