@@ -11,7 +11,7 @@ static const char *const formats[] = {[CLI_CSV] = "csv", [CLI_JSONL] = "jsonl", 
 
 const cli_option cli_table_options[] = {
     {"columns", 0, CLI_TEXT, offsetof(cli_table_args, columns), "LIST",
-     .help = "what each answer shows: names of columns between commas; * for all of the file of queries"},
+     .help = "what each answer shows: names of columns between commas"},
     {"format", 0, CLI_CHOICE, offsetof(cli_table_args, format), "FORMAT",
      .help = "of the answers: csv (default), jsonl (an object a line) or geojson", .choices = formats,
      .sentence = "--input-format is the option for the format of SCENE."},

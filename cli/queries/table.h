@@ -36,8 +36,8 @@ extern const cli_option cli_table_options[];
 /** What --columns takes beside the columns of a command, for its `about`. */
 #define CLI_COLUMNS_ABOUT                                                                                              \
     "A column of the CSV is named as there, or with query_ before its name where the command has a column of that "    \
-    "name. group is the group of the object, and name is its name. id is the number of the feature in its file, or "   \
-    "the tag of a CSV.\n\n"
+    "name; * stands for all that are not named. group is the group of the object, and name is its name. id is the "    \
+    "number of the feature in its file, or the tag of a CSV.\n\n"
 #define CLI_TABLE_DEFAULTS                                                                                             \
     { .format = -1 }
 
