@@ -287,6 +287,12 @@ int cli_parse(const char *command, const cli_part *parts, int argc, char **argv,
     return ((cli_common *)args)->help ? 0 : check_required(command, parts, args);
 }
 
+int cli_check_needs(const cli_need *needs, size_t count) {
+    for (; count--; needs++)
+        if (needs->given && !needs->met) return cli_fail(CLI_USE, NULL, "--%s: %s", needs->option, needs->sentence);
+    return 0;
+}
+
 void cli_release(const cli_part *parts, void *args) {
     for (const cli_part *part = parts; part->title; part++)
         for (const cli_option *option = part->options; option->type; option++)

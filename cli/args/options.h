@@ -90,6 +90,15 @@ int cli_parse(const char *command, const cli_part *parts, int argc, char **argv,
 /** Frees what cli_parse() allocated within `args`. */
 void cli_release(const cli_part *parts, void *args);
 
+/** An option that does nothing but beside others. */
+typedef struct cli_need {
+    const char *option;   /**< one, or several: "places, --unrounded" */
+    bool given, met;      /**< on the command line; what it needs is there */
+    const char *sentence; /**< what it needs */
+} cli_need;
+/** CLI_USE, after saying so, for the first of `count` options that is given and whose need is not met, or 0. */
+int cli_check_needs(const cli_need *needs, size_t count);
+
 /** The one of `count` names closest to a mistyped word, or NULL when none is close. */
 const char *cli_nearest(const char *word, const char *const *names, size_t count);
 #endif

@@ -66,7 +66,7 @@ static const cli_option camera[] = {
      .max = 100000},
     {"animate", 0, CLI_FLAG, offsetof(render_args, animate),
      .help = "all pictures, of the turntable or of a moving model, in one SVG that moves"},
-    {"seconds", 0, CLI_REAL, offsetof(render_args, seconds), "S", .help = "of a round (default 8)"},
+    {"seconds", 0, CLI_REAL, offsetof(render_args, seconds), "S", .help = "with --animate: of a round (default 8)"},
     {0},
 };
 
@@ -126,8 +126,8 @@ static const cli_option line_options[] = {
 };
 
 static const cli_option file[] = {
-    {"decimals", 0, CLI_WHOLE, offsetof(render_args, decimals), "N", .help = "SVG: digits after the point (default 2)",
-     .max = 6},
+    {"decimals", 0, CLI_WHOLE, offsetof(render_args, decimals), "N",
+     .help = "SVG, and lines alone: digits after the point (default 2)", .max = 6},
     {"ids", 0, CLI_CHOICE, offsetof(render_args, ids), "WHAT",
      .help = "what shapes and lines tell of their origin: none (default), object (its group; default in .csv and "
              ".geojson) or face (a path each, and its number as well)",
@@ -324,6 +324,7 @@ const cli_command cli_command_render = {
                                      .tree = CLI_TREE_DEFAULTS,
                                      .moving = CLI_MOVING_DEFAULTS,
                                      .at = NAN,
+                                     .direction = -1,
                                      .up_axis = -1,
                                      .hidden = -1,
                                      .ids = -1,

@@ -43,7 +43,7 @@ static int set_camera(const render_args *args, const froe_scene *scene, froe_cam
     /* Directions of the views, for z up: right, towards the front (-y), up. */
     static const double from[][3] = {{3, -5, 2}, {1, -1, 1}, {0, -1, 0}, {0, 1, 0}, {-1, 0, 0},
                                      {1, 0, 0},  {0, 0, 1},  {0, 0, -1}, {1, -4, 2}};
-    const double *d = from[args->direction];
+    const double *d = from[args->direction < 0 ? 0 : args->direction];
     const int up = args->up_axis < 0 ? froe_scene_up(scene) : args->up_axis;
     double lo[FROE_MAX_DIM] = {0}, hi[FROE_MAX_DIM] = {0};
     froe_scene_bounds(scene, lo, hi);
@@ -61,10 +61,6 @@ static int set_camera(const render_args *args, const froe_scene *scene, froe_cam
     }
     if (args->section.count) c->section = args->section.at;
     if (args->parallel || args->direction > 0) c->parallel = true;
-    if (c->parallel && !isnan(args->fov))
-        return cli_fail(
-            CLI_USE, NULL,
-            "--fov: The projection is parallel, by --parallel, --preset technical or a --view other than corner.");
     cli_set_number(args->fov, &c->fov);
     c->margin = fmin(c->width / 50, c->height / 4);
     cli_set_number(args->margin, &c->margin);
@@ -195,13 +191,26 @@ static int check_visible(const render_styles *styles, size_t first) {
     return 0;
 }
 
-static int check_layers(const render_args *args) {
-    static const char *const flat[] = {"pdf", "png", "eps"};
-    const support_extension extension = support_path_extension(args->output.path);
-    for (size_t i = 0; args->layers && i < sizeof flat / sizeof *flat; i++)
-        if (!strcmp(extension.text, flat[i]))
-            return cli_fail(CLI_USE, NULL, "--layers: An .svg file has layers, and a .%s file has none.", flat[i]);
-    return 0;
+/* What is given, and would change nothing. */
+static int check_needs(const render_args *args, const froe_render_options *o) {
+    const support_extension ending = support_path_extension(args->output.path);
+    const bool png = !strcmp(ending.text, "png"),
+               fixed = png || !strcmp(ending.text, "pdf") || !strcmp(ending.text, "eps");
+    const bool layered = !strcmp(ending.text, "svg") || !strcmp(ending.text, "dxf");
+    const cli_need needs[] = {
+        {"view", args->direction >= 0, !args->eye.count, "It excludes --eye, which says where from."},
+        {"fov", !isnan(args->fov), !o->camera.parallel,
+         "The projection is parallel, by --parallel, --preset technical or a --view other than corner."},
+        {"unit", !isnan(args->unit), args->scale && strchr(args->scale, ':'), "It needs a --scale like 1:50."},
+        {"seconds", !isnan(args->seconds), args->animate, "It needs --animate."},
+        {"seam-width", !isnan(args->seam_width), o->seams == FROE_SEAMS_UNDERLAP || o->seams == FROE_SEAMS_STROKE,
+         "It needs --seams underlap or stroke."},
+        {"decimals", args->decimals != UINT64_MAX, !fixed,
+         "Files of the endings .pdf, .eps and .png have steps of their own."},
+        {"layers", args->layers > 0, layered, "Only files of the endings .svg and .dxf have layers."},
+        {"pixels", !isnan(args->pixels), png, "Only files of the ending .png have pixels."},
+    };
+    return cli_check_needs(needs, sizeof needs / sizeof *needs);
 }
 
 int render_set_options(const render_args *args, const froe_scene *scene, froe_render_options *o,
@@ -251,7 +260,7 @@ int render_set_options(const render_args *args, const froe_scene *scene, froe_re
     const size_t preset = styles->count;
     if (!code) code = render_add_styles(args->line_style, styles);
     if (!code && !o->hidden) code = check_visible(styles, preset);
-    if (!code) code = check_layers(args);
+    if (!code) code = check_needs(args, o);
     o->line_styles = styles->at, o->line_style_count = styles->count;
     return code ? code : check_pixels(args->output.path, o);
 }

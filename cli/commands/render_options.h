@@ -18,7 +18,8 @@ typedef struct render_args {
     uint64_t frames;        /**< 0: not given */
     const char *lines, *background, *title, *description, *opacity, *priority, *size, *shading, *scale;
     char *line_style;
-    int direction, up_axis, paint, preset, seams, ids, layers, hidden, colours, over;
+    int direction, up_axis; /**< -1: not given */
+    int paint, preset, seams, ids, layers, hidden, colours, over;
     double halo, fov, unit, min_area, seconds, margin, crease, pixels; /**< NaN: not given */
     double seam_width, line_width, point_width;                        /**< the same */
     uint64_t decimals;                                                 /**< UINT64_MAX: not given */

@@ -149,15 +149,19 @@ static int check(const simulate_args *args) {
     int code = cli_check_ending("animate", args->animate, "svg");
     if (!code) code = cli_check_ending("player", args->player, "html");
     if (code) return code;
-    const bool followed = args->follow.events || args->follow.tree.name;
-    if (!followed && (args->follow.ghosts || args->follow.augmented))
-        return cli_fail(CLI_USE, NULL, "--%s: It is about the partition, and needs --events or --at.",
-                        args->follow.ghosts ? "ghosts" : "augmented");
-    if (isnan(args->follow.at) != !args->follow.tree.name)
-        return cli_fail(CLI_USE, NULL,
-                        "--at: It needs --output, a file for the tree of that time, and --output needs it.");
-    if ((args->follow.places || args->follow.unrounded) && !args->follow.tree.name)
-        return cli_fail(CLI_USE, NULL, "--places, --unrounded: They need --output.");
+    const cli_follow *follow = &args->follow;
+    const bool followed = cli_follows(follow);
+    static const char partition[] = "It is about the partition, and needs --events or --at.";
+    const bool at = !isnan(follow->at), tree = follow->tree.name;
+    const cli_need needs[] = {
+        {"ghosts", follow->ghosts, followed, partition},
+        {"augmented", follow->augmented, followed, partition},
+        {"at", at || tree, at && tree, "It needs --output, a file for the tree of that time, and --output needs it."},
+        {"places, --unrounded", follow->places || follow->unrounded, tree, "They need --output."},
+        {"seconds", !isnan(args->seconds), args->animate || args->player, "It needs --animate or --player."},
+    };
+    code = cli_check_needs(needs, sizeof needs / sizeof *needs);
+    if (code) return code;
     if (!isnan(args->seconds) && !(args->seconds > 0))
         return cli_fail(CLI_USE, NULL, "--seconds: '%g' is not a number above 0.", args->seconds);
     return 0;
@@ -169,7 +173,7 @@ static int run_simulate(const void *given) {
     int code = check(args);
     if (code) return code;
     froe_diagnostic diag;
-    code = cli_read_moving(&args->common, &args->moving, &s.motion, &s.read);
+    code = cli_read_moving(&args->common, &args->moving, cli_follows(&args->follow), &s.motion, &s.read);
     if (code) return code;
     code = cli_check_follow(&args->follow, args->moving.path, s.motion);
     if (!code) code = find_contacts(&s);

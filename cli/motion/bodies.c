@@ -20,12 +20,16 @@ static double size_of(const froe_motion *motion) {
     return square > 0 ? sqrt(square) : 1;
 }
 
+bool cli_has_turning_bodies(const froe_motion *motion) {
+    return froe_motion_body_count(motion) && froe_motion_window(motion).dim == 3;
+}
+
 int cli_replace_bodies(const char *file, const froe_motion *motion, double deviation, froe_motion **out,
                        double *reached) {
     froe_diagnostic diag;
     const double share = isnan(deviation) ? froe_motion_read_defaults().deviation : deviation;
     *out = NULL;
-    if (!froe_motion_body_count(motion) || froe_motion_window(motion).dim == 2) return 0; /* these stay as they are */
+    if (!cli_has_turning_bodies(motion)) return 0;
     const froe_status status = froe_motion_without_bodies(motion, share * size_of(motion), NULL, out, reached, &diag);
     return status ? cli_fail_status(CLI_WORKING, file, status, &diag) : 0;
 }

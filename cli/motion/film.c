@@ -180,7 +180,7 @@ int cli_render_moving(const render_args *args) {
     cli_moving_args moving = args->moving;
     moving.path = args->tree.scene.path, moving.format = args->tree.scene.format;
     int code = check_film(args);
-    if (!code) code = cli_read_moving(&args->common, &moving, &r.motion, &r.read);
+    if (!code) code = cli_read_moving(&args->common, &moving, args->exact, &r.motion, &r.read);
     return code ? code : render_motion(&r);
 }
 

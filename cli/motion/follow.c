@@ -120,7 +120,7 @@ int cli_follow_motion(const cli_common *common, const cli_follow *asked, const c
     const bool space = froe_motion_window(motion).dim == 3;
     *report = json_null();
     w.may_ghost = space && !asked->ghosts;
-    if (!asked->events && !asked->tree.name) return 0;
+    if (!cli_follows(asked)) return 0;
     froe_status status = asked->events ? froe_event_writer_new(asked->events, NULL, &w.writer, &diag) : FROE_OK;
     if (status) return cli_fail_status(CLI_WRITING, asked->events, status, &diag);
     *report = json_object();

@@ -23,6 +23,10 @@ typedef struct cli_follow {
     double deviation; /**< of what replaces bodies, as a share of the size of what moves; NaN: the usual one */
 } cli_follow;
 
+/** Is the partition asked for? */
+static inline bool cli_follows(const cli_follow *asked) {
+    return asked->events || asked->tree.name;
+}
 /** Is what is asked for possible for a motion? Returns 0, or an exit code after saying why. */
 int cli_check_follow(const cli_follow *asked, const char *file, const froe_motion *motion);
 /** Goes through the window of a motion from a file, if anything is asked for; events are written as they happen.

@@ -5,6 +5,7 @@
 #include "args/spool.h"
 #include "exit.h"
 #include "library.h"
+#include "motion/bodies.h"
 #include "progress.h"
 #include "support/path.h"
 #include <math.h>
@@ -70,28 +71,45 @@ static int read_animated(const cli_common *common, const cli_spool *spool, froe_
     return status ? cli_fail_status(CLI_READING, NULL, status, &diag) : 0;
 }
 
-int cli_read_moving(const cli_common *common, const cli_moving_args *args, froe_motion **motion,
-                    froe_motion_report *report) {
+/* By what its content is; *animated: a model as its animation says. */
+static int read_any(const cli_common *common, const cli_moving_args *args, froe_motion_read_options *o,
+                    froe_motion **motion, froe_motion_report *report, bool *animated) {
     froe_diagnostic diag;
+    if (args->poses) return read_posed(common, args, o, motion, report);
+    const bool stream = !strcmp(args->path, "-") && !args->format;
+    const char *features = stream ? "/dev/stdin" : args->path;
+    cli_spool spool = {.path = features};
+    int code = stream ? 0 : cli_spool_open(args->path, args->format, &spool);
+    if (code) return code;
+    *animated = !stream && !holds_features(spool.path);
+    if (*animated) {
+        code = read_animated(common, &spool, o, motion, report);
+    } else {
+        const froe_status status = froe_read_motion(spool.path, o, motion, report, &diag);
+        code = status ? cli_fail_status(CLI_READING, NULL, status, &diag) : 0;
+    }
+    if (!stream) cli_spool_free(&spool);
+    return code;
+}
+
+int cli_read_moving(const cli_common *common, const cli_moving_args *args, bool followed, froe_motion **motion,
+                    froe_motion_report *report) {
+    bool animated = false;
     froe_motion_read_options o = froe_motion_read_defaults();
     o.from = args->from, o.to = args->to, o.animation = args->animation;
     if (!isnan(args->deviation)) o.deviation = args->deviation;
     if (!isnan(args->from) && !isnan(args->to) && !(args->from < args->to))
         return cli_fail(CLI_USE, NULL, "--from: '%g' is not before --to, '%g'.", args->from, args->to);
     if (!(o.deviation > 0)) return cli_fail(CLI_USE, NULL, "--deviation: '%g' is not a number above 0.", o.deviation);
-    if (args->poses) return read_posed(common, args, &o, motion, report);
-    const bool stream = !strcmp(args->path, "-") && !args->format;
-    const char *features = stream ? "/dev/stdin" : args->path;
-    cli_spool spool = {.path = features};
-    int code = stream ? 0 : cli_spool_open(args->path, args->format, &spool);
+    int code = read_any(common, args, &o, motion, report, &animated);
     if (code) return code;
-    if (stream || holds_features(spool.path)) {
-        const froe_status status = froe_read_motion(spool.path, &o, motion, report, &diag);
-        code = status ? cli_fail_status(CLI_READING, NULL, status, &diag) : 0;
-    } else {
-        code = read_animated(common, &spool, &o, motion, report);
-    }
-    if (!stream) cli_spool_free(&spool);
+    const cli_need needs[] = {
+        {"animation", args->animation, animated, "It is one of a model, and nothing else has any."},
+        {"deviation", !isnan(args->deviation), animated || (followed && cli_has_turning_bodies(*motion)),
+         "It is about animations of models, and about bodies in a partition of space."},
+    };
+    code = cli_check_needs(needs, sizeof needs / sizeof *needs);
+    if (code) froe_motion_free(*motion);
     return code;
 }
 

@@ -14,8 +14,9 @@ typedef struct cli_moving_args {
 /** All but the file itself and its format. */
 extern const cli_option cli_moving_options[];
 
-/** Reads it, with a progress bar. Returns 0, or an exit code after saying why. */
-int cli_read_moving(const cli_common *common, const cli_moving_args *args, froe_motion **motion,
+/** Reads it, with a progress bar. `followed`: for a partition, in which corners of bodies fly along parabolas. Returns
+ * 0, or an exit code after saying why. */
+int cli_read_moving(const cli_common *common, const cli_moving_args *args, bool followed, froe_motion **motion,
                     froe_motion_report *report);
 /** Adds what is told of an animation to an object. */
 void cli_report_moving(const froe_motion_report *report, json_t *object);
