@@ -183,7 +183,12 @@ static void warn(const render_args *args, const froe_render_options *o, const fr
     if (r->picture.paint != o->paint && o->shading != FROE_SHADE_NONE)
         (void)cli_fail(0, args->output.name,
                        "note: Too many faces overlap for an order of whole ones, and fragments were painted.");
-    if (!r->shapes && !r->strokes) (void)cli_fail(0, args->output.name, "note: Nothing is visible from here.");
+    if (r->shapes || r->strokes) return;
+    const froe_visibility_report *v = &r->picture.visibility;
+    const bool unasked = v->visible_patches || (!o->lines && (v->segments || v->points));
+    (void)cli_fail(0, args->output.name,
+                   unasked ? "note: Nothing is drawn with this --style, --line-kinds and --min-area."
+                           : "note: Nothing is visible from here.");
 }
 
 static froe_status render_turning(const render_args *args, render_fn *write, const froe_tree *tree,
