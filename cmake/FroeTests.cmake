@@ -25,9 +25,9 @@ set(split_kinetic/live ordinary augmented)
 set(split_query/range_eps approximate_answers_keep_their_contract at_the_limits_they_keep_it_too
     at_every_scale_they_keep_it_too)
 
-# froe_test(AREA NAME COMMAND...): runs in a scratch folder of its own, which is emptied first: what a test that was killed
-# has left would fail all that follow. AddressSanitizer would map fresh memory for its
-# marks whenever a block of more than 0.5 MB is taken, as each context of predicates does, so it clears old memory.
+# froe_test(AREA NAME COMMAND...): runs in a scratch folder of its own, which is emptied first: what a test that was
+# killed has left would fail all that follow. AddressSanitizer would map fresh memory for its marks whenever a block of
+# more than 0.5 MB is taken, as each context of predicates does, so it clears old memory.
 function(froe_test area name)
   set(scratch ${PROJECT_BINARY_DIR}/scratch/${area}-${name})
   file(MAKE_DIRECTORY ${scratch})

@@ -1,6 +1,5 @@
 /* heard.c: see heard.h. */
 #include "heard.h"
-#include <cpl_conv.h>
 #include <cpl_error.h>
 #include <gdal.h>
 #include <pthread.h>
@@ -18,9 +17,6 @@ static void CPL_STDCALL hear(CPLErr class, CPLErrorNum number, const char *text)
         if (*c == '\n' || *c == '\r') *c = ' ';
 }
 
-/* A file beside a map, NAME.gz.properties, that tells how large it is when unpacked. */
-static const char *const NOTES = "CPL_VSIL_GZIP_WRITE_PROPERTIES";
-
 static void register_drivers(void) {
     GDALAllRegister();
 }
@@ -28,14 +24,15 @@ static void register_drivers(void) {
 void io_gdal_begin(io_heard *heard) {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     CPLPushErrorHandlerEx(hear, heard);
-    CPLSetThreadLocalConfigOption(NOTES, "NO");
+    /* Notes are a file beside a map, NAME.gz.properties, that tells how large it is when unpacked. */
+    io_setting_begin(&heard->notes, "CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO");
     pthread_once(&once, register_drivers);
     if (!heard->online) io_offline_begin(&heard->offline);
 }
 
 void io_gdal_end(io_heard *heard) {
     if (!heard->online) io_offline_end(&heard->offline);
-    CPLSetThreadLocalConfigOption(NOTES, NULL);
+    io_setting_end(&heard->notes);
     CPLPopErrorHandler();
     CPLErrorReset();
 }

@@ -4,6 +4,7 @@
 
 #include "formats/input/sink.h"
 #include "offline.h"
+#include "setting.h"
 
 /** The first failure of which GDAL has told. */
 typedef struct io_heard {
@@ -12,6 +13,7 @@ typedef struct io_heard {
     bool failed;
     char text[160]; /**< "" where it names the path */
     io_offline offline;
+    io_setting notes;
 } io_heard;
 
 /** Registers the drivers, once, and listens until io_gdal_end(), offline unless `online`. Until then GDAL writes no

@@ -5,8 +5,6 @@
 #include <cpl_http.h>
 #include <cpl_string.h>
 
-static const char *const setting = "CPL_VSIL_CURL_ALLOWED_FILENAME";
-
 /* Without a result GDAL would fetch the address itself. */
 static CPLHTTPResult *fetch_nothing(const char *address, CSLConstList options, GDALProgressFunc progress, void *shown,
                                     CPLHTTPFetchWriteFunc write, void *written, void *user) {
@@ -18,14 +16,11 @@ static CPLHTTPResult *fetch_nothing(const char *address, CSLConstList options, G
 }
 
 void io_offline_begin(io_offline *offline) {
-    const char *allowed = CPLGetThreadLocalConfigOption(setting, NULL);
-    offline->allowed = allowed ? CPLStrdup(allowed) : NULL;
-    CPLSetThreadLocalConfigOption(setting, "");
+    io_setting_begin(&offline->allowed, "CPL_VSIL_CURL_ALLOWED_FILENAME", "");
     CPLHTTPPushFetchCallback(fetch_nothing, NULL);
 }
 
 void io_offline_end(io_offline *offline) {
     CPLHTTPPopFetchCallback();
-    CPLSetThreadLocalConfigOption(setting, offline->allowed);
-    CPLFree(offline->allowed);
+    io_setting_end(&offline->allowed);
 }

@@ -2,9 +2,10 @@
 #ifndef FROE_IO_OFFLINE_H
 #define FROE_IO_OFFLINE_H
 
-/** What the thread allowed before: text of GDAL, or NULL. */
+#include "setting.h"
+
 typedef struct io_offline {
-    char *allowed;
+    io_setting allowed; /**< the file in virtual file systems that may be opened */
 } io_offline;
 
 /** From here to io_offline_end() nothing that a file names is fetched: links to coordinate systems, services, names in

@@ -12,7 +12,7 @@
 #include <unistd.h>
 
 enum { TEXT = 500 };
-static int door = -1, port, fetched;
+static int listener = -1, port, fetched;
 
 static CPLHTTPResult *count_fetch(const char *address, CSLConstList options, GDALProgressFunc progress, void *shown,
                                   CPLHTTPFetchWriteFunc write, void *written, void *user) {
@@ -23,25 +23,25 @@ static CPLHTTPResult *count_fetch(const char *address, CSLConstList options, GDA
     return nothing;
 }
 
-static int open_door(void **state) {
+static int open_listener(void **state) {
     struct sockaddr_in at = {.sin_family = AF_INET, .sin_addr.s_addr = htonl(INADDR_LOOPBACK)};
     socklen_t size = sizeof at;
     (void)state;
-    door = socket(AF_INET, SOCK_STREAM, 0);
-    if (door < 0 || bind(door, (struct sockaddr *)&at, size) || listen(door, 9) || fcntl(door, F_SETFL, O_NONBLOCK) ||
-        getsockname(door, (struct sockaddr *)&at, &size))
+    listener = socket(AF_INET, SOCK_STREAM, 0);
+    if (listener < 0 || bind(listener, (struct sockaddr *)&at, size) || listen(listener, 9) ||
+        fcntl(listener, F_SETFL, O_NONBLOCK) || getsockname(listener, (struct sockaddr *)&at, &size))
         return -1;
     port = ntohs(at.sin_port);
-    CPLSetConfigOption("GDAL_HTTP_TIMEOUT", "0.2"); /* the door is never answered */
+    CPLSetConfigOption("GDAL_HTTP_TIMEOUT", "0.2"); /* nothing is answered */
     return CPLHTTPPushFetchCallback(count_fetch, NULL) ? 0 : -1;
 }
 
-/* Has somebody come to the door, or fetched an address, since the last call? */
-static bool somebody_came(void) {
-    bool came = fetched > 0;
-    for (int guest; (guest = accept(door, NULL, NULL)) >= 0; came = true) close(guest);
+/* Was there a connection to the socket, or an address fetched, since the last call? */
+static bool network_was_used(void) {
+    bool used = fetched > 0;
+    for (int connection; (connection = accept(listener, NULL, NULL)) >= 0; used = true) close(connection);
     fetched = 0;
-    return came;
+    return used;
 }
 
 static froe_status read_named(const char *name) {
@@ -76,16 +76,16 @@ static void what_files_name_is_not_fetched(void **state) {
     read_written("file.vrt", LAYER("/vsicurl/http://127.0.0.1:%d/a.geojson"));
     read_written("archive.vrt", LAYER("/vsizip//vsicurl/http://127.0.0.1:%d/a.zip"));
     read_written("service.vrt", LAYER("WFS:http://127.0.0.1:%d/"));
-    assert_false(somebody_came());
+    assert_false(network_was_used());
 }
 
 static bool machine_reaches_itself(void) {
     const struct sockaddr_in at = {
         .sin_family = AF_INET, .sin_port = htons((uint16_t)port), .sin_addr.s_addr = htonl(INADDR_LOOPBACK)};
-    const int guest = socket(AF_INET, SOCK_STREAM, 0);
-    const bool reached = !connect(guest, (const struct sockaddr *)&at, sizeof at);
-    close(guest);
-    return reached && somebody_came();
+    const int connection = socket(AF_INET, SOCK_STREAM, 0);
+    const bool reached = !connect(connection, (const struct sockaddr *)&at, sizeof at);
+    close(connection);
+    return reached && network_was_used();
 }
 
 static void a_name_in_a_virtual_file_system_is_the_users_wish(void **state) {
@@ -94,18 +94,20 @@ static void a_name_in_a_virtual_file_system_is_the_users_wish(void **state) {
     snprintf(name, sizeof name, "/vsicurl/http://127.0.0.1:%d/a.geojson", port);
     const bool reached = machine_reaches_itself();
     assert_int_not_equal(read_named(name), FROE_OK);
-    assert_int_equal(somebody_came(), reached);
+    assert_int_equal(network_was_used(), reached);
 }
 
 static void settings_of_the_thread_are_put_back(void **state) {
-    static const char setting[] = "CPL_VSIL_CURL_ALLOWED_FILENAME";
+    static const char *const settings[] = {"CPL_VSIL_CURL_ALLOWED_FILENAME", "CPL_VSIL_GZIP_WRITE_PROPERTIES"};
     (void)state;
-    CPLSetThreadLocalConfigOption(setting, "this");
+    for (int i = 0; i < 2; i++) CPLSetThreadLocalConfigOption(settings[i], "this");
     assert_int_equal(read_written("link.geojson", LINE("href")), FROE_OK);
-    assert_string_equal(CPLGetThreadLocalConfigOption(setting, ""), "this");
-    CPLSetThreadLocalConfigOption(setting, NULL);
+    for (int i = 0; i < 2; i++) {
+        assert_string_equal(CPLGetThreadLocalConfigOption(settings[i], ""), "this");
+        CPLSetThreadLocalConfigOption(settings[i], NULL);
+    }
     CPLHTTPDestroyResult(CPLHTTPFetch("http://127.0.0.1/", NULL));
-    assert_true(somebody_came());
+    assert_true(network_was_used());
 }
 
 static void only_what_is_named_so_is_a_virtual_file(void **state) {
@@ -123,5 +125,5 @@ int main(void) {
         cmocka_unit_test(settings_of_the_thread_are_put_back),
         cmocka_unit_test(only_what_is_named_so_is_a_virtual_file),
     };
-    return cmocka_run_group_tests_name("io/offline", tests, open_door, NULL);
+    return cmocka_run_group_tests_name("io/offline", tests, open_listener, NULL);
 }
