@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from . import _kinds
 from ._arrays import Doubles
 
 if TYPE_CHECKING:
     from .tree import Tree
 
-_BOX, _BALL, _HULL = 3, 4, 5  # froe_kind
 _CHORDS = 64
 
 
@@ -24,13 +24,13 @@ def of_pieces(tree: Tree) -> list[Doubles]:
 
 
 def _line(form: int, corners: Doubles, radius: float) -> Doubles:
-    if form == _BOX:
+    if form == _kinds.BOX:
         return np.column_stack([corners[[0, 1, 1, 0, 0], 0], corners[[0, 0, 1, 1, 0], 1]])
-    if form == _BALL:
+    if form == _kinds.BALL:
         angles = np.linspace(0, 2 * np.pi, _CHORDS + 1)
         circle: Doubles = corners[0] + radius * np.column_stack([np.cos(angles), np.sin(angles)])
         return circle
-    return _around(corners) if form == _HULL else corners
+    return _around(corners) if form == _kinds.HULL else corners
 
 
 def _around(points: Doubles) -> Doubles:

@@ -9,14 +9,13 @@ from typing import Any, Literal
 import numpy as np
 import numpy.typing as npt
 
-from . import _core
+from . import _core, _kinds
 from ._arrays import Doubles, Ids, Progress, doubles, rows, whole
 from .errors import ArrayError, OptionError, UnsupportedError
 from .report import Report
 from .scene_parts import Crs, Group, ReadReport, SceneArrays
 from .tree import Tree
 
-_POINT, _SEGMENT, _POLYGON, _BOX, _BALL, _HULL = range(6)  # froe_kind
 _CRS = ("unknown", "geographic", "projected", "other")  # froe_crs_kind
 
 
@@ -197,7 +196,7 @@ class Scene:
         :param about: tags, groups and others, as the class says
         :cost: O(n) expected time
         """
-        self._add(_POINT, rows(points, "points", self.dim, self.dim), **about)
+        self._add(_kinds.POINT, rows(points, "points", self.dim, self.dim), **about)
 
     def add_segments(self, segments: npt.ArrayLike, **about: Any) -> None:
         """Adds segments.
@@ -206,7 +205,7 @@ class Scene:
         :param about: tags, groups and others, as the class says
         :cost: O(n) expected time
         """
-        self._add(_SEGMENT, rows(segments, "segments", 2 * self.dim, self.dim), **about)
+        self._add(_kinds.SEGMENT, rows(segments, "segments", 2 * self.dim, self.dim), **about)
 
     def add_boxes(self, boxes: npt.ArrayLike, **about: Any) -> None:
         """Adds boxes along the axes.
@@ -215,7 +214,7 @@ class Scene:
         :param about: tags, groups and others, as the class says
         :cost: O(n) expected time
         """
-        self._add(_BOX, rows(boxes, "boxes", 2 * self.dim, self.dim), **about)
+        self._add(_kinds.BOX, rows(boxes, "boxes", 2 * self.dim, self.dim), **about)
 
     def add_balls(self, centres: npt.ArrayLike, radii: npt.ArrayLike, **about: Any) -> None:
         """Adds balls.
@@ -225,7 +224,7 @@ class Scene:
         :param about: tags, groups and others, as the class says
         :cost: O(n) expected time
         """
-        self._add(_BALL, rows(centres, "centres", self.dim, self.dim), radii=doubles(radii, "radii"), **about)
+        self._add(_kinds.BALL, rows(centres, "centres", self.dim, self.dim), radii=doubles(radii, "radii"), **about)
 
     def add_hulls(self, points: npt.ArrayLike, starts: npt.ArrayLike, **about: Any) -> None:
         """Adds convex hulls. Hull ``i`` is the smallest convex set around ``points[starts[i]:starts[i + 1]]``.
@@ -236,7 +235,7 @@ class Scene:
         :cost: O(corners) expected time
         """
         at = whole(starts, "starts", np.uint64)
-        self._add(_HULL, rows(points, "points", self.dim, self.dim), starts=at, **about)
+        self._add(_kinds.HULL, rows(points, "points", self.dim, self.dim), starts=at, **about)
 
     def add_polygons(self, points: npt.ArrayLike, starts: npt.ArrayLike, **about: Any) -> None:
         """Adds polygons in space, which are planar, convex and simple. Polygon ``i`` has the corners
@@ -255,7 +254,7 @@ class Scene:
         1
         """
         at = whole(starts, "starts", np.uint64)
-        self._add(_POLYGON, rows(points, "points", self.dim, self.dim), starts=at, **about)
+        self._add(_kinds.POLYGON, rows(points, "points", self.dim, self.dim), starts=at, **about)
 
     def add_triangles(self, vertices: npt.ArrayLike, triangles: npt.ArrayLike | None = None, **about: Any) -> None:
         """Adds triangles in space.
@@ -275,12 +274,12 @@ class Scene:
         if self.dim != 3:
             raise UnsupportedError(f"Triangles are added to scenes of dimension 3, and this one has {self.dim}.")
         if triangles is None:
-            self._add(_POLYGON, rows(vertices, "triangles", 9, 3), **about)
+            self._add(_kinds.POLYGON, rows(vertices, "triangles", 9, 3), **about)
         else:
             corners = whole(triangles, "triangles", np.uint32)
             if corners.ndim != 2 or corners.shape[1] != 3:
                 raise ArrayError(f"triangles must have the shape (m, 3), and has {corners.shape}.")
-            self._add(_POLYGON, rows(vertices, "vertices", 3, 3), indices=corners.ravel(), **about)
+            self._add(_kinds.POLYGON, rows(vertices, "vertices", 3, 3), indices=corners.ravel(), **about)
 
     def _add(
         self,
