@@ -182,7 +182,7 @@ static void warn(const render_args *args, const froe_render_options *o, const fr
                        axes[r->view.up_axis]);
     if (r->picture.paint != o->paint && o->shading != FROE_SHADE_NONE)
         (void)cli_fail(0, args->output.name,
-                       "note: Too many faces overlap for an order of whole ones, and fragments were painted.");
+                       "note: An order of whole faces takes too many comparisons, and fragments were painted.");
     if (r->shapes || r->strokes) return;
     const froe_visibility_report *v = &r->picture.visibility;
     const bool unasked = v->visible_patches || (!o->lines && (v->segments || v->points));

@@ -521,6 +521,41 @@ static void what_is_seen_whole_is_kept_whole(void **state) {
     froe_tree_free(tree);
 }
 
+/* How many predicates it takes to see n thin triangles, side by side in one face, from above. */
+static uint64_t predicates_of_a_strip(uint32_t n) {
+    froe_scene *scene;
+    froe_tree *tree;
+    froe_surface *surface;
+    froe_visibility *v;
+    double *x = calloc(9 * (size_t)n, sizeof *x);
+    for (uint32_t i = 0; i < n; i++)
+        for (uint32_t k = 0; k < 3; k++) x[9 * i + 3 * k] = i + k, x[9 * i + 3 * k + 1] = (i + k) % 2 ? 1e4 : 0;
+    froe_objects triangles = froe_objects_defaults();
+    triangles.count = n, triangles.coords = x;
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    assert_int_equal(froe_scene_add(scene, &triangles, NULL), FROE_OK);
+    assert_int_equal(froe_build(scene, NULL, &tree, NULL), FROE_OK);
+    assert_int_equal(froe_surface_new(scene, NULL, &surface, NULL), FROE_OK);
+    froe_visibility_options o = froe_visibility_defaults();
+    o.eye = (froe_eye){.at = {0, 0, 1}, .parallel = true};
+    assert_int_equal(froe_visibility_new(tree, surface, &o, &v, NULL), FROE_OK);
+    const froe_visibility_report report = froe_visibility_statistics(v);
+    assert_int_equal(report.visible_patches, 1);
+    froe_visibility_free(v);
+    froe_surface_free(surface);
+    froe_tree_free(tree);
+    froe_scene_free(scene);
+    free(x);
+    return report.predicates.calls;
+}
+
+/* In the order of the scene each would lie beyond the sides of all before it, and twice as many take four times the
+ * work. */
+static void thin_triangles_of_a_face_make_no_high_tree(void **state) {
+    (void)state;
+    assert_true(predicates_of_a_strip(2000) < 3 * predicates_of_a_strip(1000));
+}
+
 /* Afterwards every line is the window's, or something visible ends on it, and is found again under its number. */
 static void lines_of_what_is_hidden_are_forgotten(void **state) {
     (void)state;
@@ -619,6 +654,7 @@ int main(void) {
         cmocka_unit_test(corners_lie_where_they_are_seen),
         cmocka_unit_test(bad_views_are_refused),
         cmocka_unit_test(what_is_seen_whole_is_kept_whole),
+        cmocka_unit_test(thin_triangles_of_a_face_make_no_high_tree),
         cmocka_unit_test(lines_of_what_is_hidden_are_forgotten),
         cmocka_unit_test(looking_can_be_cancelled),
         cmocka_unit_test(every_allocation_may_fail),

@@ -1,8 +1,22 @@
 /* ranks.c: the order of objects within one plane, and the places of all pieces. */
+#include "base/random.h"
 #include "view/visibility/order.h"
 #include "view/visibility/visibility.h"
 
-/* Patches in the order of priority, then of their numbers: the place of each. */
+/* Gives the objects of a patch the ranks from `first` on, in a random order. They do not hide each other. But the sides
+ * of what comes first divide what comes later. Had thin triangles side by side the order of the scene, the beam tree
+ * would be as high as they are many. */
+static void shuffle_patch(const froe_surface *s, uint32_t patch, uint32_t first, uint32_t *ranks) {
+    const uint32_t *members = s->members + s->patch_starts[patch],
+                   count = s->patch_starts[patch + 1] - s->patch_starts[patch];
+    for (uint32_t m = 0; m < count; m++) { /* each order alike: Fisher and Yates */
+        const uint32_t other = base_below(base_hash(0, patch, m), m + 1);
+        ranks[members[m]] = ranks[members[other]];
+        ranks[members[other]] = first + m;
+    }
+}
+
+/* The place of each object in the order of its patch: by priority, then by number. */
 froe_status view_rank_objects(const froe_allocator *alloc, const froe_surface *s, const int32_t *priorities,
                               uint32_t **out) {
     const size_t n = s->patch_count, objects = s->scene->object_count;
@@ -12,9 +26,10 @@ froe_status view_rank_objects(const froe_allocator *alloc, const froe_surface *s
     for (uint32_t p = 0; ok && p < n; p++)
         pairs[p] = (base_pair){(uint64_t)((priorities ? (int64_t)priorities[p] : 0) - INT32_MIN), p};
     if (ok) base_radix_sort(pairs, pairs + n, n);
-    for (uint32_t i = 0; ok && i < n; i++) {
+    for (uint32_t i = 0, first = 0; ok && i < n; i++) {
         const uint32_t p = pairs[i].value;
-        for (uint32_t m = s->patch_starts[p]; m < s->patch_starts[p + 1]; m++) ranks[s->members[m]] = i;
+        shuffle_patch(s, p, first, ranks);
+        first += s->patch_starts[p + 1] - s->patch_starts[p];
     }
     support_free(alloc, pairs, (2 * n + 1) * sizeof *pairs);
     return ok ? FROE_OK : FROE_E_MEMORY;
