@@ -90,6 +90,7 @@ static int follow(walk *w, const cli_common *common, froe_motion *motion, json_t
     o.augmented = w->asked->augmented;
     o.ghosts = w->asked->ghosts;
     o.threads = (unsigned)common->threads;
+    o.ahead = true;
     o.progress = cli_progress_step;
     o.user = &w->bar;
     w->bar.what = "building";

@@ -38,8 +38,14 @@ static bool note(void *user, const froe_event *event) {
 typedef enum manner { ONE, RANGES, UNGUARDED, WIDE } manner;
 
 static void set_tuning(froe_kinetic *k, manner how) {
-    k->ranges.tuning = (ranges_tuning){
-        .least = 4, .pays = 0.02, .most = 3, .again = 100, .guard = {0x1p-8, 0x1p-5}, .each = 2, .size = 64};
+    k->ranges.tuning = (ranges_tuning){.least = 4,
+                                       .alone = 4,
+                                       .pays = 0.02,
+                                       .most = 3,
+                                       .again = 100,
+                                       .guard = {0x1p-8, 0x1p-5},
+                                       .each = 2,
+                                       .size = 64};
     k->ranges.tuning.unguarded = how == UNGUARDED;
     k->ranges.tuning.wide = how == WIDE;
 }
@@ -50,6 +56,7 @@ static froe_kinetic *start(froe_motion *m, unsigned threads, uint64_t seed, mann
     froe_diagnostic why = {0};
     o.seed = seed;
     o.threads = how == ONE ? 1 : threads;
+    o.ahead = how != ONE;
     if (froe_kinetic_new(m, &o, NULL, &k, &why)) fail_msg("%s", why.message);
     set_tuning(k, how);
     return k;
@@ -155,17 +162,17 @@ static froe_motion *make_visits(void) {
 static void test_visitors_of_a_range(void **state) {
     (void)state;
     sums all = {0};
-    for (unsigned threads = 2; threads <= 8; threads++)
+    for (unsigned threads = 1; threads <= 8; threads++)
         assert_true(compare_motion(make_visits(), 1, threads, RANGES, &all));
     assert_true(all.windows > all.stopped && all.events > 1000);
 }
 
-/* On two to eight threads. */
+/* On one to eight threads. */
 static void test_events_and_trees_do_not_depend_on_threads(void **state) {
     (void)state;
     sums all = {0};
     for (size_t i = 0; i < MOVING_KINDS; i++)
-        if (!compare_runs(moving_kinds + i, 1, 2 + (unsigned)(i + 1) % 7, RANGES, &all))
+        if (!compare_runs(moving_kinds + i, 1, 1 + (unsigned)(i + 1) % 8, RANGES, &all))
             fail_msg("%s", moving_kinds[i].name);
     assert_true(all.events > 16000);
     assert_true(all.windows - all.stopped > 100 && all.stopped > 30);
@@ -229,6 +236,27 @@ static void test_cancelled(void **state) {
     froe_motion_free(m);
 }
 
+static bool stop_at_once(void *user, const froe_event *event) {
+    (void)event;
+    ++*(unsigned *)user;
+    return false;
+}
+
+/* What is found ahead is lost where the visitor stops. So after each such window more events have to come before the
+ * next one is tried: 50, 100, 200, ... */
+static void test_visitors_that_stop_have_few_windows(void **state) {
+    (void)state;
+    froe_motion *m = moving_new(&many, 1, NULL);
+    unsigned stops = 0;
+    froe_kinetic *k = start(m, 2, 1, RANGES);
+    while (stops < 400 && froe_kinetic_advance(k, MOVING_TIME, stop_at_once, &stops, NULL) == FROE_E_CANCELLED)
+        continue;
+    assert_int_equal(stops, 400);
+    assert_in_range(k->ranges.windows, 2, 5);
+    froe_kinetic_free(k);
+    froe_motion_free(m);
+}
+
 static froe_status with_memory(void *user, const froe_allocator *alloc) {
     froe_kinetic *k = NULL;
     froe_kinetic_options o = froe_kinetic_defaults();
@@ -278,6 +306,7 @@ int main(void) {
         cmocka_unit_test(test_ranges_need_their_guards),
         cmocka_unit_test(test_ranges_need_to_stop_at_what_is_wide),
         cmocka_unit_test(test_cancelled),
+        cmocka_unit_test(test_visitors_that_stop_have_few_windows),
         cmocka_unit_test(test_memory_runs_out),
         cmocka_unit_test(test_one_partition_otherwise),
     };

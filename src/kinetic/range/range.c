@@ -98,8 +98,8 @@ static bool keep_event(void *user, const froe_event *event) {
     froe_kinetic *part = range->part;
     bool own;
     if (!is_own(visitor, event, &own)) {
-        range->wide = part->events.phase != EVENT_MEETING;
-        range->meets = !range->wide;
+        range->meets = part->events.phase == EVENT_MEETING;
+        range->wide = range->meets ? 0 : part->events.slab[1] - part->events.slab[0];
         return false;
     }
     if (!own) return true;
@@ -119,6 +119,16 @@ static bool keep_event(void *user, const froe_event *event) {
 
 /* ------------------------------------------------------------------- range -- */
 
+/* Frees all but what the whole is told: the next range finds the same memory in the nearer caches. */
+static void free_part(kinetic_range *range) {
+    const froe_allocator *alloc = &range->whole->call.alloc;
+    froe_kinetic_free(range->part);
+    range->part = NULL;
+    array_free(alloc, &range->vertices);
+    array_free(alloc, &range->motion.plans);
+    array_free(alloc, &range->motion.objects);
+}
+
 /* Stops at a tick, and tells the others. */
 static void stop_at(kinetic_range *range, range_window *window, int64_t tick) {
     long long first = atomic_load(&window->stopped);
@@ -137,18 +147,16 @@ froe_status range_follow(kinetic_range *range, range_window *window) {
            !base_cancelled(window->task)) {
         event_step(part, window->tick, &watcher);
         /* which of the pairs in one line are known depends on what happened before */
-        if (part->call.stopped || part->collinear.count || range->wide || range->meets)
+        if (part->call.stopped || part->collinear.count || range->wide != 0 || range->meets)
             stop_at(range, window, part->now.tick);
     }
+    range->counts = part->counts;
+    free_part(range);
     return FROE_OK;
 }
 
 void range_free(kinetic_range *range) {
-    const froe_allocator *alloc = &range->whole->call.alloc;
-    froe_kinetic_free(range->part);
-    array_free(alloc, &range->members);
-    array_free(alloc, &range->vertices);
-    array_free(alloc, &range->motion.plans);
-    array_free(alloc, &range->motion.objects);
-    array_free(alloc, &range->events);
+    free_part(range);
+    array_free(&range->whole->call.alloc, &range->members);
+    array_free(&range->whole->call.alloc, &range->events);
 }

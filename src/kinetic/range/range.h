@@ -31,13 +31,14 @@ typedef struct kinetic_range {
     uint32_t number;
     double low, high; /**< what begins at `low` is its own, what begins at `high` is not */
     double guard;
-    ARRAY(uint32_t) members;  /**< [segment of the part]: object of the whole, ascending */
-    ARRAY(uint32_t) vertices; /**< [vertex of the part]: of the whole, ascending */
-    froe_motion motion;       /**< of the members; it shares the knots of the whole */
-    froe_kinetic *part;
+    ARRAY(uint32_t) members;   /**< [segment of the part]: object of the whole, ascending */
+    ARRAY(uint32_t) vertices;  /**< [vertex of the part]: of the whole, ascending */
+    froe_motion motion;        /**< of the members; it shares the knots of the whole */
+    froe_kinetic *part;        /**< while it goes on; */
+    froe_kinetic_stats counts; /**< of that, then */
     ARRAY(range_event) events; /**< in order */
     size_t told;               /**< of these */
-    bool wide;                 /**< it has stopped at what is wider than the guard */
+    double wide;               /**< it has stopped at what is so wide, and wider than the guard; or 0 */
     bool meets;                /**< it has stopped where segments in one line meet */
     int64_t stopped;           /**< the tick at which it could not go on; NOW_NEVER: it could */
 } kinetic_range;

@@ -19,8 +19,14 @@
 enum { SAMPLES = 2048, EXTENTS_PER_JOB = 256 };
 
 ranges_tuning ranges_defaults(void) {
-    return (ranges_tuning){
-        .least = 512, .pays = 3, .most = 24, .again = 1.3, .guard = {0x1p-12, 0x1p-4}, .each = 2, .size = 4096};
+    return (ranges_tuning){.least = 512,
+                           .alone = 4096,
+                           .pays = 3,
+                           .most = 24,
+                           .again = 1.3,
+                           .guard = {0x1p-12, 0x1p-4},
+                           .each = 2,
+                           .size = 1024};
 }
 
 /* Where a segment is during the window, as now_lifted(). */
@@ -55,9 +61,14 @@ static void free_window(window *w) {
     if (w->heap) support_free(alloc, w->heap, w->room * sizeof(kinetic_range *));
 }
 
+/* One range for each thread, and two for one thread. */
+static size_t least_ranges(const froe_kinetic *k) {
+    return k->call.task.threads > 2 ? k->call.task.threads : 2;
+}
+
 static bool new_window(froe_kinetic *k, window *out) {
     const froe_allocator *alloc = &k->call.alloc;
-    const size_t n = k->tree.segments.count, some = (size_t)k->call.task.threads * k->ranges.tuning.each;
+    const size_t n = k->tree.segments.count, some = least_ranges(k) * k->ranges.tuning.each;
     const size_t many = n / k->ranges.tuning.size;
     *out = (window){.k = k, .n = n, .room = many > some ? many : some};
     out->extents = support_calloc(alloc, out->n, sizeof *out->extents);
@@ -191,7 +202,7 @@ static bool list_members(window *w) {
 static froe_status divide(window *w, double rate) {
     const ranges_tuning *tuning = &w->k->ranges.tuning;
     const int64_t now = w->k->now.tick;
-    const size_t jobs = (w->n + EXTENTS_PER_JOB - 1) / EXTENTS_PER_JOB, least = w->k->call.task.threads;
+    const size_t jobs = (w->n + EXTENTS_PER_JOB - 1) / EXTENTS_PER_JOB, least = least_ranges(w->k);
     for (size_t most = w->room;; most = most / 2 > least ? most / 2 : least) {
         free_ranges(w);
         if (rate * (double)(w->tick - now) < tuning->pays * (double)w->n) return FROE_OK;
@@ -299,7 +310,7 @@ static void add_counts(froe_kinetic_stats *all, const froe_kinetic_stats *part) 
 /* The whole takes over where the ranges have come to. */
 static void take_over(window *w, int64_t tick) {
     w->k->now.tick = tick;
-    for (size_t i = 0; i < w->count; i++) add_counts(&w->k->counts, &w->ranges[i].part->counts);
+    for (size_t i = 0; i < w->count; i++) add_counts(&w->k->counts, &w->ranges[i].counts);
 }
 
 /* ---------------------------------------------------------------- together -- */
@@ -310,11 +321,17 @@ typedef enum window_outcome {
     NOT_AT_ALL
 } window_outcome;
 
-/* Did no range stop first at what is wider than its guard? */
-static bool guards_suffice(const window *w, int64_t end) {
-    for (size_t i = 0; i < w->count; i++)
-        if (w->ranges[i].wide && w->ranges[i].stopped - 2 == end) return false;
-    return true;
+/* Guards become wide enough for what ranges stopped at first, and twice as wide at least. */
+static void widen_guards(window *w, int64_t end) {
+    const ranges_state *r = &w->k->ranges;
+    double guard = 0;
+    for (size_t i = 0; i < w->count; i++) {
+        const kinetic_range *range = w->ranges + i;
+        if (range->wide == 0 || range->stopped - 2 != end) continue;
+        const double times = 2.25 * range->wide / range->guard; /* NaN, infinite: as wide as may be */
+        guard = fmax(guard, times < r->tuning.guard[1] / r->guard ? fmax(2, times) * r->guard : r->tuning.guard[1]);
+    }
+    if (guard > 0) w->k->ranges.guard = fmin(guard, r->tuning.guard[1]);
 }
 
 /* Goes through one window, towards a tick. */
@@ -330,7 +347,7 @@ static window_outcome go_through(window *w, double rate, int64_t tick, const eve
     int64_t end;
     *status = follow_all(w, &end);
     if (*status) return NOT_AT_ALL;
-    if (!guards_suffice(w, end)) k->ranges.guard = fmin(2 * k->ranges.guard, k->ranges.tuning.guard[1]);
+    widen_guards(w, end);
     k->ranges.windows++;
     k->ranges.stopped += end < w->tick;
     if (end <= before) return NOT_AT_ALL;
@@ -350,9 +367,11 @@ static bool may_pay(const froe_kinetic *k, int64_t tick) {
     const ranges_state *r = &k->ranges;
     const froe_kinetic_options *o = &k->options;
     const double n = (double)k->tree.segments.count;
-    if (k->call.task.threads < 2 || now_is_in_space(&k->now) || o->epoch || o->swap || o->augmented) return false;
+    const bool alone = k->call.task.threads < 2;
+    if ((alone && !o->ahead) || now_is_in_space(&k->now) || o->epoch || o->swap || o->augmented) return false;
     if (k->collinear.count) return false; /* which pairs are known depends on what happened before */
-    if (k->tree.segments.count < r->tuning.least || kinetic_event_count(k) < r->next) return false;
+    if (k->tree.segments.count < (alone ? r->tuning.alone : r->tuning.least)) return false;
+    if (kinetic_event_count(k) < r->next) return false;
     return rate_of(k) * (double)(tick - k->now.tick) >= r->tuning.pays * n;
 }
 
@@ -379,8 +398,8 @@ bool ranges_advance(froe_kinetic *k, int64_t tick, const event_watcher *watcher,
     if (!may_pay(k, tick)) return false;
     while (out == THROUGH && *go_on && k->now.tick < tick && may_pay(k, tick))
         out = go_on_from(k, tick, watcher, go_on, status);
-    if (*status == FROE_E_MEMORY) *status = FROE_OK;            /* one partition needs less */
-    if (out != THROUGH && *go_on && k->ranges.guard <= guard) { /* it does not pay here, or not now */
+    if (*status == FROE_E_MEMORY) *status = FROE_OK;  /* one partition needs less */
+    if (out != THROUGH && k->ranges.guard <= guard) { /* it does not pay here, or not now */
         k->ranges.wait = 2 * k->ranges.wait + k->tree.segments.count / 4;
         k->ranges.next = kinetic_event_count(k) + k->ranges.wait;
     } else {

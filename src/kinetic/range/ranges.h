@@ -1,12 +1,13 @@
-/* ranges.h: time goes on in ranges of x at once, on threads. The partition stands still meanwhile, and is made anew at
- * the end. */
+/* ranges.h: time goes on in ranges of x, on threads at once or one range after the other. The partition stands still
+ * meanwhile, and is made anew at the end. */
 #ifndef FROE_KINETIC_RANGE_RANGES_H
 #define FROE_KINETIC_RANGE_RANGES_H
 #include "kinetic/event/event.h"
 
 /** When it pays, and how far it goes. Tests set it otherwise. */
 typedef struct ranges_tuning {
-    uint32_t least;    /**< with fewer segments it does not */
+    uint32_t least;    /**< with fewer segments it does not, */
+    uint32_t alone;    /**< and with fewer than so many it does not on one thread */
     double pays, most; /**< events for each segment that it has to pay for, and that a window has */
     double again;      /**< all parts together have so many times the segments, at most */
     double guard[2];   /**< share of the whole width: at first, and at most */

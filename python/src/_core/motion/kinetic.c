@@ -41,7 +41,7 @@ static PyObject *new_kinetic(PyObject *module, PyObject *const *args, Py_ssize_t
     froe_kinetic *kinetic = NULL;
     core_call call;
     core_call_begin(&call, args[5]);
-    options.progress = core_call_progress, options.user = &call;
+    options.progress = core_call_progress, options.user = &call, options.ahead = true;
     const froe_status status = froe_kinetic_new(motion->motion, &options, &core_allocator, &kinetic, &call.diag);
     const bool done = core_call_end(&call, status);
     core_motion_give(motion);
