@@ -126,7 +126,7 @@ void draft_remove(tree_draft *draft, const tree_draft_mark *from, const tree_dra
     for (size_t i = to->cuts; i < draft->cuts.count; i++) {
         tree_cut *cut = draft->cuts.data + i;
         cut->first -= cut->count ? (uint32_t)by.pieces : 0;
-        if (cut->kind == FROE_CUT_PLANE) cut->a -= (uint32_t)by.normals;
+        if (tree_cut_normals(cut, draft->dim)) cut->a -= (uint32_t)by.normals;
     }
     for (size_t i = to->pieces; i < draft->pieces.count; i++) {
         tree_piece *piece = draft->pieces.data + i;

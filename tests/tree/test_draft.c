@@ -196,11 +196,12 @@ static froe_status move_out(growing *g, cell *c) {
 }
 
 static froe_status grow_cell(growing *g, cell c) {
-    static const double normal[2] = {1, 2};
+    static const double normal[2] = {1, 2}, rows[2 * 3] = {1, 3, 5, 0.5, -0.25, 0.125};
     froe_cut cut = {.kind = FROE_CUT_AXIS, .axis = (int)(c.depth % 2), .value = trees_unit(c.path, 2)};
     if (trees_random(c.path, 3, 4) == 0)
         cut = (froe_cut){.kind = FROE_CUT_OBJECT, .id = {trees_random(c.path, 4, OBJECTS)}};
     if (trees_random(c.path, 3, 8) == 1) cut = (froe_cut){.kind = FROE_CUT_PLANE, .normal = normal, .value = 3};
+    if (trees_random(c.path, 3, 8) == 2) cut = (froe_cut){.kind = FROE_CUT_FINE, .id = {2}, .normal = rows};
     if (c.depth >= MOST_DEPTH || (c.depth > 2 && trees_random(c.path, 5, 4) == 0)) {
         draft_leaf(c.draft, c.node, 0);
         return random_list(&c, false);
