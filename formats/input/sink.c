@@ -72,11 +72,15 @@ static froe_status flush(formats_sink *sink) {
     batch.tags = sink->tags.data;
     batch.faces = sink->object_faces.data;
     batch.groups = sink->groups.data;
-    froe_diagnostic why = {.message = ""};
+    froe_diagnostic why = {.object = FROE_NONE, .corner = FROE_NONE, .axis = FROE_NONE};
     if (sink->deliver) batch.faces = batch.groups = NULL; /* each its own, and none */
     froe_status status = sink->deliver ? support_callback(sink->deliver(sink->deliver_user, sink->dim, &batch, &why))
                                        : froe_scene_add(sink->scene, &batch, &why);
     if (status && sink->deliver) {
+        if (!*why.message)
+            return support_fail(sink->diag, status, "%s: The function that takes the objects returned %s.",
+                                support_short(sink->path), froe_status_name(status));
+        why.status = status;
         if (sink->diag) *sink->diag = why;
         return status;
     }

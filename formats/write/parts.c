@@ -2,6 +2,7 @@
 #include "formats/write/writer.h"
 #include "support/array.h"
 #include "support/floats.h"
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -151,8 +152,8 @@ static froe_status give_cells(parts_walk *w) {
     for (int k = 0; k < w->dim; ++k) longest = fmax(longest, 0.1 * hi[k] - 0.1 * lo[k]);
     if (longest == 0) longest = 1;
     for (int k = 0; k < w->dim; ++k) {
-        lo[k] = fmax(w->options->lo ? w->options->lo[k] : lo[k] - longest, -0x1.fffffffffffffp+1022);
-        hi[k] = fmin(w->options->hi ? w->options->hi[k] : hi[k] + longest, 0x1.fffffffffffffp+1022);
+        lo[k] = w->options->lo ? w->options->lo[k] : fmax(lo[k] - longest, -DBL_MAX);
+        hi[k] = w->options->hi ? w->options->hi[k] : fmin(hi[k] + longest, DBL_MAX);
     }
     return froe_tree_cells(w->tree, lo, hi, give_cell, w, w->diag);
 }

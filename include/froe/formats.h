@@ -107,7 +107,8 @@ typedef struct froe_read_report {
 FROE_API froe_status froe_read_own(const char *path, const froe_read_options *options, froe_scene **out,
                                    froe_read_report *report, froe_diagnostic *diag);
 /** Receives a batch of objects, which lasts as long as the call. Anything but FROE_OK ends the reading, which returns
- * it. `diag` is the one of froe_read_batches(), for the sentence. */
+ * it. `diag`, which is never NULL, takes the message of such a failure; without one, froe_read_batches() names the
+ * status. */
 typedef froe_status froe_objects_fn(void *user, int dim, const froe_objects *batch, froe_diagnostic *diag);
 /** Reads a CSV file as froe_read_own() does, but hands its objects over in batches, in their order, instead of making a
  * scene of them: for more objects than memory holds. Objects without tags have their numbers as tags, from 0. It takes
@@ -182,7 +183,7 @@ FROE_API froe_part froe_part_like(froe_export_what what);
 typedef bool froe_part_fn(void *user, const froe_part *part);
 /** Calls fn for each fragment, cell or cut, in an order that is the same each time; what it is given lasts as long as
  * the call. False ends that, with FROE_OK. Memory does not grow with the tree. options may be NULL. FROE_E_ARG: no such
- * `what`. FROE_E_UNSUPPORTED: cells and cuts above dimension 3. FROE_E_OPTIONS, FROE_E_CANCELLED, FROE_E_MEMORY. */
+ * `what`; a bound of the box is not finite, or lo > hi. FROE_E_UNSUPPORTED: cells and cuts above dimension 3. FROE_E_OPTIONS, FROE_E_CANCELLED, FROE_E_MEMORY. */
 FROE_API froe_status froe_tree_parts(const froe_tree *tree, froe_export_what what, const froe_export_options *options,
                                      froe_part_fn *fn, void *user, froe_diagnostic *diag);
 

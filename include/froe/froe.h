@@ -195,13 +195,15 @@ FROE_DEFAULTS(froe_objects, froe_objects_defaults); /**< triangles, none, no gro
  * O(corners) expected time. */
 FROE_API froe_status froe_scene_add(froe_scene *scene, const froe_objects *batch, froe_diagnostic *diag);
 
-/** What the objects of one feature, mesh node or layer share. Strings are copied;
- * NULL counts as "". */
+/** What the objects of one feature, mesh node or layer share. */
 typedef struct froe_group {
     const char *name, *material;
     const char *left, *right; /**< what lies left and right of its segments; "" unknown */
     uint32_t colour;          /**< 0xRRGGBBAA: red, green and blue of sRGB, opacity; 0: unknown */
 } froe_group;
+/** Adds a group; *id: 0, 1, ...; `id` may be NULL. Strings are copied, and may be those of another group of the scene;
+ * NULL counts as "". FROE_E_ARG, FROE_E_FROZEN, FROE_E_MEMORY. FROE_E_LIMIT: more than 2^31 - 2 groups, or 2^32 bytes of
+ * strings. */
 FROE_API froe_status froe_scene_add_group(froe_scene *scene, const froe_group *group, uint32_t *id);
 
 /** The axis of a scene in space that points up in pictures: 0, 1 or 2. Readers set it by the
@@ -496,8 +498,8 @@ typedef struct froe_cell {
     size_t cut_corners;       /**< 0: the cut misses the box */
 } froe_cell;
 typedef bool froe_cell_fn(void *user, const froe_cell *cell);
-/** Visits every node whose region meets the box, parents first. dim 2 or 3,
- * otherwise FROE_E_UNSUPPORTED. */
+/** Visits every node whose region meets the box, parents first; false stops, which is no failure. FROE_E_ARG: a bound
+ * is not finite, or lo > hi. FROE_E_UNSUPPORTED: above dimension 3. FROE_E_MEMORY. */
 FROE_API froe_status froe_tree_cells(const froe_tree *tree, const double *lo, const double *hi, froe_cell_fn *fn,
                                      void *user, froe_diagnostic *diag);
 

@@ -34,8 +34,8 @@ typedef struct froe_order_options {
                                 those of higher rank are in front, from both sides, whatever the eye; of
                                 equal ranks those that come later in the tree */
     unsigned threads;      /**< froe_tree_orders() only; 0: one per processor */
-    froe_progress_fn *progress;
-    void *user; /**< for progress */
+    froe_progress_fn *progress; /**< froe_tree_orders() only; may be NULL */
+    void *user;                 /**< for progress */
 } froe_order_options;
 FROE_DEFAULTS(froe_order_options, froe_order_defaults);
 

@@ -311,7 +311,8 @@ static void end_epoch(froe_kinetic *k) {
 froe_status froe_kinetic_advance(froe_kinetic *k, double time, froe_event_fn *visit, void *user,
                                  froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!k || !(time <= k->now.motion->end)) return support_fail(diag, FROE_E_ARG, "The time is not in the window.");
+    if (!k) return support_fail_null(diag, __func__);
+    if (!(time <= k->now.motion->end)) return support_fail(diag, FROE_E_ARG, "Time %g is not in the window.", time);
     int64_t tick = motion_tick_after(k->now.motion, time) | 1, last = now_last_tick(&k->now);
     if (tick > last) tick = last;
     if (tick < k->now.tick) return support_fail(diag, FROE_E_ARG, "Time %g has passed.", time);
@@ -360,7 +361,8 @@ froe_status froe_kinetic_update(froe_kinetic *k, froe_diagnostic *diag) {
 
 froe_status froe_kinetic_remove(froe_kinetic *k, uint32_t object, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!k || object >= object_count(k)) return support_fail(diag, FROE_E_ARG, "There is no object %u.", object);
+    if (!k) return support_fail_null(diag, __func__);
+    if (object >= object_count(k)) return support_fail(diag, FROE_E_ARG, "There is no object %u.", object);
     froe_status status = kinetic_begin(k, diag);
     if (status) return status;
     motion_object *o = k->now.motion->objects.data + object;
@@ -399,7 +401,8 @@ froe_status froe_kinetic_replan(froe_kinetic *k, uint32_t vertex, size_t count, 
                                 const double *coords, const double *controls, const double *second_controls,
                                 froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
-    if (!k || vertex >= k->tree.vertices.count) return support_fail(diag, FROE_E_ARG, "There is no vertex %u.", vertex);
+    if (!k || (count && (!times || !coords))) return support_fail_null(diag, __func__);
+    if (vertex >= k->tree.vertices.count) return support_fail(diag, FROE_E_ARG, "There is no vertex %u.", vertex);
     const double now = now_time_of(&k->now, k->now.tick);
     const uint32_t body = k->now.motion->plans.data[vertex].body;
     if (body != FROE_NONE)

@@ -16,6 +16,7 @@
 #include "measure/enclosing.h"
 #include "measure/hierarchy.h"
 #include "measure/sample.h"
+#include "support/fail.h"
 #include <math.h>
 #include <string.h>
 
@@ -122,6 +123,8 @@ static froe_status begin_density(density_survey *s) {
 froe_status froe_measure_density(const froe_scene *scene, froe_size size, const froe_measure_options *options,
                                  froe_density *out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
+    if (size != FROE_SIZE_RADIUS && size != FROE_SIZE_DIAMETER)
+        return support_fail(diag, FROE_E_ARG, "There is no size of number %d.", (int)size);
     density_survey s = {.kind = size};
     froe_status status = measure_sample_begin(scene, options, out, &s.sample, diag);
     if (status) return status;

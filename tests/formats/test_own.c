@@ -400,6 +400,7 @@ typedef struct batches {
     size_t objects, count;
     double sum;
     froe_status status; /* of the function */
+    bool silent;
 } batches;
 
 static froe_status take_batch(void *user, int dim, const froe_objects *batch, froe_diagnostic *diag) {
@@ -407,7 +408,7 @@ static froe_status take_batch(void *user, int dim, const froe_objects *batch, fr
     assert_true(batch->kind == FROE_POINT && dim == 2);
     for (size_t i = 0; i < 2 * batch->count; i++) b->sum += batch->coords[i];
     b->objects += batch->count, b->count++;
-    if (b->status && diag) snprintf(diag->message, sizeof diag->message, "Enough.");
+    if (b->status && !b->silent) snprintf(diag->message, sizeof diag->message, "Enough.");
     return b->status;
 }
 
@@ -427,8 +428,13 @@ static void rows_come_in_batches(void **state) {
     b = (batches){.status = FROE_E_CANCELLED};
     assert_int_equal(froe_read_batches("large.csv", NULL, take_batch, &b, NULL, &why), FROE_E_CANCELLED);
     assert_string_equal(why.message, "Enough.");
+    assert_true(why.status == FROE_E_CANCELLED && why.object == FROE_NONE);
     assert_int_equal(froe_read_batches("large.csv", NULL, take_batch, &b, NULL, NULL), FROE_E_CANCELLED);
     assert_int_equal(b.count, 2);
+    b = (batches){.status = FROE_E_BUDGET, .silent = true};
+    assert_int_equal(froe_read_batches("large.csv", NULL, take_batch, &b, NULL, &why), FROE_E_BUDGET);
+    assert_string_equal(why.message, "large.csv: The function that takes the objects returned FROE_E_BUDGET.");
+    assert_int_equal(why.status, FROE_E_BUDGET);
     static const struct {
         const char *text;
         froe_status status;

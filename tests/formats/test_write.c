@@ -200,6 +200,38 @@ static void parts_of_odd_objects_are_told(void **state) {
     assert_true(t.covers > 0);
 }
 
+/* Around a scene that reaches to the greatest doubles there is no tenth more of room, and it is shown all the same. */
+static void parts_of_a_scene_at_the_end_of_doubles_are_told(void **state) {
+    static const double scenes[2][6] = {{-1.79e308, -1.7e308, 1.7e308, 1.79e308, 1.2e308, 1.5e308},
+                                        {1e308, 1e308, 1.7e308, 1.6e308, 1.2e308, 1.5e308}};
+    (void)state;
+    tally t;
+    for (int i = 0; i < 2; i++) {
+        for (int what = FROE_EXPORT_CELLS; what <= FROE_EXPORT_CUTS; what++) {
+            froe_scene *scene;
+            assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+            assert_int_equal(trees_add(scene, FROE_POINT, 3, scenes[i], NULL, NULL), FROE_OK);
+            assert_int_equal(tell(scene, (froe_export_what)what, NULL, 0, &t), FROE_OK);
+            assert_int_equal(t.parts, what == FROE_EXPORT_CELLS ? 3 : 2);
+        }
+    }
+}
+
+static void parts_are_clipped_to_a_box_of_numbers_alone(void **state) {
+    (void)state;
+    const double numbers[] = {0, 0}, bad[] = {0.5, NAN}, endless[] = {INFINITY, 1}, low[] = {1, -1};
+    const double *const highs[] = {bad, endless, low};
+    froe_tree *tree = trees_grow(2, FROE_SEGMENT, 20, 0, 1, "density", 1);
+    froe_export_options o = froe_export_defaults();
+    tally t = {.parts = 0};
+    for (int i = 0; i < 3; i++) {
+        o.lo = numbers, o.hi = highs[i];
+        assert_int_equal(froe_tree_parts(tree, FROE_EXPORT_CELLS, &o, count_part, &t, NULL), FROE_E_ARG);
+    }
+    assert_int_equal(t.parts, 0);
+    froe_tree_free(tree);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(scenes_of_the_plane_come_back),
@@ -208,6 +240,8 @@ int main(void) {
         cmocka_unit_test(what_a_format_does_not_have_is_refused),
         cmocka_unit_test(parts_are_told_until_one_has_heard_enough),
         cmocka_unit_test(parts_of_odd_objects_are_told),
+        cmocka_unit_test(parts_of_a_scene_at_the_end_of_doubles_are_told),
+        cmocka_unit_test(parts_are_clipped_to_a_box_of_numbers_alone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -322,6 +322,7 @@ static void nothing_is_measured_without_objects(void **state) {
     assert_int_equal(froe_measure_directional(scene, 1, NULL, &directional, NULL), FROE_OK);
     assert_int_equal(clutter.lower + density.upper + directional.count, 0);
     assert_int_equal(froe_measure_directional(scene, -1, NULL, &directional, NULL), FROE_E_ARG);
+    assert_int_equal(froe_measure_density(scene, (froe_size)2, NULL, &density, NULL), FROE_E_ARG);
     assert_int_equal(froe_measure_directional(NULL, 1, NULL, &directional, NULL), FROE_E_ARG);
     froe_scene_free(scene);
 }

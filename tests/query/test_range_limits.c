@@ -238,6 +238,8 @@ static void bad_ranges_are_refused_with_a_reason(void **state) {
         {FROE_SHAPE_HALFSPACES, .points = {1, 1}, .eps = 0.5, .count = 1, .status = FROE_E_INPUT,
          .message = "Halfspaces without a bound have no eps."},
         {FROE_SHAPE_HULL, .count = 0, .status = FROE_E_INPUT, .message = "A hull has no points."},
+        {FROE_SHAPE_HALFSPACES, .points = {1, INFINITY}, .count = 1, .status = FROE_E_INPUT,
+         .message = "A coordinate of a halfspace is inf, not a finite number."},
         {FROE_SHAPE_COUNT, .status = FROE_E_OPTIONS, .message = "There is no shape of number"},
     };
     (void)state;

@@ -186,6 +186,41 @@ static void labels_appear_with_the_first_object_that_has_them(void **state) {
     froe_scene_free(s);
 }
 
+/* Memory that grows is always another, and what was there is gone. */
+static void *move_block(void *user, void *block, size_t old_size, size_t new_size) {
+    char *moved = new_size ? malloc(new_size) : NULL;
+    (void)user;
+    if (moved && block) memcpy(moved, block, old_size < new_size ? old_size : new_size);
+    if (block) memset(block, '?', old_size);
+    free(block);
+    return moved;
+}
+
+static void groups_may_have_the_strings_of_others(void **state) {
+    (void)state;
+    const froe_allocator moving = {move_block, NULL};
+    froe_scene *s = NULL;
+    const froe_group first = {"a name", "a material that is a longer text than the name is", "left", "right", 7};
+    enum { GROUPS = 60 };
+    uint32_t id;
+    assert_int_equal(froe_scene_new(2, &moving, &s), FROE_OK);
+    assert_int_equal(froe_scene_add_group(s, &first, &id), FROE_OK);
+    for (uint32_t i = 1; i < GROUPS; i++) {
+        froe_group other = froe_scene_group(s, i - 1);
+        if (i == 1) other.name += 2, other.left = other.material; /* parts of strings, too */
+        assert_int_equal(froe_scene_add_group(s, &other, &id), FROE_OK);
+    }
+    for (uint32_t i = 1; i < GROUPS; i++) {
+        const froe_group group = froe_scene_group(s, i);
+        assert_string_equal(group.name, "name");
+        assert_string_equal(group.material, first.material);
+        assert_string_equal(group.left, first.material);
+        assert_string_equal(group.right, "right");
+        assert_int_equal(group.colour, 7);
+    }
+    froe_scene_free(s);
+}
+
 static void a_struct_that_is_not_from_defaults_is_refused(void **state) {
     (void)state;
     froe_scene *s = new_scene(2);
@@ -468,6 +503,7 @@ int main(void) {
         cmocka_unit_test(hulls_keep_each_vertex_once_in_ascending_order),
         cmocka_unit_test(indices_and_starts_select_corners),
         cmocka_unit_test(labels_appear_with_the_first_object_that_has_them),
+        cmocka_unit_test(groups_may_have_the_strings_of_others),
         cmocka_unit_test(a_struct_that_is_not_from_defaults_is_refused),
         cmocka_unit_test(a_struct_from_before_it_had_threads_is_taken),
         cmocka_unit_test(wrong_arguments_are_refused),

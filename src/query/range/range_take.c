@@ -69,17 +69,17 @@ froe_status query_range_check(const froe_range *r, int dim, froe_diagnostic *dia
         return support_fail(diag, FROE_E_UNSUPPORTED, "There is no %s in %d dimensions.", names[r->shape], dim);
     const size_t count = range_point_count(r, (size_t)dim);
     const bool halfspaces = r->shape == FROE_SHAPE_HALFSPACES;
-    if ((count && !r->points) || (halfspaces && count && !r->offsets))
-        return support_fail(diag, FROE_E_ARG, "A %s has no points.", names[r->shape]);
+    const char *const name = halfspaces ? "halfspace" : names[r->shape];
+    if (count && (!r->points || (halfspaces && !r->offsets)))
+        return support_fail(diag, FROE_E_ARG, "A %s has no %s.", name, r->points ? "offset" : "points");
     if (!count && !halfspaces) return support_fail(diag, FROE_E_INPUT, "A hull has no points.");
-    if (count > UINT32_MAX / 8) return support_fail(diag, FROE_E_ARG, "A %s has too many points.", names[r->shape]);
+    if (count > UINT32_MAX / 8) return support_fail(diag, FROE_E_ARG, "There are %zu points of a %s.", count, name);
     const size_t n = (size_t)dim;
     for (size_t i = 0; i < count * n; i++) {
         const double x = r->points[i];
         if (isfinite(x)) continue;
         if (r->shape != FROE_SHAPE_BOX || x != (i < n ? -INFINITY : INFINITY)) /* boxes may be unbounded */
-            return support_fail(diag, FROE_E_INPUT, "A coordinate of a %s is %g, not a finite number.", names[r->shape],
-                                x);
+            return support_fail(diag, FROE_E_INPUT, "A coordinate of a %s is %g, not a finite number.", name, x);
     }
     for (size_t i = 0; halfspaces && i < count; i++)
         if (!isfinite(r->offsets[i]))
@@ -91,8 +91,7 @@ froe_status query_range_check(const froe_range *r, int dim, froe_diagnostic *dia
                                 "The low corner %g of a box is above its high corner %g on axis %zu.", r->points[k],
                                 r->points[n + k], k);
     if (has_radius(r->shape) && !(r->radius >= 0 && isfinite(r->radius)))
-        return support_fail(diag, FROE_E_INPUT, "The radius of a %s is %g, not a finite number >= 0.", names[r->shape],
-                            r->radius);
+        return support_fail(diag, FROE_E_INPUT, "The radius of a %s is %g, not a finite number >= 0.", name, r->radius);
     if (!(r->eps >= 0 && isfinite(r->eps)))
         return support_fail(diag, FROE_E_INPUT, "The eps of a range, %g, is not a finite number >= 0.", r->eps);
     size_t zeros = 0;
