@@ -28,12 +28,12 @@ typedef struct froe_eye {
 /* ------------------------------------------------------------- depth order -- */
 
 typedef struct froe_order_options {
-    size_t size;           /**< set by froe_order_defaults() */
-    bool front_to_back;    /**< default false: back to front, the painter's order */
-    const uint32_t *ranks; /**< one per object, or NULL: its face, see froe_objects. Of pieces that lie in one cut
+    size_t size;                /**< set by froe_order_defaults() */
+    bool front_to_back;         /**< default false: back to front, the painter's order */
+    const uint32_t *ranks;      /**< one per object, or NULL: its face, see froe_objects. Of pieces that lie in one cut
                                 those of higher rank are in front, from both sides, whatever the eye; of
                                 equal ranks those that come later in the tree */
-    unsigned threads;      /**< froe_tree_orders() only; 0: one per processor */
+    unsigned threads;           /**< froe_tree_orders() only; 0: one per processor */
     froe_progress_fn *progress; /**< froe_tree_orders() only; may be NULL */
     void *user;                 /**< for progress */
 } froe_order_options;

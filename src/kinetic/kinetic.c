@@ -312,7 +312,8 @@ froe_status froe_kinetic_advance(froe_kinetic *k, double time, froe_event_fn *vi
                                  froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!k) return support_fail_null(diag, __func__);
-    if (!(time <= k->now.motion->end)) return support_fail(diag, FROE_E_ARG, "Time %g is not in the window.", time);
+    if (!(time <= k->now.motion->end))
+        return support_fail(diag, FROE_E_ARG, "The time %.17g is not in the window.", time);
     int64_t tick = motion_tick_after(k->now.motion, time) | 1, last = now_last_tick(&k->now);
     if (tick > last) tick = last;
     if (tick < k->now.tick) return support_fail(diag, FROE_E_ARG, "Time %g has passed.", time);
