@@ -40,7 +40,7 @@ static const cli_option what[] = {
 
 static const cli_option options[] = {
     {"methods", 'm', CLI_TEXT, offsetof(compare_args, methods), "M,...",
-     .help = "these builders only (default: all that serve the scene)"},
+     .help = "these builders only, also where they do not serve (default: all that serve the scene)"},
     {"leaf", 0, CLI_WHOLE, offsetof(compare_args, leaf), "K",
      .help = "most objects in a leaf, the same for all (default: each method's own)", .max = INT32_MAX},
     {"queries", 0, CLI_WHOLE, offsetof(compare_args, queries), "N", .help = "queries of each kind (default 1000)",
@@ -115,7 +115,8 @@ static json_t *scene_json(const compare_args *args, const compare_plan *plan, co
     for (size_t i = 0; rows && (method = froe_method_at(i)) != NULL; i++) {
         const uint32_t own = method->leaf ? method->leaf : 1;
         const uint32_t leaf = plan->leaf == FROE_LEAF_OWN ? own : plan->leaf;
-        if (!is_wanted(args->methods, method->name) || !froe_method_serves(method, scene, leaf)) continue;
+        const bool named = args->methods != NULL; /* then a row says why the method does not serve */
+        if (!is_wanted(args->methods, method->name) || (!named && !froe_method_serves(method, scene, leaf))) continue;
         if (json_array_append_new(rows, compare_row(plan, &both, method->name)) == 0) continue;
         json_decref(rows);
         rows = NULL;
@@ -170,13 +171,17 @@ static int run_compare(const void *given) {
     if (!(args->seconds > 0)) return cli_fail(CLI_USE, NULL, "--seconds: '%g' is not a number above 0.", args->seconds);
     if (!(args->pieces > 0)) return cli_fail(CLI_USE, NULL, "--pieces: '%g' is not a number above 0.", args->pieces);
     int code = cli_check_ending("output", args->page.path, "html");
-    for (const char *at = args->methods; !code && at && *at;) { /* names parted by commas */
+    for (const char *at = args->methods; !code && at;) { /* names parted by commas */
         char name[64];
         const size_t length = strcspn(at, ",");
         snprintf(name, sizeof name, "%.*s", (int)length, at);
         code = cli_check_method(name, false);
-        at += length + (at[length] == ',');
+        at = at[length] ? at + length + 1 : NULL;
     }
+    for (size_t i = 0; i < args->scenes.count && !code; i++)
+        for (size_t j = 0; j < i && !code; j++)
+            if (strcmp(args->scenes.at[i], args->scenes.at[j]) == 0)
+                code = cli_fail(CLI_USE, args->scenes.at[i], "The scene is given twice.");
     for (size_t i = 0; i < args->scenes.count && !code; i++) { /* all, before hours of work */
         cli_scene_args scene = args->scene;
         const froe_allocator alloc = meter_allocator(&meters[i]);

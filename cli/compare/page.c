@@ -118,7 +118,9 @@ static void put_picture(FILE *out, const json_t *of, const char *of_what, const 
 static void put_cells(FILE *out, const json_t *rows) {
     size_t i;
     json_t *row;
-    if (!json_is_string(json_object_get(json_array_get(rows, 0), "picture"))) return;
+    bool any = false; /* a tree above dimension 3 has none, nor has a method that failed */
+    json_array_foreach((json_t *)rows, i, row) any = any || json_is_string(json_object_get(row, "picture"));
+    if (!any) return;
     fputs("<h3>The cells of each tree</h3>\n<p class=\"soft\">Darker cells lie deeper in the tree.</p>\n"
           "<div class=\"grid small\">\n",
           out);
@@ -160,8 +162,10 @@ static bool put_scene(FILE *out, const json_t *scene) {
     bool whole = figures_put(out, rows);
     fputs("<h3>The trees</h3>\n", out);
     put_table(out, rows, TABLE_TREE);
-    fputs("<h3>What a query visits, and how long it takes</h3>\n", out);
-    put_table(out, rows, TABLE_QUERY);
+    if (table_part_used(rows, TABLE_QUERY)) {
+        fputs("<h3>What a query visits, and how long it takes</h3>\n", out);
+        put_table(out, rows, TABLE_QUERY);
+    }
     put_cells(out, rows);
     put_promises(out, rows);
     whole = figures_put_loads(out, rows) && whole;

@@ -127,13 +127,11 @@ static json_t *built_json(const compare_plan *plan, const outcome *out) {
     const workload load = {plan->queries, plan->common->seed, plan->seconds, plan->times};
     froe_diagnostic diag = {.message = ""};
     froe_status status = FROE_OK;
-    json_t *queries = workload_run(out->tree, &load, &status, &diag);
+    json_t *queries = plan->queries ? workload_run(out->tree, &load, &status, &diag) : NULL;
     if (status == FROE_E_MEMORY) (void)cli_report_lose();
     json_object_set_new(row, "leaf_loads", loads_json(out->tree));
-    if (queries)
-        json_object_set_new(row, "queries", queries);
-    else
-        json_object_set_new(row, "note", json_sprintf("no queries: %s", diag.message));
+    if (queries) json_object_set_new(row, "queries", queries);
+    if (status) json_object_set_new(row, "note", json_sprintf("no queries: %s", diag.message));
     if (plan->pictures) json_object_set_new(row, "picture", picture_json(out->tree, true));
     return row;
 }

@@ -79,6 +79,13 @@ bool table_column_used(const json_t *rows, const table_column *column) {
     return found;
 }
 
+bool table_part_used(const json_t *rows, table_part part) {
+    bool used = false;
+    for (const table_column *c = table_columns; c->name; c++)
+        used = used || (c->part == part && table_column_used(rows, c));
+    return used;
+}
+
 /* Rows that failed come last, so that the first one tells which columns hold numbers; they are rows of trees only. */
 static json_t *rows_report(const json_t *rows, table_part part) {
     json_t *table = json_array();
@@ -125,7 +132,8 @@ json_t *table_report(const json_t *comparison) {
         const json_t *rows = json_object_get(scene, "methods");
         json_t *const tables[] = {rows_report(rows, TABLE_TREE), rows_report(rows, TABLE_QUERY), promises_report(rows)};
         for (int k = 0; k < 3; k++) {
-            if (json_array_size(tables[k])) json_object_set(report, names[k], tables[k]);
+            const bool empty = !json_array_size(tables[k]) || (k == 1 && !table_part_used(rows, TABLE_QUERY));
+            if (!empty) json_object_set(report, names[k], tables[k]);
             json_decref(tables[k]);
         }
         json_object_set_new(out, json_string_value(json_object_get(scene, "scene")), report);

@@ -18,8 +18,9 @@ typedef struct table_column {
 } table_column;
 /** Ended by a NULL name. */
 extern const table_column table_columns[];
-/** Does any row fill the column? */
+/** Does any row fill the column? Any of a part's columns? */
 bool table_column_used(const json_t *rows, const table_column *column);
+bool table_part_used(const json_t *rows, table_part part);
 
 /** What stands in a cell; null if there is nothing. */
 json_t *table_value(const json_t *row, const table_column *column);
