@@ -152,10 +152,13 @@ froe_status froe_shard_records_add(froe_shard_records *records, int dim, const f
 froe_status froe_shard_records_append(froe_shard_records *records, const void *bytes, size_t count,
                                       froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
-    if (!records || !bytes) return support_fail_null(diag, __func__);
+    if (!records || (count && !bytes)) return support_fail_null(diag, __func__);
+    if (!count) return FROE_OK;
     records->alloc = support_allocator(&records->alloc);
+    const uintptr_t place = (uintptr_t)bytes - (uintptr_t)records->bytes; /* they may be records of its own */
+    const bool own = place < records->count;
     if (!shards_records_reserve(records, count)) return support_fail_memory(diag);
-    memcpy(records->bytes + records->count, bytes, count);
+    memcpy(records->bytes + records->count, own ? records->bytes + place : bytes, count);
     records->count += count;
     return FROE_OK;
 }

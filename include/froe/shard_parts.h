@@ -42,7 +42,7 @@ typedef struct froe_shard_records {
  * FROE_E_ARG, FROE_E_OPTIONS, FROE_E_UNSUPPORTED, FROE_E_LIMIT: an object of more than 2^31 bytes. */
 FROE_API froe_status froe_shard_records_add(froe_shard_records *records, int dim, const froe_objects *batch,
                                             uint64_t first, froe_diagnostic *diag);
-/** Appends bytes that are whole records. FROE_E_MEMORY. */
+/** Appends bytes that are whole records, some of its own, too. FROE_E_MEMORY. */
 FROE_API froe_status froe_shard_records_append(froe_shard_records *records, const void *bytes, size_t count,
                                                froe_diagnostic *diag);
 FROE_API void froe_shard_records_free(froe_shard_records *records);
@@ -101,7 +101,8 @@ FROE_API void froe_shard_buckets_free(froe_shard_buckets *buckets);
  * freed. */
 FROE_API froe_status froe_shard_buckets_add(froe_shard_buckets *buckets, uint32_t bucket, const void *records,
                                             size_t count, froe_diagnostic *diag);
-/** Receives whole records; anything but FROE_OK ends the call, which returns it. */
+/** Receives whole records; anything but FROE_OK ends the call, which returns it and leaves the diagnostic to the
+ * function. */
 typedef froe_status froe_shard_records_fn(void *user, const void *records, size_t count);
 /** Hands the records of a bucket to a function, in the order they came, and empties it: its place on the disk is given
  * back as it goes, where the system can do that. FROE_E_IO, FROE_E_MEMORY. */

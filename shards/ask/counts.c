@@ -14,7 +14,7 @@ static froe_status count_all(froe_shards *s, shards_question *q, const froe_batc
 froe_status froe_shards_count(froe_shards *s, const froe_range *ranges, size_t count, const froe_batch_options *options,
                               uint64_t *counts, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
-    if (shards_refuse_null(s, ranges, count, counts, __func__, diag)) return FROE_E_ARG;
+    if (shards_refuse_nulls(s, ranges, count, counts, __func__, diag)) return FROE_E_ARG;
     shards_question q = shards_kind_ranges(s, ranges, count);
     return count_all(s, &q, options, counts, diag);
 }
@@ -22,7 +22,7 @@ froe_status froe_shards_count(froe_shards *s, const froe_range *ranges, size_t c
 froe_status froe_shards_locate_count(froe_shards *s, const double *points, size_t count,
                                      const froe_batch_options *options, uint64_t *counts, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
-    if (shards_refuse_null(s, points, count, counts, __func__, diag)) return FROE_E_ARG;
+    if (shards_refuse_nulls(s, points, count, counts, __func__, diag)) return FROE_E_ARG;
     shards_question q = shards_kind_points(s, points, count, froe_batch_locate);
     return count_all(s, &q, options, counts, diag);
 }
@@ -30,7 +30,7 @@ froe_status froe_shards_locate_count(froe_shards *s, const double *points, size_
 froe_status froe_shards_vertical_count(froe_shards *s, const double *points, size_t count, int direction,
                                        const froe_batch_options *options, uint64_t *counts, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
-    if (shards_refuse_null(s, points, count, counts, __func__, diag)) return FROE_E_ARG;
+    if (shards_refuse_nulls(s, points, count, counts, __func__, diag)) return FROE_E_ARG;
     shards_question q = shards_kind_vertical(s, points, count, direction);
     const froe_status status = count_all(s, &q, options, counts, diag);
     for (size_t i = 0; i < count && !status; i++) counts[i] = counts[i] > 0; /* each shard has told its first one */
@@ -41,7 +41,7 @@ froe_status froe_shards_ray_count(froe_shards *s, const double *origins, const d
                                   double t_max, const froe_batch_options *options, uint64_t *counts,
                                   froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
-    if (shards_refuse_null(s, directions ? origins : NULL, count, counts, __func__, diag)) return FROE_E_ARG;
+    if (shards_refuse_nulls(s, directions ? origins : NULL, count, counts, __func__, diag)) return FROE_E_ARG;
     shards_question q = shards_kind_rays(s, origins, directions, count, 0, t_max);
     return count_all(s, &q, options, counts, diag);
 }
@@ -51,7 +51,7 @@ froe_status froe_shards_ray_count(froe_shards *s, const double *origins, const d
 froe_status froe_shards_near_count(froe_shards *s, const double *points, size_t count, size_t k, double bound,
                                    const froe_batch_options *options, uint64_t *counts, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
-    if (shards_refuse_null(s, points, count, counts, __func__, diag)) return FROE_E_ARG;
+    if (shards_refuse_nulls(s, points, count, counts, __func__, diag)) return FROE_E_ARG;
     shards_question q = shards_kind_near(s, points, count, k, bound);
     q.counted = true;
     const froe_status status =

@@ -28,4 +28,9 @@ static inline froe_status shards_refuse_null(const void *shards, const void *inp
                                              const char *function, froe_diagnostic *diag) {
     return shards && (input || !count) && out ? FROE_OK : support_fail_null(diag, function);
 }
+/** The same, where the answers are an array of the caller's, of one for each question. */
+static inline froe_status shards_refuse_nulls(const void *shards, const void *input, size_t count, const void *answers,
+                                              const char *function, froe_diagnostic *diag) {
+    return shards_refuse_null(shards, input, count, count ? answers : shards, function, diag);
+}
 #endif

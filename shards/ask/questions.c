@@ -55,7 +55,7 @@ froe_status froe_shards_boxes(froe_shards *s, const double *boxes, size_t count,
 froe_status froe_shards_any(froe_shards *s, const froe_range *ranges, size_t count, const froe_batch_options *options,
                             froe_find *finds, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
-    if (shards_refuse_null(s, ranges, count, finds, __func__, diag)) return FROE_E_ARG;
+    if (shards_refuse_nulls(s, ranges, count, finds, __func__, diag)) return FROE_E_ARG;
     shards_question q = shards_kind_ranges(s, ranges, count);
     q.box = NULL; /* the first shard that has an answer is enough */
     q.bound = shards_bound_of_any;
@@ -74,7 +74,7 @@ froe_status froe_shards_locate(froe_shards *s, const double *points, size_t coun
 froe_status froe_shards_vertical(froe_shards *s, const double *points, size_t count, int direction,
                                  const froe_batch_options *options, froe_find *finds, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
-    if (shards_refuse_null(s, points, count, finds, __func__, diag)) return FROE_E_ARG;
+    if (shards_refuse_nulls(s, points, count, finds, __func__, diag)) return FROE_E_ARG;
     const shards_question q = shards_kind_vertical(s, points, count, direction);
     froe_finds f = {0};
     froe_status status = shards_find_all(s, &q, options, &f, diag);
@@ -91,7 +91,7 @@ froe_status froe_shards_vertical(froe_shards *s, const double *points, size_t co
 froe_status froe_shards_ray(froe_shards *s, const double *origins, const double *directions, size_t count, double t_max,
                             const froe_batch_options *options, froe_find *finds, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
-    if (shards_refuse_null(s, directions ? origins : NULL, count, finds, __func__, diag)) return FROE_E_ARG;
+    if (shards_refuse_nulls(s, directions ? origins : NULL, count, finds, __func__, diag)) return FROE_E_ARG;
     shards_question q = shards_kind_rays(s, origins, directions, count, 1, t_max);
     return find_first(s, &q, false, options, finds, diag);
 }
@@ -100,7 +100,7 @@ froe_status froe_shards_ray_any(froe_shards *s, const double *origins, const dou
                                 double t_max, const froe_batch_options *options, froe_find *finds,
                                 froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
-    if (shards_refuse_null(s, directions ? origins : NULL, count, finds, __func__, diag)) return FROE_E_ARG;
+    if (shards_refuse_nulls(s, directions ? origins : NULL, count, finds, __func__, diag)) return FROE_E_ARG;
     shards_question q = shards_kind_rays(s, origins, directions, count, 1, t_max);
     return find_first(s, &q, true, options, finds, diag);
 }

@@ -49,6 +49,12 @@ static void batches_are_checked(void **state) {
     batch.indices = NULL, batch.point_count = 0, batch.coords = ends;
     assert_int_equal(froe_shard_records_add(&plain, 2, &batch, 7, &why), FROE_OK);
     assert_true(records.count == plain.count && !memcmp(records.bytes, plain.bytes, plain.count));
+    assert_int_equal(froe_shard_records_append(&records, NULL, 0, &why), FROE_OK);
+    for (int i = 0; i < 12; i++) { /* its own bytes, which move while it grows */
+        assert_int_equal(froe_shard_records_append(&records, records.bytes, records.count, &why), FROE_OK);
+        assert_memory_equal(records.bytes + records.count - plain.count, plain.bytes, plain.count);
+    }
+    assert_int_equal(records.count, plain.count << 12);
     froe_shard_records_free(&records), froe_shard_records_free(&plain), froe_shard_records_free(NULL);
 }
 
@@ -316,6 +322,37 @@ static void scenes_become_folders_or_nothing(void **state) {
     froe_shards_close(s), froe_scene_free(scene);
 }
 
+/* As of the batches that are called alike, answers of no questions need no array. */
+static void no_questions_need_no_room(void **state) {
+    (void)state;
+    static const double corners[] = {0, 0, 1, 1};
+    froe_shards_builder *builder;
+    froe_shards *s;
+    froe_find find;
+    uint64_t count;
+    froe_range range = froe_range_defaults();
+    froe_objects batch = froe_objects_defaults();
+    batch.kind = FROE_SEGMENT, batch.count = 1, batch.coords = range.points = corners;
+    assert_int_equal(froe_shards_begin("one.froes", 2, NULL, &builder, &why), FROE_OK);
+    assert_int_equal(froe_shards_add(builder, &batch, &why), FROE_OK);
+    assert_int_equal(froe_shards_finish(builder, NULL, &why), FROE_OK);
+    assert_int_equal(froe_shards_open("one.froes", NULL, &s, &why), FROE_OK);
+    assert_int_equal(froe_shards_any(s, NULL, 0, NULL, NULL, &why), FROE_OK);
+    assert_int_equal(froe_shards_vertical(s, NULL, 0, 1, NULL, NULL, &why), FROE_OK);
+    assert_int_equal(froe_shards_ray(s, NULL, NULL, 0, 1, NULL, NULL, &why), FROE_OK);
+    assert_int_equal(froe_shards_ray_any(s, NULL, NULL, 0, 1, NULL, NULL, &why), FROE_OK);
+    assert_int_equal(froe_shards_count(s, NULL, 0, NULL, NULL, &why), FROE_OK);
+    assert_int_equal(froe_shards_locate_count(s, NULL, 0, NULL, NULL, &why), FROE_OK);
+    assert_int_equal(froe_shards_vertical_count(s, NULL, 0, 1, NULL, NULL, &why), FROE_OK);
+    assert_int_equal(froe_shards_ray_count(s, NULL, NULL, 0, 1, NULL, NULL, &why), FROE_OK);
+    assert_int_equal(froe_shards_near_count(s, NULL, 0, 1, 1, NULL, NULL, &why), FROE_OK);
+    NULLS(froe_shards_any(s, &range, 1, NULL, NULL, &why));
+    NULLS(froe_shards_any(s, NULL, 1, NULL, &find, &why));
+    NULLS(froe_shards_count(s, &range, 1, NULL, NULL, &why));
+    NULLS(froe_shards_count(NULL, &range, 1, NULL, &count, &why));
+    froe_shards_close(s);
+}
+
 /* Triangles without starts, the last one without area, as a batch and as a scene: the same folder. */
 static void triangles_need_no_starts(void **state) {
     (void)state;
@@ -508,6 +545,7 @@ int main(void) {
         cmocka_unit_test(buckets_on_a_full_disk_are_told),
         cmocka_unit_test(empty_shards_are_asked_nothing),
         cmocka_unit_test(scenes_become_folders_or_nothing),
+        cmocka_unit_test(no_questions_need_no_room),
         cmocka_unit_test(triangles_need_no_starts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
