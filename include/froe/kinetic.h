@@ -35,8 +35,8 @@ typedef struct froe_motion_options {
 } froe_motion_options;
 FROE_DEFAULTS(froe_motion_options, froe_motion_defaults);
 
-/** A motion without objects. alloc is copied; NULL: malloc. FROE_E_ARG: options or out is NULL. FROE_E_INPUT: the window
- * is empty, endless or NaN. FROE_E_OPTIONS: there is no such dimension, or the tick is none. FROE_E_MEMORY. */
+/** A motion without objects. alloc is copied; NULL: malloc. FROE_E_ARG: options or out is NULL. FROE_E_INPUT: the
+ * window is empty, endless or NaN. FROE_E_OPTIONS: there is no such dimension, or the tick is none. FROE_E_MEMORY. */
 FROE_API froe_status froe_motion_new(const froe_motion_options *options, const froe_allocator *alloc, froe_motion **out,
                                      froe_diagnostic *diag);
 FROE_API void froe_motion_free(froe_motion *motion);

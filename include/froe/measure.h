@@ -71,7 +71,8 @@ typedef struct froe_density {
     froe_spread load; /**< per object: objects of at least its size within three radii of its centre */
     uint64_t reserved[4];
 } froe_density;
-/** Only balls of the size of an object matter. FROE_E_ARG: there is no such size. FROE_E_MEMORY, FROE_E_CANCELLED. O(n log n + sum of loads). */
+/** Only balls of the size of an object matter. FROE_E_ARG: there is no such size. FROE_E_MEMORY, FROE_E_CANCELLED.
+ * O(n log n + sum of loads). */
 FROE_API froe_status froe_measure_density(const froe_scene *scene, froe_size size, const froe_measure_options *options,
                                           froe_density *out, froe_diagnostic *diag);
 
