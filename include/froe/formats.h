@@ -183,7 +183,8 @@ FROE_API froe_part froe_part_like(froe_export_what what);
 typedef bool froe_part_fn(void *user, const froe_part *part);
 /** Calls fn for each fragment, cell or cut, in an order that is the same each time; what it is given lasts as long as
  * the call. False ends that, with FROE_OK. Memory does not grow with the tree. options may be NULL. FROE_E_ARG: no such
- * `what`; a bound of the box is not finite, or lo > hi. FROE_E_UNSUPPORTED: cells and cuts above dimension 3. FROE_E_OPTIONS, FROE_E_CANCELLED, FROE_E_MEMORY. */
+ * `what`; a bound of the box is not finite, or lo > hi. FROE_E_UNSUPPORTED: cells and cuts above dimension 3.
+ * FROE_E_OPTIONS, FROE_E_CANCELLED, FROE_E_MEMORY. */
 FROE_API froe_status froe_tree_parts(const froe_tree *tree, froe_export_what what, const froe_export_options *options,
                                      froe_part_fn *fn, void *user, froe_diagnostic *diag);
 

@@ -202,8 +202,8 @@ typedef struct froe_group {
     uint32_t colour;          /**< 0xRRGGBBAA: red, green and blue of sRGB, opacity; 0: unknown */
 } froe_group;
 /** Adds a group; *id: 0, 1, ...; `id` may be NULL. Strings are copied, and may be those of another group of the scene;
- * NULL counts as "". FROE_E_ARG, FROE_E_FROZEN, FROE_E_MEMORY. FROE_E_LIMIT: more than 2^31 - 2 groups, or 2^32 bytes of
- * strings. */
+ * NULL counts as "". FROE_E_ARG, FROE_E_FROZEN, FROE_E_MEMORY. FROE_E_LIMIT: more than 2^31 - 2 groups, or 2^32 bytes
+ * of strings. */
 FROE_API froe_status froe_scene_add_group(froe_scene *scene, const froe_group *group, uint32_t *id);
 
 /** The axis of a scene in space that points up in pictures: 0, 1 or 2. Readers set it by the
