@@ -445,3 +445,10 @@ def test_arguments_of_other_kinds():
         tree.join_groups(5)
     with pytest.raises(TypeError, match="crs is 'EPSG:4326', and must be a froe.Crs or None"):
         froe.Scene(2).crs = "EPSG:4326"
+    for measure in (froe.measure.defects, froe.measure.fatness, froe.measure.density, froe.measure.clutter):
+        with pytest.raises(TypeError, match="scene is <froe.Tree: .*>, and must be a froe.Scene"):
+            measure(tree)
+    with pytest.raises(TypeError, match="scene is None, and must be a froe.Scene"):
+        froe.measure.directional(None)
+    with pytest.raises(TypeError, match="model is <froe.Tree: .*>, and must be a froe.Scene"):
+        froe.read_poses("poses.csv", tree)

@@ -113,3 +113,17 @@ def test_rows_of_ragged_arrays_are_counted_from_both_ends(tree):
         assert len(list(ragged)) == 3
     all_of_them = froe.Answers(np.arange(257), np.arange(256))
     assert all_of_them[np.uint8(255)].tolist() == [255]  # numpy 2 adds 1 to it and has 0
+
+
+def test_what_holds_arrays_is_equal_to_itself_alone(tree):
+    motion = froe.generate_motion("moving", 4)
+    for make in (
+        lambda: tree.query([[0, 0, 1, 1]]),
+        tree.pieces,
+        tree.cells,
+        tree.scene.arrays,
+        motion.contacts,
+        lambda: motion.kinetic().advance(1),
+    ):
+        one, other = make(), make()
+        assert one == one and one != other and {one, other} == {other, one} and len({one, other}) == 2

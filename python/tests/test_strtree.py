@@ -132,6 +132,20 @@ def test_ties_are_decided_exactly():
     assert distance.tolist() == [0.1]
 
 
+def test_nearest_beyond_the_range_of_doubles():
+    """A distance that no double holds is infinite, and which geometry is nearest is decided all the same."""
+    far = 1.7e308
+    kept = [LineString([(-far, -far), (-far, 0)]), Point(-far, far), Point(-far / 2, far), None]
+    asked = [LineString([(far, far), (far, far / 2)]), Point(far, far), LineString([(far, -far), (far, -far / 2)])]
+    found, lengths = STRtree(kept).query_nearest(asked, return_distance=True)
+    assert found.tolist() == [[0, 1, 2], [2, 2, 0]] and np.isinf(lengths).all()
+    assert STRtree(kept).nearest(asked).tolist() == [2, 2, 0]
+    assert STRtree(kept[:1]).query_nearest(kept[0], exclusive=True).tolist() == []
+    across = LineString([(-far, 0), (far, 0)])  # its ends are farther from the point than doubles go, and its middle is not
+    found, lengths = STRtree([Point(0, far)]).query_nearest([across], return_distance=True)
+    assert found.tolist() == [[0], [0]] and lengths.tolist() == [far]
+
+
 def test_shapes_of_results():
     tree = STRtree([Point(0, 0), Point(2, 0), None])
     assert len(tree) == 2

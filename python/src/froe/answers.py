@@ -15,6 +15,9 @@ class Answers:
     """A ragged array: any number of answers to each question. Those to question ``i`` are ``ids[starts[i]:starts[i +
     1]]``, which is ``answers[i]``. ``len(answers)`` is the number of questions, and a loop goes through these.
 
+    ``==`` compares no numbers, here and wherever froe returns several arrays as one object: such an object is equal to
+    itself alone. ``numpy.array_equal`` compares the arrays.
+
     :ivar starts: int64, one more than questions
     :ivar ids: int32, objects or groups
     :ivar values: float64 beside the ids: distances, or parameters of rays; None where there are none

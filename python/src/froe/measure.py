@@ -6,6 +6,7 @@ same for the same seed. Lower bounds hold for the whole scene, upper bounds for 
 
 :raises CancelledError: the progress function returned False
 :raises ArgumentError: an argument is out of range
+:raises TypeError: the scene is something else, such as a tree, whose ``scene`` can be measured
 
 >>> import froe, froe.measure
 >>> scene = froe.generate("segments", 1000)
@@ -20,7 +21,7 @@ from dataclasses import dataclass, fields
 from typing import Any, TypeVar
 
 from ._arrays import Progress
-from .scene import Scene
+from .scene import Scene, core_of
 
 Measure = TypeVar("Measure")
 
@@ -154,7 +155,7 @@ def defects(scene: Scene, *, threads: int = 0, progress: Progress | None = None)
     >>> defects(froe.segments([[0, 0, 2, 2], [0, 2, 2, 0], [1, 1, 1, 1]])).crossings
     1
     """
-    return _filled(Defects, scene._core.defects(0, 1, threads, progress))
+    return _filled(Defects, core_of(scene, "scene").defects(0, 1, threads, progress))
 
 
 def fatness(scene: Scene, *, samples: int = 20000, seed: int = 1, progress: Progress | None = None) -> Fatness:
@@ -166,7 +167,7 @@ def fatness(scene: Scene, *, samples: int = 20000, seed: int = 1, progress: Prog
     >>> fatness(froe.boxes([[0, 0, 1, 1]])).full.median > 0.6
     True
     """
-    return _filled(Fatness, scene._core.fatness(samples, seed, 0, progress))
+    return _filled(Fatness, core_of(scene, "scene").fatness(samples, seed, 0, progress))
 
 
 def density(
@@ -181,7 +182,7 @@ def density(
     >>> density(froe.segments([[0, 0, 1, 0], [0, 1, 1, 1]])).count
     2
     """
-    return _filled(Density, scene._core.density(diameter, samples, seed, 0, progress))
+    return _filled(Density, core_of(scene, "scene").density(diameter, samples, seed, 0, progress))
 
 
 def clutter(scene: Scene, *, samples: int = 20000, seed: int = 1, progress: Progress | None = None) -> Clutter:
@@ -193,7 +194,7 @@ def clutter(scene: Scene, *, samples: int = 20000, seed: int = 1, progress: Prog
     >>> clutter(froe.segments([[0, 0, 1, 0], [0, 1, 1, 1]])).lower >= 1
     True
     """
-    return _filled(Clutter, scene._core.clutter(samples, seed, 0, progress))
+    return _filled(Clutter, core_of(scene, "scene").clutter(samples, seed, 0, progress))
 
 
 def directional(
@@ -208,4 +209,4 @@ def directional(
     >>> directional(froe.boxes([[0, 0, 1, 1], [2, 0, 3, 1]]), 2.0).count
     2
     """
-    return _filled(Directional, scene._core.directional(delta, samples, seed, 0, progress))
+    return _filled(Directional, core_of(scene, "scene").directional(delta, samples, seed, 0, progress))

@@ -14,7 +14,7 @@ import numpy.typing as npt
 from . import _core
 from ._arrays import Doubles, Ids, Progress, doubles, point, rows, whole
 from .errors import ArrayError
-from .scene import Scene
+from .scene import Scene, core_of
 from .tree import Tree
 
 Bools = npt.NDArray[np.bool_]
@@ -23,7 +23,7 @@ EVENTS = _core.event_names()
 _UPDATE, _REMOVE, _AUDIT = range(3)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Contacts:
     """Pairs of objects that meet, each from one instant to another, in the order of their beginnings.
 
@@ -47,7 +47,7 @@ class Contacts:
         return len(self.a)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Events:
     """Changes of a partition, in order of time. Event ``i`` is of the kind ``froe.motion.EVENTS[kinds[i]]``.
 
@@ -552,7 +552,7 @@ def read_poses(
     ...     froe.read_poses(os.path.join(folder, "a.csv"), model).positions(2)[0].tolist()
     [0.0, 0.0, 4.0]
     """
-    return Motion._of(_core.read_poses(path, model._core, begin, end))
+    return Motion._of(_core.read_poses(path, core_of(model, "model"), begin, end))
 
 
 def generate_motion(kind: str, count: int, seed: int = 1) -> Motion:

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from ._arrays import Doubles, Ids, part
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Pieces:
     """The pieces of a tree. The corners of piece ``i`` are ``coords[starts[i]:starts[i + 1]]``, which is ``pieces[i]``.
 
@@ -38,7 +38,7 @@ class Pieces:
         return part(self.coords, self.starts, piece, "piece")
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Cells:
     """Regions of nodes. Cell ``i`` has the faces ``faces[i]`` to ``faces[i + 1] - 1``, and face ``f`` the corners
     ``coords[starts[f]:starts[f + 1]]``. In the plane every cell is one face.

@@ -345,6 +345,13 @@ class Scene:
         return Tree(self._core.build(method, purpose, settings, leaf, seed, None, max_pieces, threads, progress))
 
 
+def core_of(scene: Scene, name: str) -> _core.Scene:
+    """What the extension takes of an argument that has to be a scene."""
+    if not isinstance(scene, Scene):
+        raise TypeError(f"{name} is {scene!r}, and must be a froe.Scene.")
+    return scene._core
+
+
 def _dim(array: Doubles, name: str, ends: int, dim: int | None) -> int:
     """The dimension that an array has where none is given: that of its rows of one or two ends."""
     if dim is not None:

@@ -46,7 +46,7 @@ class Crs:
     wkt: str = ""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class SceneArrays:
     """A whole scene as arrays. Object ``i`` has the vertices ``corners[starts[i]:starts[i + 1]]``, whose places are the
     rows of ``coords`` with these numbers.

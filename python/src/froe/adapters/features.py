@@ -23,7 +23,7 @@ Integers = npt.NDArray[np.int64]
 _PARTS = {"MultiPoint": "Point", "MultiLineString": "LineString", "MultiPolygon": "Polygon"}
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Features:
     """The points and segments of ``count`` geometries.
 

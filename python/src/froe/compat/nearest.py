@@ -109,26 +109,29 @@ class Nearest:
         passed = passed_over[1, passed_over[0] == one]
         best = self._least(corners[owner == one], bound, passed)
         reach = min(bound, math.nextafter(best, math.inf))
-        nothing = np.empty((2, 0), np.int64), np.empty(0)
-        if math.isinf(reach):
-            return nothing
         segments = np.concatenate(
             [asked.segments[asked.segment_of == one], np.tile(asked.points[asked.point_of == one], 2)]
         )
-        answers = self.relations.tree.query(capsules=(segments, np.full(len(segments), reach)))
-        found = answers.pairs()
         squares: dict[int, Fraction] = {}
-        for segment, thing in found.T:
+        for segment, thing in self._within(segments, reach, passed).T:
             square = segment_square(segments[segment], self.ends[thing])
             geometry = int(self.relations.owner[thing])
-            if geometry in passed:
-                continue
             squares[geometry] = min(square, squares.get(geometry, square))
         if not squares:
-            return nothing
+            return np.empty((2, 0), np.int64), np.empty(0)
         least = min(squares.values())
         nearest = sorted(geometry for geometry, square in squares.items() if square == least)
         return np.array([[one] * len(nearest), nearest]), np.full(len(nearest), rounded_root(least))
+
+    def _within(self, segments: Floats, reach: float, passed: Integers) -> Integers:
+        """Pairs of a segment and an object that is no farther from it, without the geometries passed over. A distance
+        that no double holds is infinite, and then every object is near enough."""
+        if math.isinf(reach):
+            found = np.indices((len(segments), len(self.ends))).reshape(2, -1)
+        else:
+            found = self.relations.tree.query(capsules=(segments, np.full(len(segments), reach))).pairs()
+        others: Integers = found[:, ~np.isin(self.relations.owner[found[1]], passed)]
+        return others
 
     def _least(self, corners: Floats, bound: float, passed: Integers) -> float:
         """The distance of the nearest object to any of the corners, but for those of the geometries passed over."""
@@ -166,7 +169,7 @@ def segment_square(one: Floats, other: Floats) -> Fraction:
 
 
 def rounded_root(square: Fraction) -> float:
-    """The double nearest to the square root, ties to even."""
+    """The double nearest to the square root, ties to even; infinity beyond their range."""
     if square == 0:
         return 0.0
     # 2^shift is chosen so that the root has 64 bits at least before its point; what is cut off is kept as a last bit.
@@ -174,4 +177,8 @@ def rounded_root(square: Fraction) -> float:
     scaled = square * Fraction(4) ** shift
     whole = math.isqrt(scaled.numerator // scaled.denominator)
     sticky = int(whole * whole != scaled)
-    return float(Fraction(2 * whole + sticky, 2 << shift))
+    root = Fraction(2 * whole + sticky, 2 << shift)
+    try:
+        return float(root)
+    except OverflowError:
+        return math.inf
