@@ -148,7 +148,7 @@ static int run_measure(const void *given) {
     int code = measure_check_pictures(pictures, 2);
     if (!code) code = cli_read_scene(&args->common, &args->scene, &scene, &reader);
     if (code) return code;
-    for (int i = 0; i < 2 && !code; i++) code = measure_check_dimension(pictures[i], scene);
+    if (args->cube || args->ball) code = measure_check_dimension(args->scene.path, scene);
     if (code) {
         froe_scene_free(scene);
         return code;

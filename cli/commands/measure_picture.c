@@ -33,7 +33,7 @@ int measure_check_pictures(const char *const *paths, size_t count) {
 }
 
 int measure_check_dimension(const char *path, const froe_scene *scene) {
-    if (!path || froe_scene_dim(scene) <= 3) return 0;
+    if (froe_scene_dim(scene) <= 3) return 0;
     return cli_fail(CLI_USE, path, "Pictures exist in 2 and 3 dimensions, not in %d.", froe_scene_dim(scene));
 }
 

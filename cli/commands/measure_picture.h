@@ -7,7 +7,7 @@
 /** Before anything is measured: can pictures be drawn, and to files of these names? Names may be NULL. Returns 0 or an
  * exit code. */
 int measure_check_pictures(const char *const *paths, size_t count);
-/** Does the scene have pictures? `path` may be NULL: none is wanted. */
+/** Does the scene of the file `path` have pictures? Returns 0 or an exit code. */
 int measure_check_dimension(const char *path, const froe_scene *scene);
 
 /** Draws a scene of two or three dimensions around a cube to a file, as `froe draw` does. Builds at most so

@@ -197,6 +197,7 @@ static int check_needs(const render_args *args, const froe_render_options *o) {
     const bool png = !strcmp(ending.text, "png"),
                fixed = png || !strcmp(ending.text, "pdf") || !strcmp(ending.text, "eps");
     const bool layered = !strcmp(ending.text, "svg") || !strcmp(ending.text, "dxf");
+    const bool titled = !strcmp(ending.text, "svg") || !strcmp(ending.text, "pdf");
     const cli_need needs[] = {
         {"view", args->direction >= 0, !args->eye.count, "It excludes --eye, which says where from."},
         {"fov", !isnan(args->fov), !o->camera.parallel,
@@ -208,6 +209,8 @@ static int check_needs(const render_args *args, const froe_render_options *o) {
         {"decimals", args->decimals != UINT64_MAX, !fixed,
          "Files of the endings .pdf, .eps and .png have steps of their own."},
         {"layers", args->layers > 0, layered, "Only files of the endings .svg and .dxf have layers."},
+        {"title", args->title != NULL, titled, "Only files of the endings .svg and .pdf have titles."},
+        {"desc", args->description != NULL, titled, "Only files of the endings .svg and .pdf have descriptions."},
         {"pixels", !isnan(args->pixels), png, "Only files of the ending .png have pixels."},
     };
     return cli_check_needs(needs, sizeof needs / sizeof *needs);
