@@ -31,6 +31,25 @@ static inline bool support_normalize(double *v) {
     return true;
 }
 
+/** Multiplies numbers by a power of two, so that the largest is 1/2 .. 1 and no product of a few of them overflows. */
+static inline void support_scale(double *v, int count) {
+    double most = 0;
+    int exponent;
+    for (int k = 0; k < count; k++) most = fmax(most, fabs(v[k]));
+    frexp(most, &exponent);
+    for (int k = 0; k < count; k++) v[k] = ldexp(v[k], -exponent);
+}
+
+/** A normal of the triangle p, q, r, which turns counterclockwise as seen from where that leads. Its length is no
+ * extreme one, however large or small the triangle is; 0 where that has no area. */
+static inline void support_triangle_normal(const double *p, const double *q, const double *r, double out[3]) {
+    double sides[6];
+    for (int k = 0; k < 3; k++) sides[k] = q[k] - p[k], sides[3 + k] = r[k] - p[k];
+    support_scale(sides, 6);
+    support_cross(sides, sides + 3, out);
+    support_scale(out, 3);
+}
+
 /** The axes of the page for an eye in the direction `back`, of length 1, with `up`, of any length, upwards. An up along
  * the line of view is replaced by the first axis that is not along it, which is returned; -1: none had to be. */
 static inline int support_page_axes(const double back[3], const double up[3], double right[3], double page_up[3]) {

@@ -1,5 +1,6 @@
 /* shade.c: colours of faces: those of their groups, or one hue per material, lit by a light fixed to the camera. */
 #include "render.h"
+#include "support/axes.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,15 +14,11 @@ enum { LIGHTS = 64 };
 /* How much the light, to the upper left of the camera, lights a polygon: 0 .. 1, from both sides. */
 static double light_on(const vector_render *r, uint32_t object) {
     const double *p[3];
-    double n[3], lamp[3], length = 0, lamp_length = 0, dot = 0;
+    double n[3], lamp[3];
     for (uint32_t i = 0; i < 3; i++) p[i] = froe_scene_vertex(r->scene, froe_scene_corner(r->scene, object, i));
-    for (int k = 0; k < 3; k++) {
-        const int a = (k + 1) % 3, b = (k + 2) % 3;
-        n[k] = (p[1][a] - p[0][a]) * (p[2][b] - p[0][b]) - (p[1][b] - p[0][b]) * (p[2][a] - p[0][a]);
-        lamp[k] = 0.55 * r->view.back[k] + 0.7 * r->view.up[k] - 0.45 * r->view.right[k];
-    }
-    for (int k = 0; k < 3; k++) length += n[k] * n[k], lamp_length += lamp[k] * lamp[k], dot += n[k] * lamp[k];
-    const double at = fabs(dot) / sqrt(length * lamp_length);
+    for (int k = 0; k < 3; k++) lamp[k] = 0.55 * r->view.back[k] + 0.7 * r->view.up[k] - 0.45 * r->view.right[k];
+    support_triangle_normal(p[0], p[1], p[2], n);
+    const double at = fabs(support_dot(n, lamp)) / sqrt(support_dot(n, n) * support_dot(lamp, lamp));
     return at >= 0 && at <= 1 ? at : 1;
 }
 

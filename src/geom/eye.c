@@ -14,12 +14,19 @@
 #include "geom/eye_body.inc"
 
 geom_eye geom_eye_make(bool parallel, const double *at, const double *origin) {
-    geom_eye eye = {.parallel = parallel};
+    geom_eye eye = {.parallel = parallel, .size = 1};
     memcpy(eye.at, at, sizeof eye.at);
     if (origin) memcpy(eye.origin, origin, sizeof eye.origin);
     for (int k = 1; k < 3; k++)
         if (fabs(at[k]) > fabs(at[eye.axis])) eye.axis = k;
     return eye;
+}
+
+void geom_eye_set_extent(geom_eye *eye, double extent) {
+    int exponent;
+    if (!(extent > 0)) return;
+    frexp(fmin(extent, 0x1p1000), &exponent);
+    eye->size = ldexp(1, exponent < -1000 ? -1000 : exponent > 1000 ? 1000 : exponent);
 }
 
 /* ------------------------------------------------------------ side of an eye -- */

@@ -8,7 +8,8 @@
  *            . z           a determinant, and nothing is ever divided (Stolfi, Oriented Projective Geometry, 1991).
  *
  *     eye at e                r(x) = e - x
- *     parallel, towards d     r(x) = (w_i d_k - w_k d_i, w_j d_k - w_k d_j, d_k),  w = x - origin, d_k the largest of d
+ *     parallel, towards d     r(x) = (w_i d_k - w_k d_i, w_j d_k - w_k d_j, s d_k),  w = x - origin, d_k the largest of
+ *                             d, s about as large as the scene, so that no component vanishes beside another
  *
  * In both, det(r(p), r(q), r(r)) > 0 where p, q, r turn left as the eye sees them. A picture of all
  * directions around an eye at a point is a sphere: rays behind the eye count like any others.
@@ -26,10 +27,13 @@ typedef struct geom_eye {
     int axis;         /**< k: where |at| is largest; parallel only */
     double at[3];     /**< the point, or the direction towards the eye */
     double origin[3]; /**< any point near the scene; parallel only */
+    double size;      /**< s, a power of two from 2^-1000 to 2^1000; parallel only */
 } geom_eye;
 
-/** `at` finite, and for a parallel eye not zero. `origin` may be NULL. */
+/** `at` finite, and for a parallel eye not zero. `origin` may be NULL. The scene is about 1 large. */
 geom_eye geom_eye_make(bool parallel, const double *at, const double *origin);
+/** For a scene of which the longest side is `extent`. */
+void geom_eye_set_extent(geom_eye *eye, double extent);
 /** Side of a plane (of R^2 or R^3) on which the eye is: -1, 0 or 1. */
 int geom_side_of_eye(num_context *context, const geom_plane *plane, const geom_eye *eye);
 /** The same for the plane through p, q and r, without making it: -1, 1 or NUM_UNSURE. ~5 ns. */

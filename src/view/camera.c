@@ -54,12 +54,11 @@ bool froe_project(const froe_projection *view, const double *point, double page[
     return true;
 }
 
-void view_camera_ray(const froe_projection *view, const double origin[3], int axis, const double ray[3],
-                     double page[2]) {
+void view_camera_ray(const froe_projection *view, const geom_eye *eye, const double ray[3], double page[2]) {
     double at[3];
-    if (view->eye.parallel) {
-        double point[3] = {origin[0], origin[1], origin[2]};
-        for (int c = 0; c < 2; c++) point[(axis + 1 + c) % 3] += ray[c] / ray[2];
+    if (eye->parallel) {
+        double point[3] = {eye->origin[0], eye->origin[1], eye->origin[2]};
+        for (int c = 0; c < 2; c++) point[(eye->axis + 1 + c) % 3] += ray[c] / ray[2] * eye->size;
         view_camera_point(view, point, at);
     } else { /* the ray runs from the point to the eye */
         at[0] = -support_dot(ray, view->right), at[1] = -support_dot(ray, view->up),

@@ -87,7 +87,7 @@ static void each_colour_is_a_path_in_svg(void **state) {
     assert_int_equal(report.picture.visibility.visible_segments, 3);
     expect(&t,
            "class=\"wire hidden\" stroke=\"#f00\" stroke-width=\"0.6\" stroke-dasharray=\"2.4 1.8\" d=\"m40 60h10\"");
-    expect(&t, "class=\"wire\" stroke=\"#f00\" stroke-width=\"1\" d=\"m70 70v-20m-40 10h10\"");
+    expect(&t, "class=\"wire\" stroke=\"#f00\" stroke-width=\"1\" d=\"m30 60h10m30 10v-20\"");
     expect(&t, "class=\"wire\" stroke=\"#00f\" stroke-width=\"1\" d=\"m70 50v-20\"");
     expect(&t, "class=\"point\" stroke=\"#00f\" stroke-width=\"3\" stroke-linecap=\"round\" d=\"m");
     expect(&t, "class=\"point\" stroke-width=\"3\" stroke-linecap=\"round\" d=\"m80 50z\"");

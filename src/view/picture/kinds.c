@@ -12,10 +12,8 @@ static uint32_t group_of(const froe_scene *s, uint32_t object) {
 }
 
 static double cosine(const froe_scene *s, uint32_t a, uint32_t b) {
-    geom_plane p, q;
+    const geom_plane p = view_support(s, a), q = view_support(s, b);
     double dot = 0, pp = 0, qq = 0;
-    scene_support(s, a, &p);
-    scene_support(s, b, &q);
     for (int k = 0; k < 3; k++) {
         const double x = p.n[k] / p.n_max, y = q.n[k] / q.n_max;
         dot += x * y, pp += x * x, qq += y * y;

@@ -56,7 +56,7 @@ bool view_append_region(view_painter *p, uint32_t patch, print_ring *points, pri
         for (uint32_t c = first; c < end; c++) {
             double page[2], ray[3];
             view_ray_at(p->v, r->corners.data[c], ray);
-            view_camera_ray(p->options->view, s->eye.origin, s->eye.axis, ray, page);
+            view_camera_ray(p->options->view, &s->eye, ray, page);
             points->data[points->count++] = (print_point){page[0], page[1]};
         }
         if (!array_push(alloc, ends, (uint32_t)points->count)) return false;

@@ -119,18 +119,21 @@ bool view_order_next(view_order *order, uint32_t *piece) {
 /* --------------------------------------------------------------------- checks -- */
 
 froe_status view_eye_of(const froe_tree *tree, const froe_eye *eye, geom_eye *out, froe_diagnostic *diag) {
-    double at[3] = {0}, origin[3] = {0}, most = 0;
+    double at[3] = {0}, origin[3] = {0}, most = 0, extent = 0;
     for (int k = 0; k < tree->scene->dim && k < 3; k++) {
         if (!isfinite(eye->at[k]))
             return support_fail_at(diag, FROE_E_ARG, FROE_NONE, FROE_NONE, (uint32_t)k,
                                    "Coordinate %d of the eye is not a finite number.", k);
         at[k] = eye->at[k];
         most = fmax(most, fabs(at[k]));
-        if (tree->scene->object_count) origin[k] = 0.5 * tree->scene->lo[k] + 0.5 * tree->scene->hi[k];
+        if (!tree->scene->object_count) continue;
+        origin[k] = 0.5 * tree->scene->lo[k] + 0.5 * tree->scene->hi[k];
+        extent = fmax(extent, tree->scene->hi[k] - tree->scene->lo[k]);
     }
     if (eye->parallel && most == 0)
         return support_fail(diag, FROE_E_ARG, "The direction of a parallel eye has length 0.");
     *out = geom_eye_make(eye->parallel, at, origin);
+    geom_eye_set_extent(out, extent);
     return FROE_OK;
 }
 

@@ -367,12 +367,11 @@ double view_share_round(view_sightlines *s, uint32_t line, uint32_t u, uint32_t 
     return geom_share_round(&s->context, &s->eye, &h, view_vertex(s, u), view_vertex(s, v));
 }
 
-/* Its normal to a largest component of 1/2 .. 1, by an exact multiplication: products with coordinates do not overflow.
- * The normal itself has done so where its points are further from one another than 2^500. */
-geom_plane view_plane_of(const view_sightlines *s, uint32_t patch) {
+/* By an exact multiplication. The normal has overflowed where its points are further from one another than 2^500. */
+geom_plane view_support(const froe_scene *scene, uint32_t object) {
     geom_plane plane;
     int exponent;
-    scene_support(s->tree->scene, surface_first(s->surface, patch), &plane);
+    scene_support(scene, object, &plane);
     if (!(plane.n_max < INFINITY)) {
         double d[3], e[3];
         for (int k = 0; k < 3; k++) {
@@ -385,7 +384,12 @@ geom_plane view_plane_of(const view_sightlines *s, uint32_t patch) {
     }
     frexp(plane.n_max, &exponent);
     for (int k = 0; k < 3; k++) plane.n[k] = ldexp(plane.n[k], -exponent);
+    plane.n_max = ldexp(plane.n_max, -exponent);
     return plane;
+}
+
+geom_plane view_plane_of(const view_sightlines *s, uint32_t patch) {
+    return view_support(s->tree->scene, surface_first(s->surface, patch));
 }
 
 /* x = e - t r, or for a parallel eye x = y + t d with y the point of the ray in the plane w_k = 0. */
@@ -396,7 +400,7 @@ void view_point_on(const view_sightlines *s, const geom_plane *plane, const doub
         start[k] = eye->parallel ? eye->origin[k] : eye->at[k];
         way[k] = eye->parallel ? eye->at[k] : -ray[k];
     }
-    for (int c = 0; c < 2 && eye->parallel; c++) start[(eye->axis + 1 + c) % 3] += ray[c] / ray[2];
+    for (int c = 0; c < 2 && eye->parallel; c++) start[(eye->axis + 1 + c) % 3] += ray[c] / ray[2] * eye->size;
     for (int k = 0; k < 3; k++) {
         at += plane->n[k] * (start[k] - plane->p[0][k]);
         slope += plane->n[k] * way[k];

@@ -127,7 +127,9 @@ static inline int view_side_of_vertex(view_sightlines *s, uint32_t line, uint32_
 int view_compare_vertices(view_sightlines *sights, uint32_t line, uint32_t u, uint32_t v);
 /** Where a line meets the segment from vertex u (0) to vertex v (1), rounded. */
 double view_share_round(view_sightlines *sights, uint32_t line, uint32_t u, uint32_t v);
-/** The plane of a patch, and the point of it that is seen along a ray, in doubles. */
+/** The plane of a polygon, its normal to a largest component of 1/2 .. 1: products with coordinates do not overflow. */
+geom_plane view_support(const froe_scene *scene, uint32_t object);
+/** The plane of a patch in the same way, and the point of it that is seen along a ray, in doubles. */
 geom_plane view_plane_of(const view_sightlines *sights, uint32_t patch);
 void view_point_on(const view_sightlines *sights, const geom_plane *plane, const double ray[3], double out[3]);
 #endif
