@@ -106,6 +106,7 @@ static void draw_case(fixture *f, fuzz_source *r, fuzz_class kind, bool parallel
     fuzz_points(r, kind, 3, f->points, 12);
     if (parallel && point(f, 0)[0] == 0 && point(f, 0)[1] == 0 && point(f, 0)[2] == 0) f->points[2] = 1;
     f->eye = geom_eye_make(parallel, point(f, 0), point(f, 11));
+    geom_eye_set_extent(&f->eye, fabs(point(f, 10)[0])); /* any size will do */
 }
 
 static bool distinct(const fixture *f, rational_plane *line) {
