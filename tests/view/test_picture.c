@@ -202,6 +202,35 @@ static void shapes_go_under_later_ones_where_corners_are_not_shared(void **state
     froe_tree_free(tree);
 }
 
+/* A wall beside a triangle in its plane, whose border leads away at a sharp angle. A board passes from before the wall
+ * to behind the triangle, which therefore is painted last. */
+static void shapes_go_under_later_ones_with_sharp_corners(void **state) {
+    (void)state;
+    const double x[] = {0, 0, 0, 2, 0,    0,      2,   0,    2,     0,   0,    2,     2,   0,    0,      2.75, 0,
+                        1, 2, 0, 1, 1.75, -0.125, 0.6, 2.25, 0.125, 0.6, 2.25, 0.125, 0.8, 1.75, -0.125, 0.8};
+    const size_t starts[] = {0, 4, 7, 11};
+    const uint32_t styles[] = {0, 1, 2};
+    page p;
+    froe_tree *tree = trees_of_polygons(x, starts, 3, "density");
+    open_page(&p, tree);
+    p.options.styles = styles;
+    look_from(&p, 0, -5, 0, 30);
+    for (int with = 0; with < 2; with++) {
+        p.options.underlap = with;
+        check_view(&p, 50, 1);
+        for (int k = 1; k < 6; k++) {
+            const double at[3] = {2, 0, 0.1 * k};
+            double spot[2];
+            assert_true(froe_project(&p.view, at, spot));
+            assert_int_equal(shapes_at(&p, spot[0] - 0.2, spot[1]), 1);
+            assert_int_equal(shapes_at(&p, spot[0] + 0.2, spot[1]), 1 + with);
+        }
+        froe_picture_free(p.picture);
+    }
+    close_page(&p);
+    froe_tree_free(tree);
+}
+
 /* Two roofs from one ridge, the farther one seen below the eaves of the nearer one: along the ridge
  * it is hidden and would shine through. */
 static void what_is_hidden_ends_before_what_hides_it(void **state) {
@@ -602,6 +631,7 @@ int main(void) {
         cmocka_unit_test(regions_and_fragments_show_the_same),
         cmocka_unit_test(layers_that_one_sees_through_come_in_their_order),
         cmocka_unit_test(shapes_go_under_later_ones_where_corners_are_not_shared),
+        cmocka_unit_test(shapes_go_under_later_ones_with_sharp_corners),
         cmocka_unit_test(what_is_hidden_ends_before_what_hides_it),
         cmocka_unit_test(beyond_its_budget_a_picture_is_made_of_fragments_and_says_so),
         cmocka_unit_test(styles_come_together),

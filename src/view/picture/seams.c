@@ -205,10 +205,12 @@ static bool put_strip(view_seams *s, uint32_t node, print_point a, print_point b
     const print_point u = {a.x + from * dx, a.y + from * dy}, v = {a.x + to * dx, a.y + to * dy};
     const froe_allocator *alloc = &s->parts->v->alloc;
     bool all = (to - from) * length < s->width; /* too short to be seen */
-    for (double width = s->width; !all && width > 0.2 * s->width; width *= 0.5) {
-        const double w = width / length, x = dx * w, y = dy * w;
+    for (int trial = 0; !all && trial < 6; trial++) {
+        /* Where the border of the later face leads away at a sharp angle, only slanting ends stay within it. */
+        const double w = s->width / (1 << trial / 2) / length, slant = trial % 2 ? 1.6 : 0.4, x = dx * w, y = dy * w;
         const print_point strip[4] = {
-            v, u, {u.x - y + 0.4 * x, u.y + x + 0.4 * y}, {v.x - y - 0.4 * x, v.y + x - 0.4 * y}};
+            v, u, {u.x - y + slant * x, u.y + x + slant * y}, {v.x - y - slant * x, v.y + x - slant * y}};
+        if (2 * slant * w >= to - from) continue;
         double covered = 0; /* by pieces that are painted later, which do not overlap */
         for (size_t i = 0; i < s->near.count; i++) {
             if (!view_seam_covers(s, s->near.data[i], node)) continue;
