@@ -161,8 +161,7 @@ static int render_motion(film_run *r) {
     const froe_motion_options window = froe_motion_window(r->motion);
     if (window.dim != 3)
         code = cli_fail(CLI_USE, path, "A motion in the plane has no hidden surfaces. froe simulate shows it.");
-    if (!code && !(isnan(args->at) || (args->at >= window.begin && args->at <= window.end)))
-        code = cli_fail(CLI_USE, NULL, "--at: '%g' is not from %g to %g.", args->at, window.begin, window.end);
+    if (!code) code = cli_check_at(args->at, r->motion);
     const froe_status status = code ? FROE_OK : froe_motion_scene(r->motion, window.begin, NULL, &scene, &diag);
     if (status) code = cli_fail_status(CLI_WORKING, path, status, &diag);
     if (!code && froe_scene_set_up(scene, r->read.up)) code = cli_fail_memory();

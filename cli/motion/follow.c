@@ -2,6 +2,7 @@
 #include "motion/follow.h"
 #include "exit.h"
 #include "motion/bodies.h"
+#include "motion/moving.h"
 #include "progress.h"
 #include <stdio.h>
 #include <string.h>
@@ -111,7 +112,7 @@ int cli_check_follow(const cli_follow *asked, const char *file, const froe_motio
         return cli_fail(CLI_USE, NULL, "--augmented: It is about segments in the plane, and '%s' is in space.", file);
     if (asked->ghosts && !space)
         return cli_fail(CLI_USE, NULL, "--ghosts: It is about triangles in space, and '%s' is in the plane.", file);
-    return 0;
+    return cli_check_at(asked->at, motion);
 }
 
 int cli_follow_motion(const cli_common *common, const cli_follow *asked, const char *file, froe_motion *motion,

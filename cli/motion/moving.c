@@ -99,7 +99,7 @@ int cli_read_moving(const cli_common *common, const cli_moving_args *args, bool 
     o.from = args->from, o.to = args->to, o.animation = args->animation;
     if (!isnan(args->deviation)) o.deviation = args->deviation;
     if (!isnan(args->from) && !isnan(args->to) && !(args->from < args->to))
-        return cli_fail(CLI_USE, NULL, "--from: '%g' is not before --to, '%g'.", args->from, args->to);
+        return cli_fail(CLI_USE, NULL, "--from: '%.15g' is not before --to, '%.15g'.", args->from, args->to);
     if (!(o.deviation > 0)) return cli_fail(CLI_USE, NULL, "--deviation: '%g' is not a number above 0.", o.deviation);
     int code = read_any(common, args, &o, motion, report, &animated);
     if (code) return code;
@@ -111,6 +111,12 @@ int cli_read_moving(const cli_common *common, const cli_moving_args *args, bool 
     code = cli_check_needs(needs, sizeof needs / sizeof *needs);
     if (code) froe_motion_free(*motion);
     return code;
+}
+
+int cli_check_at(double at, const froe_motion *motion) {
+    const froe_motion_options window = froe_motion_window(motion);
+    if (isnan(at) || (at >= window.begin && at <= window.end)) return 0;
+    return cli_fail(CLI_USE, NULL, "--at: '%.15g' is not from %.15g to %.15g.", at, window.begin, window.end);
 }
 
 void cli_report_moving(const froe_motion_report *report, json_t *object) {

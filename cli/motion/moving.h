@@ -18,6 +18,8 @@ extern const cli_option cli_moving_options[];
  * 0, or an exit code after saying why. */
 int cli_read_moving(const cli_common *common, const cli_moving_args *args, bool followed, froe_motion **motion,
                     froe_motion_report *report);
+/** Is a time, which may be NaN, in the window of a motion? CLI_USE after saying that --at is not, or 0. */
+int cli_check_at(double at, const froe_motion *motion);
 /** Adds what is told of an animation to an object. */
 void cli_report_moving(const froe_motion_report *report, json_t *object);
 #endif
