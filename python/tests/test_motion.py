@@ -353,3 +353,13 @@ def test_bodies_that_turn_are_followed_on_parabolas():
     with pytest.raises(ArgumentError):
         bodies.without_bodies(0)
     assert len(froe.Motion(0, 1).without_bodies(1)[0]) == 0
+
+
+def test_times_out_of_reach_are_named_with_those_in_reach():
+    motion = froe.Motion(1577836800000, 1577836810000)
+    kinetic = motion.kinetic()
+    kinetic.advance(1577836805000)
+    with pytest.raises(ArgumentError, match="Time 1577836804000 has passed: the partition has reached 157783680500"):
+        kinetic.advance(1577836804000)
+    with pytest.raises(ArgumentError, match="Time 1577836810001 is not in the window, which ends at 1577836810000"):
+        kinetic.advance(1577836810001)

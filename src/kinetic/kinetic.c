@@ -313,10 +313,13 @@ froe_status froe_kinetic_advance(froe_kinetic *k, double time, froe_event_fn *vi
     BASE_FLOATS_OWN;
     if (!k) return support_fail_null(diag, __func__);
     if (!(time <= k->now.motion->end))
-        return support_fail(diag, FROE_E_ARG, "The time %.17g is not in the window.", time);
+        return support_fail(diag, FROE_E_ARG, "Time %.15g is not in the window, which ends at %.15g.", time,
+                            k->now.motion->end);
     int64_t tick = motion_tick_after(k->now.motion, time) | 1, last = now_last_tick(&k->now);
     if (tick > last) tick = last;
-    if (tick < k->now.tick) return support_fail(diag, FROE_E_ARG, "Time %g has passed.", time);
+    if (tick < k->now.tick)
+        return support_fail(diag, FROE_E_ARG, "Time %.15g has passed: the partition has reached %.15g.", time,
+                            now_time_of(&k->now, k->now.tick));
     const event_watcher watcher = {visit, user};
     const int64_t from = k->now.tick;
     froe_status status = kinetic_begin(k, diag);
