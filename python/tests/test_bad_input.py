@@ -395,7 +395,7 @@ def test_calls_of_the_extension_with_any_arguments(tree):
         (lambda tree: tree.render(size=800), "size is 800, and must be two lengths, like (800, 600)."),
         (lambda tree: tree.render(eye=(0, 1)), "eye has 2 items, which do not make rows of 3."),
         (lambda tree: froe.from_shapely([{"type": "Point", "coordinates": [0, 0]}, 3]), "Object 1 is not a geometry: it is 3."),
-        (lambda tree: froe.Motion(0, 1).add([0], [[0, 0]], [0, 1]), "There are 1 vertices, and each object takes 2."),
+        (lambda tree: froe.Motion(0, 1).add([0], [[0, 0]], [0, 1]), "Each object takes 2 vertices, and their number is 1."),
     ],
 )
 def test_messages_name_what_is_to_blame(call, message):

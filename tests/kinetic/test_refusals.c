@@ -145,7 +145,7 @@ static void calls_of_no_partition_are_refused(void **state) {
     NULLS(froe_kinetic_replan(k, 0, 1, NULL, origin, NULL, NULL, &why));
     NULLS(froe_kinetic_replan(k, 0, 1, origin, NULL, NULL, NULL, &why));
     expect(froe_kinetic_advance(k, 1e9, never_event, NULL, &why), FROE_E_ARG,
-           "The time 1000000000 is not in the window.");
+           "Time 1000000000 is not in the window, which ends at");
     expect(froe_kinetic_remove(k, 6, &why), FROE_E_ARG, "There is no object 6.");
     expect(froe_kinetic_replan(k, 1000, 1, origin, origin, NULL, NULL, &why), FROE_E_ARG, "There is no vertex 1000.");
     froe_kinetic_free(k);

@@ -83,7 +83,8 @@ static bool take_batch(const core_motion *self, core_input *in, PyObject *const 
     b->vertex_count = in[STARTS].count - 1;
     b->count = in[VERTICES].data ? in[VERTICES].count : b->vertex_count / each;
     if (!in[VERTICES].data && b->vertex_count % each)
-        return core_fail_as("ArrayError", "There are %zu vertices, and each object takes %zu.", b->vertex_count, each);
+        return core_fail_as("ArrayError", "Each object takes %zu vertices, and their number is %zu.", each,
+                            b->vertex_count);
     if (!core_input_take_count(&in[BODIES], args[6], "bodies", 'I', 1, b->vertex_count, true) ||
         !core_input_take_count(&in[BIRTHS], args[7], "births", 'd', 1, b->count, true) ||
         !core_input_take_count(&in[DEATHS], args[8], "deaths", 'd', 1, b->count, true) ||
