@@ -31,13 +31,26 @@ static inline bool support_normalize(double *v) {
     return true;
 }
 
-/** Multiplies numbers by a power of two, so that the largest is 1/2 .. 1 and no product of a few of them overflows. */
-static inline void support_scale(double *v, int count) {
+/** Of the largest of some numbers: squares of them divided by 2^that neither overflow nor vanish. */
+static inline int support_exponent(const double *v, int count) {
     double most = 0;
     int exponent;
     for (int k = 0; k < count; k++) most = fmax(most, fabs(v[k]));
     frexp(most, &exponent);
+    return exponent;
+}
+
+/** Multiplies numbers by a power of two, so that the largest is 1/2 .. 1. */
+static inline void support_scale(double *v, int count) {
+    const int exponent = support_exponent(v, count);
     for (int k = 0; k < count; k++) v[k] = ldexp(v[k], -exponent);
+}
+
+/** The length of a vector, whose squares may be no doubles. */
+static inline double support_length(const double *v) {
+    double share[3] = {v[0], v[1], v[2]};
+    support_scale(share, 3);
+    return ldexp(sqrt(support_dot(share, share)), support_exponent(v, 3));
 }
 
 /** A normal of the triangle p, q, r, which turns counterclockwise as seen from where that leads. Its length is no

@@ -1,12 +1,13 @@
 /* bodies.c: see bodies.h. */
 #include "motion/bodies.h"
 #include "exit.h"
+#include "support/axes.h"
 #include <froe/io.h>
 #include <math.h>
 
 /* The diagonal of the box around all vertices when the window begins. */
 static double size_of(const froe_motion *motion) {
-    double lo[3] = {0}, hi[3] = {0}, at[3], square = 0;
+    double lo[3] = {0}, hi[3] = {0}, at[3];
     bool any = false;
     for (uint32_t v = 0; v < froe_motion_vertex_count(motion); v++) {
         if (!froe_motion_position(motion, v, froe_motion_window(motion).begin, at)) continue;
@@ -16,8 +17,8 @@ static double size_of(const froe_motion *motion) {
         }
         any = true;
     }
-    for (int k = 0; k < 3; k++) square += (hi[k] - lo[k]) * (hi[k] - lo[k]);
-    return square > 0 ? sqrt(square) : 1;
+    const double size = support_length((const double[]){hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]});
+    return size > 0 ? size : 1;
 }
 
 bool cli_has_turning_bodies(const froe_motion *motion) {

@@ -2,6 +2,7 @@
  * others one body that stands still. */
 #include "animation/rigid.h"
 #include "formats/input/bodies.h"
+#include "support/axes.h"
 #include "support/floats.h"
 #include <math.h>
 #include <string.h>
@@ -161,7 +162,7 @@ static formats_reader *choose_moving(const formats_source *source) {
 /* Which part each object belongs to, the boxes of parts, and the size of the model when the window begins. */
 static froe_status measure_parts(moving_model *m, const froe_scene *scene) {
     const uint32_t objects = (uint32_t)froe_scene_object_count(scene);
-    double lo[3], hi[3], square = 0;
+    double lo[3], hi[3];
     if (!array_reserve(&m->animation.sink->alloc, &m->parts_of_objects, objects)) return no_memory(m);
     for (int k = 0; k < 3; k++) lo[k] = (double)INFINITY, hi[k] = -(double)INFINITY;
     for (size_t p = 0; p < m->parts.count; p++)
@@ -186,8 +187,7 @@ static froe_status measure_parts(moving_model *m, const froe_scene *scene) {
             }
         }
     }
-    for (int k = 0; k < 3; k++) square += (hi[k] - lo[k]) * (hi[k] - lo[k]);
-    m->report.extent = sqrt(square);
+    m->report.extent = support_length((const double[]){hi[0] - lo[0], hi[1] - lo[1], hi[2] - lo[2]});
     return FROE_OK;
 }
 

@@ -18,27 +18,13 @@ static void turn_about(const double *axis, double cosine, double sine, const dou
     }
 }
 
-/* The exponent of the largest of three numbers, so that squares of shares of 2^that neither overflow nor vanish. */
-static int exponent_of(const double *v) {
-    int exponent = 0;
-    frexp(fmax(fmax(fabs(v[0]), fabs(v[1])), fabs(v[2])), &exponent);
-    return exponent;
-}
-
-static double length_of(const double *v) {
-    const int exponent = exponent_of(v);
-    double share[3];
-    for (int k = 0; k < 3; k++) share[k] = ldexp(v[k], -exponent);
-    return ldexp(sqrt(support_dot(share, share)), exponent);
-}
-
 /* A way that the coordinates of a large scene, or of one far away, do not swallow when it is added to them. */
 static void lengthen(const froe_scene *scene, double *way) {
     enum { MOST = 16 }; /* bits of the way that they may */
-    const int exponent = exponent_of(way);
+    const int exponent = support_exponent(way, 3);
     int most = exponent;
     if (scene->object_count) {
-        const int lo = exponent_of(scene->lo), hi = exponent_of(scene->hi);
+        const int lo = support_exponent(scene->lo, 3), hi = support_exponent(scene->hi, 3);
         most = lo > hi ? lo : hi;
     }
     for (int k = 0; k < 3 && most - exponent > MOST; k++) way[k] = ldexp(way[k], most - exponent);
@@ -56,14 +42,14 @@ static froe_status fit(const froe_camera *c, const froe_scene *scene, const doub
         shrink = fmin(shrink, half / (half + fabs(view.centre[k] - 0.5 * size)));
     }
     for (int k = 0; k < 3; k++) way[k] = view.origin[k] - middle[k];
-    *distance = fmax(*distance, length_of(way));
+    *distance = fmax(*distance, support_length(way));
     *scale = fmin(*scale, c->scale > 0 ? c->scale : view.scale * shrink);
     return FROE_OK;
 }
 
 /* The axis of a turntable, of length 1. */
 static froe_status find_axis(const froe_camera *camera, double axis[3], froe_diagnostic *diag) {
-    const double up = length_of(camera->up);
+    const double up = support_length(camera->up);
     if (!(up > 0) || !isfinite(up)) return support_fail(diag, FROE_E_ARG, "A turntable needs an axis, and up is none.");
     for (int k = 0; k < 3; k++) axis[k] = camera->up[k] / up;
     return FROE_OK;
@@ -113,7 +99,7 @@ froe_status froe_camera_turn(const froe_camera *camera, const froe_scene *scene,
     }
     for (size_t i = 0; i < count; i++) {
         froe_camera *c = cameras + i;
-        const double length = length_of(way);
+        const double length = support_length(way);
         c->fit = false;
         if (c->parallel) c->scale = scale;
         for (int k = 0; k < 3 && !c->parallel; k++)
