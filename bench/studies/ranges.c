@@ -3,8 +3,9 @@
  *     bench_ranges [KIND [N [EVENTS [THREADS]]]]       default: moving, 10,000 segments, 300,000 events, 4 threads
  *     bench_ranges FILE.mfjson [0 [EVENTS [THREADS]]]  of a file
  *
- * With one thread ranges go on one after the other. The same events are found twice, and have to be the same. Time by the clock says something where no other work keeps
- * the processors busy; processor time says what ranges cost, or save because small partitions are in nearer caches. */
+ * With one thread ranges go on one after the other. The same events are found twice, and have to be the same. Time by
+ * the clock says something where no other work keeps the processors busy; processor time says what ranges cost, or save
+ * because small partitions are in nearer caches. */
 #include "bench.h"
 #include "kinetic/kinetic.h"
 #include <froe/formats.h>

@@ -287,13 +287,13 @@ typedef struct froe_kinetic_options {
                          order. 0: one per processor; default: 1. With more than one, events are found `ahead`. It is
                          one in space, with `epoch`, `swap` or `augmented`, with few segments, and as long as segments
                          lie in one line */
-    bool ahead; /**< events may be found ahead on one thread, too, which is sooner among thousands of segments. Then
-                     `visit` asks for nothing but froe_kinetic_time() and froe_kinetic_instant(), and what
-                     froe_kinetic_stats tells of the work is more. false (default) */
     bool ghosts; /**< in space: of two triangles that meet, the one with the greater number is left out from just before
                       that until it meets none any more that is there; what is told is `touch` of both, `disappear` and
                       `appear`. So scenes that meet from the start are followed, too. false (default): the partition
                       ends before the first contact. Not with `unchecked` */
+    bool ahead; /**< events may be found ahead on one thread, too, which is sooner among thousands of segments. Then
+                     `visit` asks for nothing but froe_kinetic_time() and froe_kinetic_instant(), and what
+                     froe_kinetic_stats tells of the work is more. false (default) */
 } froe_kinetic_options;
 FROE_DEFAULTS(froe_kinetic_options, froe_kinetic_defaults);
 

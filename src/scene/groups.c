@@ -9,7 +9,7 @@ typedef struct group_text {
     size_t place, size; /* where in the text; with its end, or 0 for "" and NULL, which cost nothing */
 } group_text;
 
-static group_text take_text(const struct scene_store *store, const char *string) {
+static group_text take_group_text(const struct scene_store *store, const char *string) {
     const size_t size = string && *string ? strlen(string) + 1 : 0;
     const uintptr_t place = (uintptr_t)string - (uintptr_t)store->text.data;
     const bool own = size && place < store->text.count;
@@ -17,7 +17,7 @@ static group_text take_text(const struct scene_store *store, const char *string)
 }
 
 /** Appends a string and tells its offset. REQUIRES: room in text. */
-static uint32_t put_text(struct scene_store *store, const group_text *text) {
+static uint32_t put_group_text(struct scene_store *store, const group_text *text) {
     if (!text->size) return 0;
     const size_t offset = store->text.count;
     memcpy(store->text.data + offset, text->string ? text->string : store->text.data + text->place, text->size);
@@ -31,8 +31,8 @@ froe_status froe_scene_add_group(froe_scene *scene, const froe_group *group, uin
     froe_status status = scene_growable(scene, NULL);
     if (status) return status;
     struct scene_store *store = scene->store;
-    const group_text name = take_text(store, group->name), material = take_text(store, group->material),
-                     left = take_text(store, group->left), right = take_text(store, group->right);
+    const group_text name = take_group_text(store, group->name), material = take_group_text(store, group->material),
+                     left = take_group_text(store, group->left), right = take_group_text(store, group->right);
     const size_t need = 1 + name.size + material.size + left.size + right.size;
     if (store->group_table.count == SCENE_LIMIT || need > UINT32_MAX - store->text.count) return FROE_E_LIMIT;
     bool room =
@@ -40,10 +40,10 @@ froe_status froe_scene_add_group(froe_scene *scene, const froe_group *group, uin
     if (room) {
         if (!store->text.count) store->text.data[store->text.count++] = 0;
         scene_group *g = store->group_table.data + store->group_table.count++;
-        g->name = put_text(store, &name);
-        g->material = put_text(store, &material);
-        g->left = put_text(store, &left);
-        g->right = put_text(store, &right);
+        g->name = put_group_text(store, &name);
+        g->material = put_group_text(store, &material);
+        g->left = put_group_text(store, &left);
+        g->right = put_group_text(store, &right);
         g->colour = group->colour;
         if (id) *id = (uint32_t)store->group_table.count - 1;
     }

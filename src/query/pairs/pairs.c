@@ -188,6 +188,7 @@ froe_status froe_batch_pair_array(froe_query *query, bool shared, const froe_bat
 }
 
 froe_status froe_query_pairs(froe_query *query, bool shared, froe_pair_fn *fn, void *user, froe_diagnostic *diag) {
+    BASE_FLOATS_OWN;
     if (!query || !fn) return support_fail_null(diag, __func__);
     froe_batch_options alone = froe_batch_defaults();
     alone.threads = 1;
