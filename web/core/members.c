@@ -42,7 +42,8 @@ WEB_EXPORT void web_kind_defaults(const web_kind *kind, void *options) {
     kind->defaults(options);
 }
 
-static const web_member *find(const web_kind *kind, const char *name) {
+/* The member of this name, or NULL, which is refused. */
+static const web_member *find(const web_kind *kind, const char *name, froe_diagnostic *diag) {
     for (const web_member *member = kind->members; member->name; member++) {
         const size_t length = strlen(member->name);
         if (member->type == WEB_VECTOR ? !strncmp(name, member->name, length) && name[length] == '.' &&
@@ -50,27 +51,43 @@ static const web_member *find(const web_kind *kind, const char *name) {
                                        : !strcmp(name, member->name))
             return member;
     }
+    refuse(diag, "There is no option %s%s.", name, "");
     return NULL;
 }
 
 /* The range of whole numbers that a member takes; false: it takes any number. */
 static bool range_of(web_type type, double *least, double *most) {
-    *least = type == WEB_INT ? -2147483648.0 : 0;
-    *most = type == WEB_UINT64 ? 9007199254740992.0 : type == WEB_BOOL ? 1 : 4294967295.0;
+    *least = type == WEB_SIGNED ? -2147483648.0 : 0;
+    *most = type == WEB_SIGNED   ? 2147483647.0
+            : type == WEB_UINT64 ? 9007199254740991.0
+            : type == WEB_BOOL   ? 1
+                                 : 4294967295.0;
     return type != WEB_DOUBLE && type != WEB_VECTOR;
+}
+
+static froe_status refuse_number(froe_diagnostic *diag, const web_member *member, double value) {
+    double least, most;
+    char what[96];
+    if (member->type == WEB_SIGNED)
+        snprintf(what, sizeof what, "%.16g, not a whole number", value);
+    else if (range_of(member->type, &least, &most))
+        snprintf(what, sizeof what, "%.16g, not a whole number from %.16g to %.16g", value, least, most);
+    else
+        snprintf(what, sizeof what, "%.16g, not a number", value);
+    return refuse(diag, "The option %s is %s.", member->name, what);
 }
 
 /** Sets a member to a number. FROE_E_OPTIONS: no such member, no number, or no whole one where one is asked for. */
 WEB_EXPORT froe_status web_set_number(const web_kind *kind, void *options, const char *name, double value,
                                       froe_diagnostic *diag) {
-    const web_member *member = find(kind, name);
-    if (!member) return refuse(diag, "There is no option %s%s.", name, "");
-    if (member->type == WEB_NAMED || member->type == WEB_TEXT || member->type == WEB_ADDRESS)
-        return refuse(diag, "The option %s is no number%s.", name, "");
+    const web_member *member = find(kind, name, diag);
+    if (!member) return FROE_E_OPTIONS;
+    if (member->type >= WEB_ADDRESS) return refuse(diag, "The option %s is no number%s.", name, "");
     char *at = (char *)options + member->offset;
     double least, most;
-    if (range_of(member->type, &least, &most) && !(value >= least && value <= most && value == floor(value)))
-        return refuse(diag, "The option %s is no whole number in its range%s.", name, "");
+    const bool whole = range_of(member->type, &least, &most);
+    if (isnan(value) || (whole && !(value >= least && value <= most && value == floor(value))))
+        return refuse_number(diag, member, value);
     switch (member->type) {
     case WEB_BOOL:
         *(bool *)at = value != 0;
@@ -84,45 +101,75 @@ WEB_EXPORT froe_status web_set_number(const web_kind *kind, void *options, const
     case WEB_VECTOR:
         ((double *)at)[name[strlen(member->name) + 1] - '0'] = value;
         break;
+    case WEB_SIGNED:
+        *(int *)at = (int)value;
+        break;
     default:
-        if (value < 0)
-            *(int *)at = (int)value;
-        else
-            *(uint32_t *)at = (uint32_t)value;
+        *(uint32_t *)at = (uint32_t)value;
     }
+    return FROE_OK;
+}
+
+/** Sets a member of type WEB_BOOL. FROE_E_OPTIONS: no such member. */
+WEB_EXPORT froe_status web_set_truth(const web_kind *kind, void *options, const char *name, int value,
+                                     froe_diagnostic *diag) {
+    const web_member *member = find(kind, name, diag);
+    if (!member) return FROE_E_OPTIONS;
+    if (member->type != WEB_BOOL)
+        return refuse(diag, "The option %s does not take %s.", name, value ? "true" : "false");
+    *(bool *)((char *)options + member->offset) = value != 0;
     return FROE_OK;
 }
 
 /** Sets a member of type WEB_ADDRESS. FROE_E_OPTIONS: no such member. */
 WEB_EXPORT froe_status web_set_address(const web_kind *kind, void *options, const char *name, const void *value,
                                        froe_diagnostic *diag) {
-    const web_member *member = find(kind, name);
-    if (!member) return refuse(diag, "There is no option %s%s.", name, "");
+    const web_member *member = find(kind, name, diag);
+    if (!member) return FROE_E_OPTIONS;
     if (member->type != WEB_ADDRESS) return refuse(diag, "The option %s is no array%s.", name, "");
     *(const void **)((char *)options + member->offset) = value;
     return FROE_OK;
 }
 
-/** Sets a member by a text: WEB_TEXT to it, WEB_NAMED to the value of that name; WEB_BITS gets one more bit.
- * FROE_E_OPTIONS: no such member, or no such value. */
+/* Finds the number of a value by its name. FROE_E_OPTIONS: there is none. */
+static froe_status number_of(const web_member *member, const char *value, int *out, froe_diagnostic *diag) {
+    for (int i = 0; i < 31; i++) {
+        *out = member->type == WEB_BITS ? 1 << i : i;
+        const char *known = member->value_name(*out);
+        if (!known) break;
+        if (!strcmp(known, value)) return FROE_OK;
+    }
+    return refuse(diag, "The option %s does not have the value '%s'.", member->name, value);
+}
+
+/** Sets a member by a text: WEB_TEXT to it, WEB_NAMED to the value of that name. FROE_E_OPTIONS: no such member, or no
+ * such value. */
 WEB_EXPORT froe_status web_set_text(const web_kind *kind, void *options, const char *name, const char *value,
                                     froe_diagnostic *diag) {
-    const web_member *member = find(kind, name);
-    if (!member) return refuse(diag, "There is no option %s%s.", name, "");
+    const web_member *member = find(kind, name, diag);
+    if (!member) return FROE_E_OPTIONS;
     char *at = (char *)options + member->offset;
-    if (member->type == WEB_TEXT) {
-        *(const char **)at = value;
-        return FROE_OK;
-    }
-    if (!member->value_name) return refuse(diag, "The option %s does not take the text '%s'.", name, value);
-    const bool bits = member->type == WEB_BITS;
-    for (int i = 0; i < 31; i++) {
-        const int number = bits ? 1 << i : i;
-        const char *known = member->value_name(number);
-        if (!known) break;
-        if (strcmp(known, value) != 0) continue;
-        *(int *)at = bits ? *(int *)at | number : number;
-        return FROE_OK;
-    }
-    return refuse(diag, "The option %s does not have the value '%s'.", name, value);
+    if (member->type == WEB_NAMED) return number_of(member, value, (int *)at, diag);
+    if (member->type != WEB_TEXT) return refuse(diag, "The option %s does not take the text '%s'.", name, value);
+    *(const char **)at = value;
+    return FROE_OK;
+}
+
+/** Empties a member of type WEB_BITS. FROE_E_OPTIONS: no such member. */
+WEB_EXPORT froe_status web_set_empty(const web_kind *kind, void *options, const char *name, froe_diagnostic *diag) {
+    const web_member *member = find(kind, name, diag);
+    if (!member) return FROE_E_OPTIONS;
+    if (member->type != WEB_BITS) return refuse(diag, "The option %s is no list of names%s.", name, "");
+    *(int *)((char *)options + member->offset) = 0;
+    return FROE_OK;
+}
+
+/** Adds the value of a name to a member that web_set_empty() has emptied. FROE_E_OPTIONS: no such value. */
+WEB_EXPORT froe_status web_add_name(const web_kind *kind, void *options, const char *name, const char *value,
+                                    froe_diagnostic *diag) {
+    const web_member *member = find(kind, name, diag);
+    int bit = 0;
+    const froe_status status = member ? number_of(member, value, &bit, diag) : FROE_E_OPTIONS;
+    if (status == FROE_OK) *(int *)((char *)options + member->offset) |= bit;
+    return status;
 }

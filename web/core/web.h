@@ -16,9 +16,10 @@
 /** What a member of a struct of options is. */
 typedef enum web_type {
     WEB_BOOL,
-    WEB_INT,     /**< int, unsigned, size_t: all of 4 bytes */
-    WEB_UINT64,  /**< a whole number, at most 2^53 */
-    WEB_DOUBLE,  /**< any */
+    WEB_INT,     /**< unsigned, size_t, int that is not negative: all of 4 bytes */
+    WEB_SIGNED,  /**< int */
+    WEB_UINT64,  /**< a whole number below 2^53: all of these are numbers of JavaScript */
+    WEB_DOUBLE,  /**< any number, and infinities */
     WEB_VECTOR,  /**< three doubles: the axis is a part of the name, as in "eye.0" */
     WEB_ADDRESS, /**< of an array, which must live as long as the options */
     WEB_TEXT,    /**< so must a text */

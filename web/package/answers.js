@@ -1,5 +1,7 @@
 /* answers.js: a list for each question of a batch */
 
+import { among } from "./given.js";
+
 /** Answers of a batch: those of question i are ids[starts[i] .. starts[i + 1]), with values beside them where there
  * are any (distances, parameters). */
 export class Answers {
@@ -9,8 +11,12 @@ export class Answers {
         this.values = values;
     }
     get length() { return this.starts.length - 1; }
-    at(i) { return this.ids.subarray(this.starts[i], this.starts[i + 1]); }
-    valuesAt(i) { return this.values && this.values.subarray(this.starts[i], this.starts[i + 1]); }
+    at(i) { return this.#of(this.ids, i); }
+    valuesAt(i) { return this.#of(this.values, i); }
+    #of(list, i) {
+        among(i, this.length, "question");
+        return list && list.subarray(this.starts[i], this.starts[i + 1]);
+    }
     *[Symbol.iterator]() { for (let i = 0; i < this.length; i++) yield this.at(i); }
 }
 

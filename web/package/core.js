@@ -4,7 +4,7 @@
  * web/core its arguments and, last, a diagnostic; a status other than FROE_OK becomes a FroeError. Structs are read
  * where web/core/layout.c asserts that their members are. */
 
-import { given, number, shown, text } from "./given.js";
+import { given, held, number, shown, text } from "./given.js";
 
 /** What a call could not do. `status` is a name of the C interface ("FROE_E_INPUT"); `object`, `corner` and `axis` tell
  * what it was about, or are null. */
@@ -24,12 +24,21 @@ export const NONE = 0xffffffff;
 const DIAGNOSTIC = 260, BYTES = 16;
 const some = (n) => (n === NONE ? null : n);
 
+/* A name without folders, as it is in UTF-8: halves of characters become U+FFFD. */
+function fileOf(name) {
+    const own = new TextDecoder().decode(new TextEncoder().encode(text(name, "The name of a file").replace(/.*[/\\]/s, "")));
+    if (own.includes("\0")) throw new TypeError(`The name of a file, ${shown(own)}, has a character of code 0.`);
+    return [".", ".."].includes(own) || !own ? "unnamed" : own;
+}
+
 export class Core {
     #wasm;
     #diagnostic;
     #batch;
     #kinds = new Map();
-    #thrown = null;
+    #depth = 0;          // of within()
+    #telling = false;    // does the progress function run?
+    #thrown = null;      // by it
     /** Told the share done while a call runs; false cancels the call. */
     progress = null;
 
@@ -43,12 +52,25 @@ export class Core {
     }
     /* An exception must not pass through the frames of WebAssembly: they would leave what they hold. */
     #goOn(done) {
+        this.#telling = true;
         try {
             return this.progress === null || this.progress(done) !== false;
         } catch (error) {
-            this.#thrown = { error };
+            this.#thrown ??= { error };
             return false;
+        } finally {
+            this.#telling = false;
         }
+    }
+    #throwAgain() {
+        if (!this.#thrown) return;
+        const { error } = this.#thrown;
+        this.#thrown = null;
+        throw error;
+    }
+    /** Refuses what the progress function asks: the call that it is told of has not finished with its objects. */
+    idle() {
+        if (this.#telling) throw new FroeError("FROE_E_ARG", "A progress function cannot use froe, which is in the midst of a call.");
     }
 
     get size() { return this.#wasm.HEAPU8.length; }
@@ -80,6 +102,8 @@ export class Core {
 
     /** Calls `body` with an arena: what it puts into the memory is freed afterwards. */
     within(body) {
+        this.idle();
+        this.#depth++;
         const taken = [];
         const arena = {
             room: (bytes) => { const at = this.malloc(bytes); taken.push(at); return at; },
@@ -89,20 +113,27 @@ export class Core {
                 return at;
             },
             text: (text) => {
+                if (text.includes("\0")) throw new TypeError(`The text ${shown(text)} has a character of code 0.`);
                 const size = this.#wasm.lengthBytesUTF8(text) + 1, at = arena.room(size);
                 this.#wasm.stringToUTF8(text, at, size);
                 return at;
             },
         };
         try {
-            return body(arena);
+            const made = body(arena);
+            if (this.#depth === 1) this.#throwAgain(); // what was made is forgotten, and is freed as such
+            return made;
         } finally {
             for (const address of taken) this.get("web_free", address);
+            if (--this.#depth === 0) this.#thrown = null;
         }
     }
 
     /** A function that cannot fail. */
-    get(name, ...args) { return this.#wasm["_" + name](...args); }
+    get(name, ...args) {
+        this.idle();
+        return this.#wasm["_" + name](...args);
+    }
     /** The text that a function returns; null where there is none. */
     text(name, ...args) { return this.string(this.get(name, ...args) >>> 0); }
     /** A function that returns a status. Its last argument is a diagnostic; one that takes none does not see it. */
@@ -110,11 +141,7 @@ export class Core {
         const told = this.view(Uint32Array, this.#diagnostic, 1);
         told[0] = 0;
         const status = this.get(name, ...args, this.#diagnostic);
-        if (this.#thrown) {
-            const { error } = this.#thrown;
-            this.#thrown = null;
-            throw error;
-        }
+        if (status || this.#depth === 0) this.#throwAgain();
         if (status) throw this.#failure(status);
     }
     #failure(status) {
@@ -178,25 +205,27 @@ export class Core {
         const set = (type, name, value) => this.call(`web_set_${type}`, kind, at, arena.text(name), value);
         if (ArrayBuffer.isView(value)) set("address", name, arena.array(value));
         else if (typeof value === "string") set("text", name, arena.text(value));
-        else if (["number", "bigint", "boolean"].includes(typeof value)) set("number", name, Number(value));
+        else if (typeof value === "boolean") set("truth", name, value ? 1 : 0);
+        else if (["number", "bigint"].includes(typeof value)) set("number", name, Number(value));
         else if (!Array.isArray(value)) throw new TypeError(`The option ${name} cannot be ${shown(value)}.`);
         else if (this.#named(name, value[0])) set("address", name, this.list(arena, name, value));
         else if (typeof value[0] === "number") value.forEach((part, i) => set("number", `${name}.${i}`, number(part, name)));
         else {
-            for (const part of value) text(part, `What ${name} lists`);
-            set("number", name, 0);
-            for (const part of value) set("text", name, arena.text(part));
+            this.call("web_set_empty", kind, at, arena.text(name));
+            for (const part of value) this.call("web_add_name", kind, at, arena.text(name), arena.text(text(part, `What ${name} lists`)));
         }
     }
 
     /** Calls `body` in an empty folder of the module's own file system, with `put(name, bytes)`, which makes a file, and
      * `take(name)`, which gives the bytes of one. Both drop folders of names, as path(name) does. No file stays. */
     files(body) {
-        const { FS } = this.#wasm, folder = "/froe", path = (name) => text(name, "The name of a file").replace(/.*[/\\]/, "") || "unnamed";
+        this.idle();
+        const { FS } = this.#wasm, folder = "/froe";
         FS.mkdir(folder);
         FS.chdir(folder);
         try {
-            return body({ path, put: (name, bytes) => FS.writeFile(path(name), bytes), take: (name) => FS.readFile(path(name)) });
+            return body({ path: fileOf, put: (name, bytes) => FS.writeFile(fileOf(name), held(bytes, `the file ${shown(name)}`)),
+                take: (name) => FS.readFile(fileOf(name)) });
         } finally {
             for (const name of FS.readdir(folder)) if (name !== "." && name !== "..") FS.unlink(`${folder}/${name}`);
             FS.chdir("/");

@@ -1,6 +1,6 @@
 /* froe.js: what a loaded module makes */
 import { Motion } from "./motion.js";
-import { given, number, shown, text, typed, whole } from "./given.js";
+import { given, listener, shown, text, typed, whole } from "./given.js";
 import { Scene } from "./scene.js";
 import { Tree } from "./tree.js";
 
@@ -25,11 +25,10 @@ export class Froe {
      * freed. */
     get memory() { return this.#core.size; }
     /** A function that is told the share done, 0 to 1, now and then while a call runs; if it returns false or throws, the
-     * call ends. Or null. */
+     * call ends. It cannot use froe itself. Or null. */
     get progress() { return this.#core.progress; }
     set progress(progress) {
-        if (progress !== null && typeof progress !== "function") throw new TypeError(`progress is not a function, but ${shown(progress)}.`);
-        this.#core.progress = progress;
+        this.#core.progress = listener(progress);
     }
 
     /** An empty scene of 2 to 8 dimensions. */

@@ -1,5 +1,5 @@
 /* groups.js: what objects of a scene or of a motion may share */
-import { given, text, whole } from "./given.js";
+import { among, given, text, whole } from "./given.js";
 
 const GROUP = 20; // bytes of froe_group
 
@@ -13,7 +13,7 @@ export function addGroup(core, name, address, group) {
 }
 /** Group `i`, by a function that returns it. */
 export function groupOf(core, name, address, i, count) {
-    whole(i, "The number of a group", 0, count - 1);
+    among(i, count, "group");
     return core.within((arena) => {
         const out = arena.room(GROUP);
         core.get(name, out, address, i);

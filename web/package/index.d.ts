@@ -36,7 +36,7 @@ export type EventKind = "vertices" | "vertex-crossing" | "crossings" | "contact"
     | "appear" | "disappear" | "flop" | "touch";
 
 /** Told the share done, 0 to 1, now and then while a call runs. If it returns false, the call ends with
- * FROE_E_CANCELLED; if it throws, with what it has thrown. */
+ * FROE_E_CANCELLED; if it throws, with what it has thrown. It cannot use froe itself. */
 export type Progress = (done: number) => unknown;
 
 export interface LoadOptions {
@@ -253,6 +253,7 @@ export class Answers implements Iterable<Uint32Array> {
     readonly ids: Uint32Array;
     readonly values: Float64Array | null;
     readonly length: number;
+    /** The list of question i, and the values beside it. A RangeError where there is no such question. */
     at(i: number): Uint32Array;
     valuesAt(i: number): Float64Array | null;
     [Symbol.iterator](): IterableIterator<Uint32Array>;

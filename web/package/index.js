@@ -7,6 +7,7 @@
  */
 import { Core } from "./core.js";
 import { Froe } from "./froe.js";
+import { given, listener } from "./given.js";
 
 export { Answers } from "./answers.js";
 export { FroeError, NONE } from "./core.js";
@@ -36,7 +37,9 @@ async function bytesOf(url) {
 
 /** Loads froe. Options: `plain`, true: without the vector instructions of WebAssembly, as is done by itself where there are
  * none; `progress`: see Froe. */
-export async function load({ plain = !WebAssembly.validate(VECTOR), progress = null } = {}) {
+export async function load(options) {
+    const { plain, progress } = given(options, { plain: !WebAssembly.validate(VECTOR), progress: null });
+    listener(progress);
     const { start, url } = plain ? FOLDERS.plain : FOLDERS.simd;
     const { default: make } = await start();
     const core = new Core(await make({ locateFile: () => url().href, ...(await bytesOf(url())) }));

@@ -1,5 +1,5 @@
 /* motion.js: objects that move, and when they meet */
-import { arraysOf, checkLengths, checkStarts, number, whole } from "./given.js";
+import { arraysOf, checkLengths, checkStarts, counted, number, whole } from "./given.js";
 import { addGroup, groupOf } from "./groups.js";
 import { Kinetic } from "./kinetic.js";
 import { AT, CORE, HANDLE, Handle, Resource } from "./resource.js";
@@ -45,13 +45,13 @@ export class Motion extends Resource {
             if (!options[name]) throw new TypeError(`A batch of moving objects has ${name}.`);
         whole(options.vertexCount ??= Math.max(options.starts.length - 1, 0), "vertexCount");
         checkStarts(options.starts, options.vertexCount, options.times.length);
-        checkLengths(options, ["coords", "controls", "secondControls"], dim * options.starts[options.vertexCount], "coordinates");
-        checkLengths(options, ["bodies"], options.vertexCount, "vertices");
+        checkLengths(options, ["coords", "controls", "secondControls"], dim * options.starts[options.vertexCount]);
+        checkLengths(options, ["bodies"], options.vertexCount);
         const joined = options.vertices?.length ?? options.vertexCount;
         options.count ??= joined / dim;
         if (!Number.isInteger(options.count) || options.count < 0 || options.count * dim > joined)
-            throw new TypeError(`${joined} vertices are no whole ${dim === 2 ? "segments" : "triangles"}.`);
-        checkLengths(options, ["births", "deaths", "tags", "groups"], options.count, "objects");
+            throw new TypeError(`${counted(options.count, dim === 2 ? "segment" : "triangle")} cannot be made of ${counted(joined, "vertex", "vertices")}.`);
+        checkLengths(options, ["births", "deaths", "tags", "groups"], options.count);
         this[CORE].within((arena) =>
             this[CORE].call("froe_motion_add", this[AT], this[CORE].options(arena, "moving", options)));
         return this;
@@ -62,8 +62,8 @@ export class Motion extends Resource {
         const options = arraysOf(BODY, body), dim = this.dim;
         if (!options.times || !options.coords) throw new TypeError("A body has times and coords.");
         options.count = options.times.length;
-        checkLengths(options, ["coords", "controls"], dim * options.count, "coordinates");
-        checkLengths(options, ["turns"], (dim === 2 ? 2 : 4) * options.count, "numbers of turns");
+        checkLengths(options, ["coords", "controls"], dim * options.count);
+        checkLengths(options, ["turns"], (dim === 2 ? 2 : 4) * options.count);
         return this[CORE].within((arena) =>
             this[CORE].made("froe_motion_add_body", this[AT], this[CORE].options(arena, "body", options)));
     }
@@ -118,7 +118,7 @@ export class Motion extends Resource {
     /** A partition that follows the motion, at the beginning of the window. Options: seed, order, epoch, swap, augmented. */
     partition(options = {}) {
         const core = this[CORE], all = arraysOf({ order: Uint32Array }, options);
-        checkLengths(all, ["order"], this.objectCount, "objects");
+        checkLengths(all, ["order"], this.objectCount);
         return core.within((arena) => new Kinetic(this, new Handle(core, "froe_kinetic_free",
             core.made("froe_kinetic_new", this[AT], core.options(arena, "kinetic", all), 0), this[HANDLE])));
     }

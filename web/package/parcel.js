@@ -4,6 +4,7 @@
  * lists of answers get their class back on the other side. */
 import { Answers } from "./answers.js";
 import { FroeError } from "./core.js";
+import { held, shown } from "./given.js";
 
 const moving = new WeakSet();
 
@@ -13,14 +14,19 @@ export function moved(array) {
     return array;
 }
 
+const ERRORS = { TypeError, RangeError };
+
 /** What is sent for a value. Appends to `move` the memory that moves with it; `handle` gives the handle of an object
  * that stays, or undefined. */
 export function encode(value, move, handle, all = false) {
+    if (typeof value === "function" || typeof value === "symbol") throw new TypeError(`A worker cannot be given ${shown(value)}.`);
     if (value === null || typeof value !== "object") return value;
-    const held = handle(value);
-    if (held !== undefined) return { is: "remote", held };
+    const number = handle(value);
+    if (number !== undefined) return { is: "remote", held: number };
     if (ArrayBuffer.isView(value)) {
-        if ((all || moving.has(value)) && !move.includes(value.buffer)) move.push(value.buffer);
+        held(value, "an array");
+        const own = value.buffer instanceof ArrayBuffer; // shared memory is nobody's to give away
+        if (own && (all || moving.has(value)) && !move.includes(value.buffer)) move.push(value.buffer);
         return value;
     }
     if (value instanceof Error)
@@ -39,7 +45,7 @@ export function decode(value, remote) {
     if (value.is === "answers") return new Answers(...value.lists);
     if (value.is === "error") {
         if (value.status) return new FroeError(value.status, value.message, ...value.at);
-        return new (value.name === "TypeError" ? TypeError : Error)(value.message);
+        return new (ERRORS[value.name] ?? Error)(value.message);
     }
     return Object.fromEntries(Object.entries(value).map(([name, part]) => [name, decode(part, remote)]));
 }

@@ -54,6 +54,7 @@ export class Resource {
 
     /** Once freed, it answers nothing any more; what was made of it may stay in use. */
     free() {
+        this.#core.idle();
         forgotten.unregister(this);
         for (const handle of this.#handles.splice(0)) handle.release();
     }

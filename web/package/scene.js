@@ -1,5 +1,5 @@
 /* scene.js: scenes, and how they become trees */
-import { arraysOf, checkLengths, checkStarts, given, shown, text } from "./given.js";
+import { arraysOf, checkLengths, checkStarts, counted, given, shown, text } from "./given.js";
 import { NONE } from "./core.js";
 import { addGroup, groupOf } from "./groups.js";
 import { AT, CORE, HANDLE, Handle, Resource } from "./resource.js";
@@ -37,11 +37,11 @@ export class Scene extends Resource {
         const corners = options.indices ? options.indices.length : points;
         options.count = count ?? (options.starts ? Math.max(options.starts.length - 1, 0) : corners / CORNERS[kind]);
         if (!Number.isInteger(points) || !Number.isInteger(options.count) || options.count < 0)
-            throw new TypeError(`coords has ${options.coords.length} numbers, which are no whole ${kind}s.`);
+            throw new TypeError(`coords has ${counted(options.coords.length, "number")}, which are no whole ${kind}s.`);
         if (options.starts) checkStarts(options.starts, options.count, corners);
         else if (options.count * CORNERS[kind] > corners)
-            throw new TypeError(`${options.count} ${kind}s need more than the ${corners} corners that are given.`);
-        checkLengths(options, ["radii", "tags", "faces", "groups"], options.count, `${kind}s`);
+            throw new TypeError(`${counted(options.count, kind)} cannot be made of ${counted(corners, "corner")}.`);
+        checkLengths(options, ["radii", "tags", "faces", "groups"], options.count);
         if (kind === "ball" && !options.radii) throw new TypeError("Balls need radii.");
         if (options.indices) options.pointCount = points;
         this[CORE].within((arena) =>

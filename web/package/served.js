@@ -34,6 +34,7 @@ function progress(share) {
 async function answer({ load: options, handle, name, args }) {
     if (options) return load({ ...options, progress });
     const object = kept.get(handle)?.object;
+    if (!object && name === "free") return undefined; // as often as one likes
     if (!object) throw new FroeError("FROE_E_ARG", "The object has been freed.");
     if (!(name in object)) throw new TypeError(`There is no ${name} in a ${object.constructor.name}.`);
     const values = args.map((arg) => decode(arg, (held) => kept.get(held)?.object));

@@ -78,8 +78,9 @@ export class Tree extends Questions {
         const none = { lo: new Float64Array(this.dim), hi: new Float64Array(this.dim).fill(1) };
         let { lo, hi } = given(box ?? this.bounds() ?? none, { lo: null, hi: null });
         if (!box) {
-            const margins = lo.map((low, i) => (hi[i] - low) / 20 || 1);
-            [lo, hi] = [lo.map((low, i) => low - margins[i]), hi.map((high, i) => high + margins[i])];
+            const most = Number.MAX_VALUE;
+            const margins = lo.map((low, i) => Math.min((hi[i] - low) / 20, most / 20) || 1);
+            [lo, hi] = [lo.map((low, i) => Math.max(low - margins[i], -most)), hi.map((high, i) => Math.min(high + margins[i], most))];
         }
         return [arena.array(doubles(lo, this.dim, "lo")), arena.array(doubles(hi, this.dim, "hi"))];
     }
@@ -116,7 +117,7 @@ export class Tree extends Questions {
         if (all.lineStyles !== undefined && !Array.isArray(all.lineStyles)) throw new TypeError("lineStyles is not an array of objects.");
         all.lineStyleCount = all.lineStyles?.length ?? 0;
         if (!all.lineStyleCount) delete all.lineStyles;
-        checkLengths(all, ["opacity", "priorities"], core.get("froe_scene_group_count", this.#scene), "groups");
+        checkLengths(all, ["opacity", "priorities"], core.get("froe_scene_group_count", this.#scene));
         return core.within((arena) => {
             const numbers = arena.room(8 * (PICTURE.length + 1));
             const bytes = body(arena, core.options(arena, "render", all), numbers);

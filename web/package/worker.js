@@ -10,6 +10,7 @@
  * methods, whose results are promises; properties are methods, too: await tree.report(). Arrays that are given are
  * copied, or moved where moved() says so; arrays that come back are moved. Calls are answered one after the other. */
 import { FroeError } from "./core.js";
+import { given, listener } from "./given.js";
 import { decode, encode, moved } from "./parcel.js";
 
 export { moved };
@@ -46,13 +47,19 @@ export class FroeWorker {
 
     /** Starts a worker and loads froe there. Options: those of load(); `progress` is told the share done of the call
      * that runs, 20 times a second at most. */
-    static async start({ plain, progress = null } = {}) {
+    static async start(options) {
+        const { plain, progress } = given(options, { plain: undefined, progress: null });
         const worker = new FroeWorker();
-        worker.#progress = progress;
+        worker.#progress = listener(progress);
         worker.#port = await open(new URL("./served.js", import.meta.url));
         worker.#port.hear((answer) => worker.#hear(answer), (why) => worker.#fail(why));
-        /** What load() gives, from afar. */
-        worker.froe = worker.#remote(await worker.#ask({ load: { plain } }));
+        try {
+            /** What load() gives, from afar. */
+            worker.froe = worker.#remote(await worker.#ask({ load: { plain } }));
+        } catch (error) {
+            worker.#port.end();
+            throw error;
+        }
         return worker;
     }
 
@@ -77,8 +84,8 @@ export class FroeWorker {
         if (this.#ended) return Promise.reject(this.#ended);
         return new Promise((accept, refuse) => {
             const id = this.#next++;
+            this.#port.send({ id, ...message }, move); // or throws: then nothing waits
             this.#waiting.set(id, { accept, refuse });
-            this.#port.send({ id, ...message }, move);
         });
     }
     #hear({ id, progress, value, error }) {
@@ -91,16 +98,16 @@ export class FroeWorker {
     }
 
     #remote(handle) {
-        const call = (name) => (...args) => {
+        const call = (name) => async (...args) => {
             const move = [];
             return this.#ask({ handle, name, args: args.map((arg) => encode(arg, move, (it) => it[HANDLE])) }, move);
         };
-        // A promise asks what it is resolved with for `then`.
         const remote = new Proxy({}, {
-            get: (_, name) => (name === HANDLE ? handle : name === "then" || typeof name === "symbol" ? undefined : call(name)),
+            get: (_, name) => (name === HANDLE ? handle : UNASKED.includes(name) || typeof name === "symbol" ? undefined : call(name)),
         });
         this.#forgotten.register(remote, handle);
         return remote;
     }
 }
 const HANDLE = Symbol("handle");
+const UNASKED = ["then", "toJSON"]; // what a promise and JSON.stringify() look for by themselves

@@ -74,7 +74,7 @@ for (const [kind, froe] of kinds) {
         told(() => froe.read("a.obj", new TextEncoder().encode("v 0 0\nf 1 2 3\n")), "FROE_E_FORMAT", /a\.obj/);
         assert.throws(() => froe.segments([0, 0, 1]), /no whole segments/);
         assert.throws(() => cross().query([0, 0, 1]), /boxes has 3 numbers/);
-        assert.throws(() => froe.scene(2).add({ kind: "hull", coords: [0, 0], starts: [0, 5] }), /only 1 are given/);
+        assert.throws(() => froe.scene(2).add({ kind: "hull", coords: [0, 0], starts: [0, 5] }), /only 1 is given/);
         assert.throws(() => froe.scene(2).add({ kind: "ball", coords: [0, 0] }), /radii/);
         // Numbers that an array of whole numbers would make others of.
         assert.throws(() => froe.triangles([0, 0, 0, 1, 0, 0, 0, 1, 0], [0, 1, 2 ** 32 + 2]), /Number 2 of indices is 4294967298/);

@@ -38,6 +38,21 @@ test("what cannot be done is told as froe tells it", async () => {
     await assert.rejects(scene.objectCount(), { status: "FROE_E_ARG" });
 });
 
+test("what cannot be sent is refused at once, and the worker goes on", async () => {
+    const gone = moved(new Float64Array(4)), shared = moved(new Float64Array(new SharedArrayBuffer(32)));
+    await worker.froe.segments(gone);
+    await assert.rejects(worker.froe.segments(gone), { name: "TypeError", message: /moved to somewhere else/ });
+    await assert.rejects(worker.froe.progress(() => true), { name: "TypeError", message: "A worker cannot be given a function." });
+    await assert.rejects(worker.froe.scene(9), { name: "RangeError", message: /2 to 8 dimensions/ });
+    const scene = await worker.froe.segments(shared);
+    assert.equal(await scene.objectCount(), 1);
+    assert.equal(JSON.stringify({ scene }), '{"scene":{}}'); // which calls no method
+    await scene.free();
+    await scene.free();
+    await assert.rejects(FroeWorker.start({ progress: 5 }), { name: "TypeError", message: "progress is not a function, but 5." });
+    await assert.rejects(FroeWorker.start({ plian: true }), { name: "TypeError", message: "There is no option plian." });
+});
+
 test("a scene lives as long as one of its remotes", async () => {
     const scene = await worker.froe.scene(2);
     for (let i = 0; i < 20; i++) {
