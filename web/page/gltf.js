@@ -11,9 +11,9 @@ export async function readScene(name, bytes, others) {
     let missing = null;
     manager.setURLModifier((url) => {
         if (/^(data|blob):/.test(url)) return url;
-        const file = beside.get(decodeURIComponent(url).replace(/.*[/\\]/, ""));
+        const path = decodeURIComponent(url), file = beside.get(path.replace(/.*[/\\]/, ""));
         if (!file) {
-            missing ??= url;
+            missing ??= path;
             return "data:,";
         }
         if (!urls.has(file)) urls.set(file, URL.createObjectURL(file));

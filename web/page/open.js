@@ -11,26 +11,28 @@
 
 const LARGEST = 600e6; // bytes of a file; it is in memory several times while it is read
 const OWN = ["obj", "off", "ply", "geojson", "json", "csv"];
-const BESIDE = ["mtl", "bin", "png", "jpg", "jpeg", "webp"];
 /** For inputs of files. */
 export const MODEL_FILES = ".glb,.gltf,.obj,.stl,.ply,.off,.mtl,.bin";
 export const MAP_FILES = ".geojson,.json,.csv";
 
 const ending = (name) => name.slice(name.lastIndexOf(".") + 1).toLowerCase();
 
+const isScene = (file) => Object.hasOwn(READERS, ending(file.name));
+/** Files, the scene before what it names. */
+export const mainFirst = (files) => [...files].sort((a, b) => isScene(b) - isScene(a));
+
 /** The source that files are: one of them is the scene, the others are what it names. */
 export async function openFiles(files) {
-    const main = files.find((file) => !BESIDE.includes(ending(file.name)));
-    if (!main) throw new Error("There is no scene among these files.");
+    const [main, ...others] = mainFirst(files), second = others.find(isScene);
+    if (!isScene(main)) throw new Error(`${main.name} is not of a format that is read here: glTF, OBJ, STL, PLY, OFF, GeoJSON or CSV.`);
+    if (second) throw new Error(`${main.name} and ${second.name} are two scenes, which are opened one by one.`);
     for (const file of files) {
         if (file.size > LARGEST)
             throw new Error(`${file.name} has ${Math.round(file.size / 1e6)} MB, and a page can read ${LARGEST / 1e6} MB at most: ` +
                 "the program froe has no such limit");
         if (!file.size) throw new Error(`${file.name} is empty.`);
     }
-    const read = READERS[ending(main.name)];
-    if (!read) throw new Error(`${main.name} is not of a format that this page reads: glTF, OBJ, STL, PLY, OFF, GeoJSON or CSV.`);
-    return read(main, files.filter((file) => file !== main));
+    return READERS[ending(main.name)](main, others);
 }
 
 const bytesOf = async (file) => new Uint8Array(await file.arrayBuffer());
@@ -57,7 +59,8 @@ async function readGltf(file, others) {
 /* What a library cannot read, with the name of the file. */
 function named(file, format, read) {
     const tell = (error) => {
-        throw new Error(`${file.name} could not be read as ${format}: ${String(error?.message ?? error).replace(/^THREE\.\w+: /, "")}`);
+        const why = error instanceof TypeError || error instanceof RangeError ? "it is damaged or not complete" : error?.message ?? error;
+        throw new Error(`${file.name} could not be read as ${format}: ${String(why).replace(/^THREE\.\w+: /, "")}`);
     };
     try {
         const result = read();
@@ -89,6 +92,9 @@ async function bareScene(froe, source) {
     const scene = await froe.scene(3);
     // All at once: if the worker ends, each of these is refused, and none may be left without a handler.
     await Promise.all([...source.groups.map((group) => scene.addGroup(group)),
-        scene.add({ kind: "polygon", coords: source.coords, groups: source.groupOf })]);
+        scene.add({ kind: "polygon", coords: source.coords, groups: source.groupOf })]).catch((error) => {
+        error.message = `${source.name}: ${error.message}`;
+        throw error;
+    });
     return scene;
 }

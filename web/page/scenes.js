@@ -1,6 +1,7 @@
 /* scenes.js: what a room shows, a sample or files of one's own, and the part of its settings that chooses it */
 import { group, opener } from "./controls.js";
 import { h } from "./dom.js";
+import { mainFirst } from "./open.js";
 
 export class Scenes {
     #host;
@@ -57,7 +58,7 @@ export class Scenes {
     }
     /** Shows files. */
     take(files) {
-        this.#files = files;
+        this.#files = mainFirst(files);
         this.#shown = null;
         this.#host.set({ ...this.#fresh, scene: "file" });
         this.load();

@@ -3,6 +3,7 @@
 /** meshes: { geometry, matrix, name, material, colour (0xRRGGBBAA; 0: none) }. */
 export function triangles(file, up, meshes) {
     const corners = (geometry) => geometry.index?.count ?? geometry.attributes.position?.count ?? 0;
+    if (meshes.some(({ geometry }) => corners(geometry) % 3)) throw new Error(`${file} has a triangle without three corners`);
     const total = meshes.reduce((sum, { geometry }) => sum + Math.floor(corners(geometry) / 3), 0);
     if (!total) throw new Error(`${file} has no triangles`);
     const coords = new Float64Array(9 * total), groupOf = new Uint32Array(total), groups = [];

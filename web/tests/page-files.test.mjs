@@ -87,12 +87,17 @@ const BROKEN = {
     "an OBJ that names a corner that is not there": [{ "a.obj": text("v 0 0 0\nv 1 0 0\nf 1 2 7\n") }, /a\.obj.*\.$/],
     "a GLB that is cut off": [{ "a.glb": data("fzk-haus.glb").subarray(0, 5000) }, /^a\.glb could not be read as glTF: .*\.$/],
     "a GLB that is none": [{ "a.glb": text("This is no model.") }, /a\.glb could not be read as glTF/],
-    "a glTF without its BIN": [{ "t.gltf": gltf("t.bin") }, /t\.gltf could not be read as glTF: it needs t\.bin/],
+    "a glTF without its BIN": [{ "t.gltf": gltf("the%20t.bin") }, /t\.gltf could not be read as glTF: it needs the t\.bin, which/],
+    "a glTF without anything": [{ "a.gltf": text('{ "asset": { "version": "2.0" } }') }, /^a\.gltf could not be read as glTF: it is damaged or not complete\.$/],
+    "an STL with NaN": [{ "a.stl": Buffer.concat([binaryStl.subarray(0, 96), Buffer.from([0, 0, 0xc0, 0x7f]), binaryStl.subarray(100)]) }, /^a\.stl: corner 0 of polygon 0: .* nan/],
+    "an STL as text with NaN": [{ "a.stl": text(asciiStl.toString().replace("vertex 1 0 0", "vertex NaN 0 0")) }, /^a\.stl has a triangle without three corners\.$/],
+    "two scenes": [{ "a.ply": ply, "red.mtl": mtl, "b.obj": obj }, /^a\.ply and b\.obj are two scenes, which are opened one by one\.$/],
+    "pictures alone": [{ "a.png": text("x"), "t.bin": bin }, /^a\.png is not of a format that is read here/],
     "an STL that is none": [{ "a.stl": text("This is no model at all, but it is long enough to have a header of eighty bytes, and four more bytes after it.") }, /a\.stl could not be read as STL: [^]*\.$/],
     "a PLY without an end": [{ "a.ply": ply.subarray(0, 100) }, /a\.ply/],
     "a PLY with NaN": [{ "a.ply": text(ply.toString().replace("1 0 0", "nan 0 0")) }, /a\.ply/],
     "an empty file": [{ "a.obj": Buffer.alloc(0) }, /^a\.obj is empty\.$/],
-    "a file of another kind": [{ "a.docx": text("x") }, /a\.docx is not of a format that this page reads/],
+    "a file of another kind": [{ "a.docx": text("x") }, /a\.docx is not of a format that is read here: /],
     "a map": [{ "a.geojson": data("freedoom-e1m1.geojson") }, /^This file is a map\. .*\.$/],
 };
 for (const [what, [files, sentence]] of Object.entries(BROKEN))
@@ -105,6 +110,40 @@ for (const [what, [files, sentence]] of Object.entries(BROKEN))
         await drawn(page);
         page.wrong.length = 0;
     });
+
+test("of a scene that could not be read nothing is shown or saved, neither of it nor of the one before", async () => {
+    await dropped(page, { "t.ply": ply });
+    await settled(page);
+    await dropped(page, { "x.obj": text("f 1 2 3\n") });
+    await said(page);
+    assert.deepEqual(await page.$eval(".sheet", (sheet) => [sheet.classList.contains("drawn"), getComputedStyle(sheet.querySelector("canvas")).opacity]), [false, "0"]);
+    const taken = await page.evaluate(async () => {
+        const names = [], { click } = HTMLAnchorElement.prototype, before = document.querySelector(".status").textContent;
+        HTMLAnchorElement.prototype.click = function () { names.push(this.download); };
+        for (const button of document.querySelectorAll(".three button, .two button")) button.click();
+        await new Promise((resume) => setTimeout(resume, 500));
+        HTMLAnchorElement.prototype.click = click;
+        return [names, before === document.querySelector(".status").textContent];
+    });
+    assert.deepEqual(taken, [[], true]);
+    page.wrong.length = 0;
+});
+
+test("a scene is found among what it names, and one that cannot be seen is told of", async () => {
+    await dropped(page, { "a readme.txt": text("Read me."), "red.mtl": mtl, "t.obj": obj });
+    await drawn(page);
+    assert.match(await page.$eval(".panel", (panel) => panel.textContent), /t\.obj stays in this browser/);
+    assert.match(await page.$eval(".status", (status) => status.textContent), /^Exact\. \d shapes?, \d+ lines?, .* from 4 pieces of 4 objects$/);
+    const long = `${"x".repeat(200)}.off`, off = (x) => text(`OFF\n3 1 0\n0 0 0\n1 0 0\n${x} 1 0\n3 0 1 2\n`);
+    await dropped(page, { [long]: off(0) });
+    await drawn(page);
+    assert.match(await page.$eval(".status", (status) => status.textContent), /^Exact\. 1 shape, 1 line, .* from 1 piece of 1 object$/);
+    assert.ok(await page.$eval(".panel", (panel) => panel.scrollWidth <= panel.clientWidth));
+    await dropped(page, { "flat.off": text("OFF\n3 1 0\n0 0 0\n1 0 0\n2 0 0\n3 0 1 2\n") });
+    await drawn(page);
+    assert.match(await page.$eval(".status", (status) => status.textContent), /^Exact\. Nothing is visible, /);
+    page.wrong.length = 0;
+});
 
 test("a huge file is refused before it is read, and a large model before it is built", async () => {
     await page.evaluate(() => {

@@ -1,14 +1,14 @@
 /* draw.js: the room Draw: a model, turned; its exact drawing, as soon as it rests */
 import { between, oneOf } from "../address.js";
 import { button, Controls, group, opener, workOf } from "../controls.js";
-import { count, h, save, size } from "../dom.js";
+import { count, counted, h, save, size } from "../dom.js";
 import { Artist } from "../draw/artist.js";
 import { zoomOf } from "../draw/camera.js";
 import { cameraOfState, commandOf, optionsOf, planeOf } from "../draw/options.js";
 import { PAPERS, pageOf, SCALES, UNITS } from "../draw/papers.js";
 import { Preview } from "../draw/preview.js";
 import { turnable } from "../draw/turn.js";
-import { MODEL_FILES, openFiles } from "../open.js";
+import { mainFirst, MODEL_FILES, openFiles } from "../open.js";
 import { MODELS, sampleSource } from "../samples.js";
 import { isCancelled } from "../link.js";
 
@@ -146,8 +146,8 @@ class DrawRoom {
         await this.#open(() => sampleSource(sample), sample.title);
     }
     /** Opens files that were dropped or chosen. */
-    async files(files) {
-        const name = files[0].name;
+    async files(given) {
+        const files = mainFirst(given), { name } = files[0];
         this.#own = true;
         this.#host.set({ scene: "file", zoom: 0, x: 0, y: 0, section: "none" });
         this.#parts.credit.textContent = `${name} stays in this browser; nothing is sent.`;
@@ -157,6 +157,8 @@ class DrawRoom {
     async #open(source, title) {
         this.#showProgress("Reading", 0);
         this.#hideDrawing();
+        this.#parts.canvas.style.opacity = 0;
+        this.#model = this.#picture = null; // nothing of the scene before is drawn or saved any more
         this.#title = title;
         this.#source = source;
         try {
@@ -174,7 +176,7 @@ class DrawRoom {
         this.#parts.work.hidden = true;
         return new Promise((answer) => {
             const seconds = Math.round(objects * 1e-4), memory = size(objects * 1000);
-            this.#host.say(h("span", {}, `${count(objects)} polygons: the first drawing takes about ${seconds} seconds and ${memory} of memory.`),
+            this.#host.say(h("span", {}, `${count(objects)} objects: the first drawing takes about ${seconds} seconds and ${memory} of memory.`),
                 button("Draw it", () => { this.#host.say(); answer(true); }), button("Leave it", () => { this.#host.say("Not drawn."); answer(false); }));
         });
     }
@@ -191,6 +193,7 @@ class DrawRoom {
 
     #showModel(model) {
         this.#model = { ...model, title: this.#title };
+        this.#parts.canvas.style.opacity = "";
         this.#preview?.show(this.#model);
         this.change([]);
     }
@@ -207,11 +210,12 @@ class DrawRoom {
             if (old.startsWith("blob:")) URL.revokeObjectURL(old);
         };
         p.drawing.src = url;
-        const contents = [[picture.shapes, "shapes"], [picture.lines, "lines"]].filter(([n]) => n).map(([n, what]) => `${count(n)} ${what}`);
+        const contents = [[picture.shapes, "shape"], [picture.lines, "line"]].filter(([n]) => n).map(([n, what]) => counted(n, what));
+        if (!contents.length) contents.push("Nothing is visible");
         p.drawing.alt = `${this.#title}: ${contents.join(" and ")}`;
         p.command.textContent = commandOf(options, this.#host.state, this.#model, this.#file);
         this.#host.say(h("span", {}, h("b", {}, "Exact. "), [...contents, size(picture.bytes.length)].join(", ")),
-            h("span", { class: "soft" }, `${(time / 1000).toFixed(2)} s, from ${count(this.#tree.fragments)} pieces of ${count(this.#tree.objects)} polygons`));
+            h("span", { class: "soft" }, `${(time / 1000).toFixed(2)} s, from ${counted(this.#tree.fragments, "piece")} of ${counted(this.#tree.objects, "object")}`));
         if (this.#tree.objects <= QUICK_ENOUGH) this.#artist.improve().catch((error) => this.#fail(error));
     }
     #showProgress(what, share) {
@@ -272,6 +276,7 @@ class DrawRoom {
         if (!this.#model || this.#frame || !width) return;
         this.#frame = requestAnimationFrame(() => {
             this.#frame = 0;
+            if (!this.#model) return; // of the scene before
             const { state } = this.#host;
             this.#preview?.style({ shading: state.shading, ownColours: state.colours === "own", lines: state.lines !== "none", section: planeOf(state, this.#model) });
             this.#preview?.draw(cameraOfState(state, this.#model), width, height, this.#model);
