@@ -12,7 +12,6 @@ const SETTLED = 300; // milliseconds without a change, after which the address t
 
 const main = document.getElementById("room");
 let here = null;      // the room that is open: name, state, and what room.enter() gave
-let written = null;   // what this page wrote to the address itself
 let entering = 0;
 
 /** What a room is given. `stage`, `foot` (a line below the picture) and `panel` are its elements; set() changes the
@@ -38,9 +37,7 @@ function host(name, module) {
         write() {
             clearTimeout(timer);
             const hash = writeState(name, it.state, module.defaults);
-            if (hash === location.hash) return;
-            written = hash;
-            history.replaceState(null, "", hash);
+            if (hash !== location.hash) history.replaceState(null, "", hash);
         },
         /** Says a sentence below the picture, or puts elements there. */
         say(...content) {
@@ -99,7 +96,11 @@ async function enter() {
     else room.leave();
 }
 
-addEventListener("hashchange", () => { if (location.hash !== written) enter(); });
+addEventListener("hashchange", enter); // by a link or by the history; replaceState() makes none
+document.querySelector(".skip").addEventListener("click", (event) => {
+    event.preventDefault(); // #room is no address of a room
+    main.focus();
+});
 enter();
 
 /* -- files ------------------------------------------------------------------- */

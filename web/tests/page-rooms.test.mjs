@@ -111,6 +111,37 @@ test("an address that is entered in its own room says the same as anew", async (
     }
 });
 
+test("back and forward lead from room to room, to what each has shown", async () => {
+    const page = await at("#ask"), go = (room) => page.click(`nav a[href="#${room}"]`);
+    const rests = (room, scene) => page.waitForFunction((room, scene) => location.hash.startsWith(`#${room}`) && document.title.toLowerCase().startsWith(room)
+        && document.querySelector("select")?.value === scene, {}, room, scene);
+    await shown(page, "ask");
+    await page.select("select", "streets");
+    await page.waitForFunction(() => location.hash === "#ask?scene=streets");
+    await go("move");
+    await rests("move", "flight");
+    await page.goBack();
+    await rests("ask", "streets");
+    await page.goForward();
+    await rests("move", "flight");
+    await page.goBack();
+    await rests("ask", "streets");
+    assert.deepEqual(page.wrong, []);
+    await page.close();
+});
+
+test("the way past the head of the page leads into the room that is open", async () => {
+    const page = await at("#ask?scene=streets");
+    await shown(page, "ask");
+    await page.focus(".skip");
+    await page.keyboard.press("Enter");
+    await pause(300);
+    assert.deepEqual(await page.evaluate(() => [document.activeElement.id, location.hash, document.title.slice(0, 3)]), ["room", "#ask?scene=streets", "Ask"]);
+    await page.keyboard.press("Tab");
+    assert.equal(await page.evaluate(() => document.activeElement.tagName), "CANVAS");
+    await page.close();
+});
+
 test("a question about a model draws the answers again, and not the model", async () => {
     const page = await at("#ask?scene=bracket&kind=window&size=0.1&px=0.45&py=0.55");
     await shown(page, "ask");

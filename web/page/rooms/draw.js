@@ -138,7 +138,10 @@ class DrawRoom {
     /** Loads the sample that the state names. */
     async load() {
         const { state } = this.#host;
-        if (!MODELS[state.scene]) state.scene = defaults.scene; // the address of a file of somewhere else
+        if (!MODELS[state.scene]) {
+            state.scene = defaults.scene; // the address is that of a file of somewhere else
+            this.#host.write();
+        }
         const sample = MODELS[state.scene];
         this.#parts.credit.textContent = `${sample.title}: ${sample.credit}.`;
         this.#file = state.scene;
