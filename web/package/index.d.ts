@@ -266,7 +266,9 @@ export interface Range {
     /** Of a box lo, hi; of a ball its centre; of a capsule and a segment two ends; of a ray origin and direction; of
      * halfspaces their normals. */
     points: Numbers;
+    /** Of halfspaces. */
     offsets?: Numbers;
+    /** Of a ball and a capsule. */
     radius?: number;
     /** More than what meets the range: what meets it grown by eps times its diameter may be there, too. */
     eps?: number;

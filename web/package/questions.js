@@ -1,11 +1,13 @@
 /* questions.js: what is asked of a tree */
 import { answersOf } from "./answers.js";
-import { arraysOf, given, number, shown, typed, whole, word } from "./given.js";
+import { arraysOf, counted, given, number, shown, typed, whole, word } from "./given.js";
 import { ALSO, AT, CORE, HANDLE, Handle, Resource } from "./resource.js";
 
 /* How many points a shape has in so many dimensions; 0: any number. */
 const NEEDED = { box: () => 2, ball: () => 1, simplex: (dim) => dim + 1, capsule: () => 2, halfspaces: () => 0, hull: () => 0,
     segment: () => 2, ray: () => 2 };
+/* The shapes that have, and need, other members than points. */
+const OWN = { radius: ["ball", "capsule"], offsets: ["halfspaces"] };
 const RANGE = { points: Float64Array, offsets: Float64Array };
 const STATISTICS = ["queries", "nodes", "leaves", "tests", "exact", "slices", "steps"]; // of froe_query_stats
 const MEETINGS = ["cross", "touch", "overlap"], RELATIONS = ["meets", "within", "covers"];
@@ -74,13 +76,16 @@ export class Questions extends Resource {
         const dim = this.dim, options = { shape: "box", ...arraysOf(RANGE, range) }, { shape } = options;
         if (typeof shape !== "string" || !Object.hasOwn(NEEDED, shape)) throw new TypeError(`There is no shape of ranges called ${shown(shape)}.`);
         if (!options.points) throw new TypeError("A range has points.");
+        for (const [name, shapes] of Object.entries(OWN))
+            if (shapes.includes(shape) !== (options[name] !== undefined))
+                throw new TypeError(`A range of the shape ${shape} ${shapes.includes(shape) ? "needs the" : "takes no"} option ${name}.`);
         const count = options.points.length, needed = NEEDED[shape](dim);
         if (needed && count !== needed * dim)
             throw new TypeError(`A ${shape} has ${needed * dim} numbers, and ${count} are given.`);
         if (count % dim) throw new TypeError(`A ${shape} has ${dim} numbers for each point, and ${count} are given.`);
         options.count = count / dim;
-        if (shape === "halfspaces" && options.offsets?.length !== options.count)
-            throw new TypeError("Halfspaces have as many offsets as normals.");
+        if (options.offsets && options.offsets.length !== options.count)
+            throw new TypeError(`${counted(options.count, "normal")} cannot have ${counted(options.offsets.length, "offset")}.`);
         return this[CORE].options(arena, "range", options);
     }
     /** Objects that meet a range: { shape, points, radius, offsets, eps, walk }; shapes are "box", "ball", "simplex",

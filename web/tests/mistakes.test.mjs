@@ -103,6 +103,17 @@ test("a list of names is a list, and one name alone does not pass for one", () =
     assert.equal(names(["border", "mesh"]), names(["mesh", "border", "mesh"]));
 });
 
+test("a range has the members of its shape, and no others", () => {
+    const range = (options) => cross().range(options);
+    assert.throws(() => range({ shape: "ball", points: [0, 0] }), { name: "TypeError", message: "A range of the shape ball needs the option radius." });
+    assert.throws(() => range({ points: [0, 0, 1, 1], radius: 1 }), { name: "TypeError", message: "A range of the shape box takes no option radius." });
+    assert.throws(() => range({ shape: "halfspaces", points: [1, 0] }), { name: "TypeError", message: /needs the option offsets\.$/ });
+    assert.throws(() => range({ shape: "halfspaces", points: [1, 0], offsets: [1, 2] }), { name: "TypeError", message: "1 normal cannot have 2 offsets." });
+    assert.throws(() => range({ shape: "hull", points: [1, 0], offsets: [1] }), { name: "TypeError", message: /takes no option offsets\.$/ });
+    assert.deepEqual([...range({ shape: "capsule", points: [3, 0, 3, 1], radius: 2 })].sort(), [0, 1]);
+    assert.deepEqual([...range({ shape: "halfspaces", points: [-1, 0], offsets: [-2] })], []);
+});
+
 test("messages show what was given, shortly, and count in words that fit", () => {
     const long = "x,y\n1,2\n".repeat(1000);
     assert.throws(() => froe.read("a.csv", long), (error) => error instanceof TypeError && error.message.length < 150 && /'a\.csv'/.test(error.message));

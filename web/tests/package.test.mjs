@@ -80,7 +80,7 @@ for (const [kind, froe] of kinds) {
         assert.throws(() => froe.triangles([0, 0, 0, 1, 0, 0, 0, 1, 0], [0, 1, 2 ** 32 + 2]), /Number 2 of indices is 4294967298/);
         assert.throws(() => froe.segments([0, 0, 1, 1], { groups: [-1] }), /Number 0 of groups is -1/);
         assert.throws(() => froe.segments([0, 0, 1, 1], { tags: [2n ** 64n] }), /Number 0 of tags/);
-        assert.throws(() => froe.segments([0, 0, 1, "1"]), /Number 3 of coords is 1/);
+        assert.throws(() => froe.segments([0, 0, 1, "1"]), /Number 3 of coords is '1'/);
         assert.throws(() => cross().nearest([0, 0], { number: 2 }), /no option number/);
         const tree = cross();
         tree.free();

@@ -99,6 +99,21 @@ test("Cancel before there is a drawing leaves a way to go on", async () => {
     await page.close();
 });
 
+test("on paper there is the picture alone, and it fits", async () => {
+    for (const room of ["draw?scene=bracket", "partition", "ask", "move"]) {
+        const page = await at(`#${room}`, { width: 794, height: 1123 });
+        await shown(page, room.split("?")[0]);
+        await page.emulateMediaType("print");
+        const seen = await page.evaluate(() => {
+            const box = (element) => element.getBoundingClientRect(), picture = box(document.querySelector(".drawing, .map canvas, .pane canvas"));
+            return { others: [...document.querySelectorAll(".bar, .panel, .foot, .timeline")].filter((it) => box(it).height).map((it) => it.className),
+                wide: picture.width > 0.9 * innerWidth && picture.right <= innerWidth, high: picture.height > 100 && picture.bottom <= innerHeight };
+        });
+        assert.deepEqual(seen, { others: [], wide: true, high: true }, room);
+        await page.close();
+    }
+});
+
 test("without WebGL there is a drawing all the same", async () => {
     const page = await at("");
     await page.evaluateOnNewDocument(() => { HTMLCanvasElement.prototype.getContext = () => null; });
