@@ -6,7 +6,7 @@ import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, before } from "node:test";
-import { launch, open, pause, press, serve, test } from "./browser.mjs";
+import { dropped, launch, open, pause, press, serve, test, until } from "./browser.mjs";
 
 const folder = mkdtempSync(join(tmpdir(), "froe-move-"));
 let site, chromium;
@@ -41,6 +41,25 @@ test("time goes from event to event, forwards and back, and the address keeps it
     await page.$$eval("button", (all) => all.find((it) => it.textContent === "Event before").click());
     await page.waitForFunction((old) => Number(document.querySelector(".events [aria-current=true] strong").textContent) < old, {}, then);
     await page.close();
+});
+
+test("points that move are seen", async () => {
+    const other = await room("cells=no"), paths = [[[0, 0], [10, 8]], [[0, 8], [10, 0]]];
+    await dropped(other, { "points.mfjson": JSON.stringify({ type: "FeatureCollection", features: paths.map((coordinates) => ({ type: "Feature", properties: {},
+        temporalGeometry: { type: "MovingPoint", datetimes: [0, 10], coordinates } })) }) });
+    await other.waitForFunction(() => /2 objects/.test(document.querySelector(".status").textContent) && / so far/.test(document.querySelector(".status").textContent));
+    const inked = () => other.$eval(".map canvas", (canvas) => {
+        const { data, width } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height), at = [0, 0];
+        for (let i = 0; i < data.length; i += 4) if (data[i + 3] > 128 && data[i] < 90) at[(i / 4) % width < width / 2 ? 0 : 1]++;
+        return at;
+    });
+    await until(async () => (await inked())[0] > 10);
+    const before = await inked();
+    assert.equal(before[1], 0);
+    await other.$eval("[aria-label=Time]", (input) => { input.value = "1"; input.dispatchEvent(new Event("input")); });
+    await until(async () => (await inked())[1] > 10);
+    assert.deepEqual(other.wrong, []);
+    await other.close();
 });
 
 test("it plays, and pauses", async () => {

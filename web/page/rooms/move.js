@@ -275,6 +275,11 @@ class MoveRoom {
                     context[c ? "lineTo" : "moveTo"](points[2 * v], points[2 * v + 1]);
                 }
                 if (dim === 3) context.closePath();
+                const [a, b] = [2 * vertices[corners * i], 2 * vertices[corners * i + 1]];
+                if (points[a] === points[b] && points[a + 1] === points[b + 1]) { // a line to itself would not be there
+                    context.moveTo(points[a] + 2, points[a + 1]);
+                    context.arc(points[a], points[a + 1], 2, 0, 7);
+                }
             }
             context.strokeStyle = now ? look.hit : look.ink;
             context.lineWidth = now ? 4 : dim === 3 ? 0.8 : 2;
