@@ -6,7 +6,7 @@ import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { after, before } from "node:test";
-import { launch, open, press, serve, test } from "./browser.mjs";
+import { dropped, launch, open, press, said, serve, shown, test, until } from "./browser.mjs";
 
 const folder = mkdtempSync(join(tmpdir(), "froe-partition-"));
 let site, chromium;
@@ -58,6 +58,31 @@ test("a piece says its object, its cut and its list", async () => {
     assert.match(facts[3], /^\d+ pieces? at node [\d,]+$/);
     await page.close();
 });
+
+for (const [room, canvas] of [["partition", ".pane canvas"], ["ask", "canvas"]])
+    test(`boxes, balls and hulls are seen as they are, and in space they are refused: ${room}`, async () => {
+        const page = await open(chromium.browser, `${site.url}#${room}?scene=rooms`);
+        await shown(page, room);
+        const solids = { "box.csv": "lo_x,lo_y,hi_x,hi_y\n0,0,4,4\n", "ball.csv": "x,y,radius\n0,0,2\n", "hull.csv": "hull,x,y\n0,0,0\n0,4,4\n0,4,0\n0,0,4\n" };
+        for (const [name, table] of Object.entries(solids)) {
+            await page.$eval(".status", (it) => it.replaceChildren());
+            await dropped(page, { [name]: Buffer.from(table) });
+            await page.waitForFunction(() => document.querySelector(".status").textContent);
+            assert.equal(await page.$eval(".status", (it) => it.matches(".wrong") && it.textContent), false, name);
+            // Ink in all four quarters, from the middle of the picture: a diagonal is in two of them, and a dot in none.
+            await until(() => page.$eval(canvas, (it) => {
+                const { width, height } = it, { data } = it.getContext("2d").getImageData(0, 0, width, height), found = [0, 0, 0, 0];
+                for (let i = 0; i < data.length; i += 4) {
+                    const x = (i / 4) % width - width / 2, y = Math.floor(i / 4 / width) - height / 2;
+                    if (data[i + 3] > 99 && data[i] < 99 && Math.min(Math.abs(x), Math.abs(y)) > 20) found[(x > 0) + 2 * (y > 0)]++;
+                }
+                return found.every((count) => count > 20);
+            }));
+        }
+        await dropped(page, { "a.csv": Buffer.from("lo_x,lo_y,lo_z,hi_x,hi_y,hi_z\n0,0,0,1,1,1\n") });
+        assert.equal(await said(page), "Boxes, balls and hulls in space are not shown here: the program froe takes them.");
+        await page.close();
+    });
 
 test("a model is cut, too, and a file that is no scene is refused in a sentence", async () => {
     const page = await room("scene=bracket&step=5");

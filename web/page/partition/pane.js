@@ -6,6 +6,7 @@ import { cellColour, Chart, colours, nearness, trace } from "../chart.js";
 import { count } from "../dom.js";
 import { isCancelled, startFroe } from "../link.js";
 import { groupsOf, NAMED, sceneFrom } from "../open.js";
+import { outlines } from "../outlines.js";
 
 const NEAR = 8; // pixels from a line within which it is under the pointer
 
@@ -63,9 +64,11 @@ export class Pane {
             if (objects > most)
                 throw new Error(`This scene has ${count(objects)} objects, and the page shows partitions of at most ${count(most)}: froe draw does so of any number`);
             const tree = await scene.build({ method, ...(leaf ? { leaf } : {}) });
-            const [report, nodes, pieces, cells, cuts, up, groups] = await Promise.all([tree.report(), tree.nodes(), tree.pieces(),
-                tree.cells({ inner: true }), tree.cuts(), upOf(scene), groupNames(scene)]);
+            const [report, nodes, pieces, cells, cuts, up, groups, { dim, forms, radii }] = await Promise.all([tree.report(), tree.nodes(),
+                tree.pieces(), tree.cells({ inner: true }), tree.cuts(), upOf(scene), groupNames(scene), scene.arrays()]);
             if (age !== this.#age) return undefined;
+            const { starts, coords } = outlines({ ...pieces, dim, forms: pieces.objects.map((id) => forms[id]), radii: Float64Array.from(pieces.objects, (id) => radii[id]) });
+            Object.assign(pieces, { starts, coords });
             this.#show({ report, nodes, pieces, cells, cuts, groups, bounds, up });
             this.#tell.built(this);
         } catch (error) {

@@ -7,6 +7,7 @@ import { button, Controls, group, workOf } from "../controls.js";
 import { count, counted, factsOf, h } from "../dom.js";
 import { isCancelled, startFroe } from "../link.js";
 import { groupsOf, MAP_FILES, MODEL_FILES, NAMED, openFiles, sceneFrom } from "../open.js";
+import { outlines } from "../outlines.js";
 import { MAPS, MODELS, sampleSource } from "../samples.js";
 import { Scenes } from "../scenes.js";
 
@@ -102,6 +103,7 @@ class AskRoom {
             const began = performance.now(), tree = await scene.build({ purpose: "query" }), took = performance.now() - began;
             const dim = await scene.dim(), [shapes, groups, up] = await Promise.all([scene.arrays(), groupsOf(scene, NAMED), dim === 3 ? scene.up() : 2]);
             if (age !== this.#age) return undefined;
+            Object.assign(shapes, outlines(shapes));
             this.#tree = tree;
             this.#scene = { dim, objects, bounds, up, shapes, groups, took, method: (await tree.report()).method };
             this.#chart.fit(bounds, up);
@@ -303,13 +305,10 @@ class AskRoom {
         }
     }
     #trace(context, points, i) {
-        const { starts, corners, kinds } = this.#scene.shapes, from = starts[i], to = starts[i + 1];
+        const { starts, corners } = this.#scene.shapes, from = starts[i], to = starts[i + 1];
         if (to - from === 1) {
             const [x, y] = [points[2 * corners[from]], points[2 * corners[from] + 1]];
             context.moveTo(x + 2, y), context.arc(x, y, 2, 0, 7);
-        } else if (kinds[i] === 3) {
-            const [a, b] = [corners[from], corners[from + 1]];
-            context.rect(points[2 * a], points[2 * a + 1], points[2 * b] - points[2 * a], points[2 * b + 1] - points[2 * a + 1]);
         } else for (let c = from; c < to; c++) context[c === from ? "moveTo" : "lineTo"](points[2 * corners[c]], points[2 * corners[c] + 1]);
         if (to - from > 2) context.closePath();
     }
