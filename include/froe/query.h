@@ -44,7 +44,7 @@ FROE_API void froe_query_free(froe_query *query);
 typedef struct froe_query_stats {
     uint64_t queries, nodes, leaves; /**< answered; visited. A search for all pairs is one query */
     uint64_t tests;                  /**< objects tested against a query; by index in space, one by one */
-    uint64_t exact;                  /**< ... of these, decided by exact numbers */
+    uint64_t exact;                  /**< decisions by exact numbers; an object or a cut may take several */
     uint64_t slices;                 /**< lists reported without a test */
     uint64_t steps;                  /**< of searches past the cuts of deep trees or among cubes, each like a node */
     uint64_t reserved[5];

@@ -281,8 +281,9 @@ export interface Statistics {
     /** Visited. */
     nodes: number;
     leaves: number;
-    /** Objects tested against a question, and of these decided by exact numbers. */
+    /** Objects tested against a question. */
     tests: number;
+    /** Decisions by exact numbers; an object or a cut may take several. */
     exact: number;
     slices: number;
     steps: number;

@@ -164,7 +164,7 @@ froe_status view_order_check(const froe_tree *tree, bool faces, froe_diagnostic 
         if (scene_form(scene, i) > FROE_POLYGON)
             return support_fail_at(
                 diag, FROE_E_UNSUPPORTED, i, FROE_NONE, FROE_NONE,
-                "object %u: It is a %s, which no cut divides, and has no certain place in a depth order.", i,
+                "object %u: It is a %s. Only polygons, segments and points have a depth order.", i,
                 froe_kind_name(scene_form(scene, i)));
     }
     if (!ordered) return FROE_OK;
