@@ -291,7 +291,7 @@ typedef struct froe_kinetic_options {
                       that until it meets none any more that is there; what is told is `touch` of both, `disappear` and
                       `appear`. So scenes that meet from the start are followed, too. false (default): the partition
                       ends before the first contact. Not with `unchecked` */
-    bool ahead; /**< events may be found ahead on one thread, too, which is sooner among thousands of segments. Then
+    bool ahead;  /**< events may be found ahead on one thread, too, which is sooner among thousands of segments. Then
                      `visit` asks for nothing but froe_kinetic_time() and froe_kinetic_instant(), and what
                      froe_kinetic_stats tells of the work is more. false (default) */
 } froe_kinetic_options;
