@@ -162,10 +162,9 @@ froe_status view_order_check(const froe_tree *tree, bool faces, froe_diagnostic 
     for (uint32_t i = 0; i < scene->object_count; i++) {
         ordered = ordered || scene_form(scene, i) == FROE_POLYGON;
         if (scene_form(scene, i) > FROE_POLYGON)
-            return support_fail_at(
-                diag, FROE_E_UNSUPPORTED, i, FROE_NONE, FROE_NONE,
-                "object %u: It is a %s. Only polygons, segments and points have a depth order.", i,
-                froe_kind_name(scene_form(scene, i)));
+            return support_fail_at(diag, FROE_E_UNSUPPORTED, i, FROE_NONE, FROE_NONE,
+                                   "object %u: It is a %s. Only polygons, segments and points have a depth order.", i,
+                                   froe_kind_name(scene_form(scene, i)));
     }
     if (!ordered) return FROE_OK;
     if (tree_is_space(tree))
