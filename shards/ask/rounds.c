@@ -141,6 +141,7 @@ froe_status shards_rounds(froe_shards *s, const shards_question *q, const froe_b
 
 froe_status shards_rounds_count(froe_shards *s, const shards_question *q, const froe_batch_options *options,
                                 uint64_t *counts, froe_diagnostic *diag) {
+    uint64_t none = 0; /* of no questions: without counts answers are found */
     if (q->count) memset(counts, 0, q->count * sizeof *counts);
-    return go_rounds(s, q, options, counts, NULL, diag);
+    return go_rounds(s, q, options, q->count ? counts : &none, NULL, diag);
 }
