@@ -22,13 +22,13 @@ typedef struct rounds {
     size_t *which;
     bool *alone;
     froe_finds finds; /* so far */
-    uint64_t *counts; /* instead of these, of questions that are counted */
+    uint64_t *counts; /* instead of these, of questions that are counted; NULL: there are no questions */
     size_t active;
 } rounds;
 
 /* Has question i its answers, if the next shard has none below a bound? */
 static bool is_answered(const rounds *r, size_t i, double bound) {
-    if (r->counts) return r->counts[i] >= r->q->k;
+    if (r->q->counted) return r->counts[i] >= r->q->k;
     const size_t found = r->finds.starts ? r->finds.starts[i + 1] - r->finds.starts[i] : 0;
     if (r->q->any && found) return true;
     return found >= r->q->k && found && bound > r->finds.items[r->finds.starts[i] + r->q->k - 1].value;
@@ -95,11 +95,11 @@ static froe_status join_round(rounds *r, shards_gather *found) {
  * other processes wait to hear of. */
 static froe_status ask_round(rounds *r, shards_call *call, froe_status status, bool *more, froe_diagnostic *diag) {
     shards_gather found = {.values = true, .alloc = r->s->alloc};
-    call->take = r->counts ? shards_add_count : shards_gather_take;
-    call->take_user = r->counts ? (void *)r->counts : &found;
+    call->take = r->q->counted ? shards_add_count : shards_gather_take;
+    call->take_user = r->q->counted ? (void *)r->counts : &found;
     call->upto = 1 - (double)r->active / (double)(r->q->count + 1);
     status = shards_call_all(call, status, r->shard_starts, r->which, r->alone, more, diag);
-    const bool joins = !r->counts && (found.list.count || !r->finds.starts);
+    const bool joins = !r->q->counted && (found.list.count || !r->finds.starts);
     if (!status && joins && join_round(r, &found)) status = support_fail_memory(diag);
     array_free(&found.alloc, &found.list);
     if (!status) assign_round(r, call);
@@ -141,7 +141,6 @@ froe_status shards_rounds(froe_shards *s, const shards_question *q, const froe_b
 
 froe_status shards_rounds_count(froe_shards *s, const shards_question *q, const froe_batch_options *options,
                                 uint64_t *counts, froe_diagnostic *diag) {
-    uint64_t none = 0; /* of no questions: without counts answers are found */
     if (q->count) memset(counts, 0, q->count * sizeof *counts);
-    return go_rounds(s, q, options, q->count ? counts : &none, NULL, diag);
+    return go_rounds(s, q, options, counts, NULL, diag);
 }
