@@ -86,9 +86,11 @@ bool table_part_used(const json_t *rows, table_part part) {
     return used;
 }
 
-/* Rows that failed come last, so that the first one tells which columns hold numbers; they are rows of trees only. */
+/* Rows that failed come last, so that the first one tells which columns hold numbers; they are rows of trees only.
+ * Empty where no row fills a column of the part. */
 static json_t *rows_report(const json_t *rows, table_part part) {
     json_t *table = json_array();
+    if (!table_part_used(rows, part)) return table;
     for (int built = 1; built >= (part == TABLE_TREE ? 0 : 1); built--) {
         size_t i;
         json_t *row;
@@ -132,8 +134,7 @@ json_t *table_report(const json_t *comparison) {
         const json_t *rows = json_object_get(scene, "methods");
         json_t *const tables[] = {rows_report(rows, TABLE_TREE), rows_report(rows, TABLE_QUERY), promises_report(rows)};
         for (int k = 0; k < 3; k++) {
-            const bool empty = !json_array_size(tables[k]) || (k == 1 && !table_part_used(rows, TABLE_QUERY));
-            if (!empty) json_object_set(report, names[k], tables[k]);
+            if (json_array_size(tables[k])) json_object_set(report, names[k], tables[k]);
             json_decref(tables[k]);
         }
         json_object_set_new(out, json_string_value(json_object_get(scene, "scene")), report);
