@@ -90,11 +90,20 @@ static int axis_behind(const char *name, const char *prefix, int family) {
     return support_csv_axis(name + length, family, length > 0);
 }
 
+/* Which axis does it bound, as xmin does? -1: none, or the columns are not the lo_ or the hi_ that the name stands for. */
+static int axis_bounded(const char *name, const char *prefix, int family) {
+    bool high;
+    const int axis = support_csv_bound(name, family, &high);
+    return axis >= 0 && !strcmp(prefix, high ? "hi_" : "lo_") ? axis : -1;
+}
+
 /* Which number has this name? -1: none. *beyond: it names the axis behind the last. */
-static int number_of(const cli_column *columns, int dim, int family, const char *name, bool *beyond) {
+static int number_of(const cli_column *columns, int dim, int family, bool bounds, const char *name, bool *beyond) {
     int number = 0;
     for (; columns->name; columns++) {
-        const int axis = columns->axes ? axis_behind(name, columns->name, family) : -1;
+        const int axis = !columns->axes ? -1
+                         : bounds       ? axis_bounded(name, columns->name, family)
+                                        : axis_behind(name, columns->name, family);
         if (axis >= 0 && axis < dim) return number + axis;
         if (!columns->axes && support_equal_nocase(name, columns->name)) return number;
         *beyond = *beyond || axis == dim;
@@ -118,12 +127,13 @@ static size_t header_text(const cli_column *columns, int dim, char *out, size_t 
 
 /* Finds the columns, with axes of one family; false: some number has none, or two. *beyond: that of an axis that the
  * tree has not, which counts where all others are found. */
-static bool find_columns(cli_rows *rows, const cli_column *columns, int dim, int family, const char **beyond) {
+static bool find_columns(cli_rows *rows, const cli_column *columns, int dim, int family, bool bounds,
+                         const char **beyond) {
     unsigned found = 0;
     *beyond = NULL;
     for (size_t i = 0; i < rows->columns; i++) {
         bool more = false;
-        const int number = number_of(columns, dim, family, rows->names[i], &more);
+        const int number = number_of(columns, dim, family, bounds, rows->names[i], &more);
         if (more && !*beyond) *beyond = rows->names[i];
         if (number >= 0 && found >> number & 1) return false;
         if (number >= 0) found |= 1u << number;
@@ -152,10 +162,10 @@ static int read_header(cli_rows *rows, const cli_column *columns, int dim) {
             return cli_fail(CLI_INPUT, rows->path, "line 1: The header has more than %d columns.", SUPPORT_CSV_COLUMNS);
     }
     bool found = false;
-    for (int family = 0; family < SUPPORT_CSV_FAMILIES && !found; family++) {
-        found = find_columns(rows, columns, dim, family, &beyond);
+    for (int i = 0; i < 2 * SUPPORT_CSV_FAMILIES && !found; i++) {
+        rows->family = i % SUPPORT_CSV_FAMILIES;
+        found = find_columns(rows, columns, dim, rows->family, i >= SUPPORT_CSV_FAMILIES, &beyond);
         if (!first_beyond || found) first_beyond = beyond;
-        rows->family = family;
     }
     if (first_beyond)
         return cli_fail(CLI_INPUT, rows->path, "line 1: The header names %.40s, and the tree has %d dimensions.",

@@ -23,7 +23,8 @@ static name_side side_of(const char *name) {
     return (name_side){0, 0};
 }
 
-static int role_of(const char *name, int family, bool *beyond) {
+/* With `bounds` names of axes are those that bound boxes, as xmin does. */
+static int role_of(const char *name, int family, bool bounds, bool *beyond) {
     static const struct {
         const char *name;
         int role;
@@ -32,10 +33,13 @@ static int role_of(const char *name, int family, bool *beyond) {
                  {"name", FORMATS_CSV_NAME}, {"geom", FORMATS_CSV_GEOMETRY}};
     for (size_t i = 0; i < sizeof roles / sizeof *roles; i++)
         if (support_equal_nocase(name, roles[i].name)) return roles[i].role;
-    const name_side side = side_of(name);
-    const int axis = support_csv_axis(name + side.length, family, side.length > 0);
+    bool high = false;
+    const name_side side = bounds ? (name_side){0, 0} : side_of(name);
+    const int axis =
+        bounds ? support_csv_bound(name, family, &high) : support_csv_axis(name + side.length, family, side.length > 0);
     if (axis < 0) return FORMATS_CSV_LEFT_ALONE;
     if (axis >= FROE_MAX_DIM) return *beyond = true, FORMATS_CSV_LEFT_ALONE;
+    if (high) return FROE_MAX_DIM + axis;
     return side.role + axis; /* a plain axis is stored as corner 0; sides are told apart by the presence of corner 1 */
 }
 
@@ -58,12 +62,12 @@ static bool settle(formats_csv_table *t, froe_kind sided) {
 }
 
 /* What the names say when axes are those of one family. */
-static formats_csv_header read_names(formats_csv_table *t, const char *const *names, int family) {
+static formats_csv_header read_names(formats_csv_table *t, const char *const *names, int family, bool bounds) {
     bool beyond = false;
     int sided = 0, plain = 0, ends = 0;
     for (int i = 0; i < t->columns; ++i) {
-        const int role = role_of(names[i], family, &beyond);
-        if (role < FORMATS_CSV_RADIUS) ++*(strchr(names[i], '_') ? &sided : &plain);
+        const int role = role_of(names[i], family, bounds, &beyond);
+        if (role < FORMATS_CSV_RADIUS) ++*(bounds || strchr(names[i], '_') ? &sided : &plain);
         ends += role >= SEGMENT_END;
         t->role[i] = (unsigned char)role;
     }
@@ -104,10 +108,13 @@ formats_csv_header formats_csv_read_header(char **at, formats_csv_table *t) {
     support_csv_names(t->found, sizeof t->found, names, (size_t)t->columns);
     formats_csv_header first = FORMATS_CSV_OTHER;
     for (int family = 0; family < SUPPORT_CSV_FAMILIES; ++family) {
-        const formats_csv_header what = read_names(t, names, family);
+        const formats_csv_header what = read_names(t, names, family, false);
         if (what == FORMATS_CSV_OURS) return find_names(t, names), what;
         if (first == FORMATS_CSV_OTHER) first = what;
     }
+    /* Bounds beside something else, such as x and y of a point, are columns among others. */
+    for (int family = 0; family < SUPPORT_CSV_FAMILIES && first == FORMATS_CSV_OTHER; ++family)
+        if (read_names(t, names, family, true) == FORMATS_CSV_OURS) return find_names(t, names), FORMATS_CSV_OURS;
     return first;
 }
 

@@ -162,7 +162,7 @@ static froe_status refuse_header(const csv_reader *c, const formats_source *sour
                             name);
     return support_fail(diag, FROE_E_FORMAT,
                         "%s: The header names %s. Columns of points are x,y or x1,x2 or lon,lat or easting,northing, "
-                        "of balls x,y,r, of boxes lo_x,lo_y,hi_x,hi_y.",
+                        "of balls x,y,r, of boxes lo_x,lo_y,hi_x,hi_y or xmin,ymin,xmax,ymax.",
                         name, c->table.found);
 }
 

@@ -152,6 +152,23 @@ int support_csv_axis(const char *name, int family, bool sided) {
     return -1;
 }
 
+int support_csv_bound(const char *name, int family, bool *high) {
+    enum { WORD = 3, LONGEST = 16 };
+    const size_t length = strlen(name);
+    for (int behind = 0; behind < 2 && length > WORD && length < LONGEST; behind++) {
+        char word[WORD + 1], axis[LONGEST];
+        const char *from = behind ? name : name + WORD, *end = behind ? name + length - WORD : name + length;
+        snprintf(word, sizeof word, "%.*s", WORD, behind ? end : name);
+        if (behind && end[-1] == '_') end--;
+        if (!behind && *from == '_') from++;
+        snprintf(axis, sizeof axis, "%.*s", (int)(end - from), from);
+        *high = support_equal_nocase(word, "max");
+        const int found = support_csv_axis(axis, family, false);
+        if (found >= 0 && (*high || support_equal_nocase(word, "min"))) return found;
+    }
+    return -1;
+}
+
 void support_csv_names(char *out, size_t size, const char *const *names, size_t count) {
     enum { REST = 32 }; /* what is said of those that are left out */
     size_t length = 0;

@@ -44,6 +44,8 @@ enum { SUPPORT_CSV_FAMILIES = 3 };
 /** Which axis a name stands for in a family, in small letters or capitals; `sided`: behind a prefix like lo_, where 1
  * stands for x1. -1: none. Axes may be beyond those that there can be. */
 int support_csv_axis(const char *name, int family, bool sided);
+/** Which axis of a family does a name bound, as minx, min_x, xmin and x_min do? *high: from above, by max. -1: none. */
+int support_csv_bound(const char *name, int family, bool *high);
 /** How the names of a header stand in a sentence: "town, x, y", or as many as fit: "town, x and 7 more". */
 void support_csv_names(char *out, size_t size, const char *const *names, size_t count);
 #endif

@@ -156,6 +156,35 @@ static void axes_are_of_one_family(void **state) {
     assert_int_equal(support_csv_axis("z", 2, false), 2);
 }
 
+static void bounds_have_several_names(void **state) {
+    (void)state;
+    const struct {
+        const char *name;
+        int family, axis;
+        bool high;
+    } names[] = {{"minx", 0, 0, false},    {"min_y", 0, 1, false}, {"Xmax", 0, 0, true},
+                 {"Z_MAX", 0, 2, true},    {"max_x8", 0, 7, true}, {"x8min", 0, 7, false},
+                 {"lon_min", 1, 0, false}, {"MaxLat", 1, 1, true}, {"min_easting", 2, 0, false}};
+    const char *const others[] = {"min",
+                                  "max_",
+                                  "_max",
+                                  "x",
+                                  "xmid",
+                                  "min_xmax",
+                                  "minlat",
+                                  "x__max",
+                                  "minute",
+                                  "",
+                                  "a name of more bytes than any axis has, xmin"};
+    bool high;
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        assert_int_equal(support_csv_bound(names[i].name, names[i].family, &high), names[i].axis);
+        assert_int_equal(high, names[i].high);
+    }
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        assert_int_equal(support_csv_bound(others[i], 0, &high), -1);
+}
+
 static void long_lists_of_names_are_cut(void **state) {
     (void)state;
     const char *const names[] = {"a", "", "a name of many letters", "b"};
@@ -180,6 +209,7 @@ int main(void) {
         cmocka_unit_test(plain_numbers_are_passed),
         cmocka_unit_test(numbers_fill_their_fields),
         cmocka_unit_test(axes_are_of_one_family),
+        cmocka_unit_test(bounds_have_several_names),
         cmocka_unit_test(long_lists_of_names_are_cut),
     };
     return cmocka_run_group_tests_name("formats/csv", tests, NULL, NULL);

@@ -361,6 +361,10 @@ static void headers_of_csv_say_what_rows_are(void **state) {
         {"tabs.tsv", "x\ty\n1\t2\n", "CSV points", 2, 1},
         {"ends.csv", "from_x,from_y,x,y\n1,2,3,4\n", "CSV points", 2, 1}, /* beside x,y the other columns are none */
         {"boxes.csv", "from_x,lo_x,lo_y,hi_x,hi_y,r,hull\n9,0,0,1,1,q,q\n", "CSV boxes", 2, 1},
+        {"bounds.csv", ",minx,miny,maxx,maxy\n0,1,2,3,4\n", "CSV boxes", 2, 1},
+        {"behind.csv", "name,Z_MAX,X_MIN,Y_MIN,Z_MIN,X_MAX,Y_MAX\nA,6,1,2,3,4,5\n", "CSV boxes", 3, 1},
+        {"degrees.csv", "lon_min,lat_min,lon_max,lat_max\n1,2,3,4\n", "CSV boxes", 2, 1},
+        {"centres.csv", "x,y,xmin,ymin,xmax,ymax\n1,2,q,q,q,q\n", "CSV points", 2, 1},
         {"eight.csv",
          "lo_x1,lo_x2,lo_x3,lo_x4,lo_x5,lo_x6,lo_x7,lo_x8,hi_x1,hi_x2,hi_x3,hi_x4,hi_x5,hi_x6,hi_x7,hi_x8\n"
          "0,0,0,0,0,0,0,0,1,1,1,1,1,1,1,1\n",
@@ -380,6 +384,9 @@ static void broken_csv_is_refused_with_its_row(void **state) {
         {"x,y,x\n1,2,3\n", FROE_E_FORMAT, "The header names x, y, x."},
         {"x,z\n1,2\n", FROE_E_FORMAT, "The header names x, z."},
         {"lo_x,lo_y,hi_x,hi_z\n1,2,3,4\n", FROE_E_FORMAT, "of the same two or more axes"},
+        {"xmin,ymin,xmax\n1,2,3\n", FROE_E_FORMAT, "The header names xmin, ymin, xmax."},
+        {"xmin,ymin,xmax,ymax,ymax\n1,2,3,4,4\n", FROE_E_FORMAT, "The header names xmin, ymin, xmax, ymax, ymax."},
+        {"xmin,ymin,xmax,ymax\n3,2,1,4\n", FROE_E_INPUT, "row 1"},
         {"lo_x,hi_x,WKT\n1,2,POINT (1 2)\n", FROE_E_UNSUPPORTED, "other.csv"},
         {"x,y,tag\n1,2,12a\n", FROE_E_FORMAT, "row 1: The tag '12a' is not a whole number"},
         {"x,y,tag\n1,2,-1\n", FROE_E_FORMAT, "row 1: The tag '-1' is not a whole number"},

@@ -129,7 +129,7 @@ static void headers_without_axes_are_told(void **state) {
     (void)state;
     refuse_table("town,population\nHere,2\n", FROE_E_FORMAT,
                  "bad.csv: The header names town, population. Columns of points are x,y or x1,x2 or lon,lat or "
-                 "easting,northing, of balls x,y,r, of boxes lo_x,lo_y,hi_x,hi_y.");
+                 "easting,northing, of balls x,y,r, of boxes lo_x,lo_y,hi_x,hi_y or xmin,ymin,xmax,ymax.");
     refuse_table("x,z\n1,2\n", FROE_E_FORMAT, "The header names x, z. Columns");
     char wide[4 * SUPPORT_CSV_COLUMNS + 40] = "x,y", *at = wide + 3; /* left to OGR */
     for (int i = 2; i <= SUPPORT_CSV_COLUMNS; i++) at += sprintf(at, ",c");
