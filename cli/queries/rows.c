@@ -90,7 +90,7 @@ static int axis_behind(const char *name, const char *prefix, int family) {
     return support_csv_axis(name + length, family, length > 0);
 }
 
-/* Which axis does it bound, as xmin does? -1: none, or the columns are not the lo_ or the hi_ that the name stands for. */
+/* Which axis does it bound, as xmin does? -1: none, or it is not that end of boxes, lo_ or hi_, which the prefix names. */
 static int axis_bounded(const char *name, const char *prefix, int family) {
     bool high;
     const int axis = support_csv_bound(name, family, &high);
