@@ -24,7 +24,7 @@ static froe_status read_text(const char *path, const froe_allocator *alloc, shar
     if (fstat(file, &info))
         status = support_fail_file(diag, "read", path, errno);
     else if (!S_ISREG(info.st_mode))
-        status = support_fail_irregular(diag, path, S_ISDIR(info.st_mode));
+        status = support_fail_irregular(diag, path, info.st_mode);
     else if (info.st_size > MOST)
         status = support_fail(diag, FROE_E_FORMAT, "%s: It is too large for a manifest.", support_short(path));
     else if (!array_reserve(alloc, text, (size_t)info.st_size + 1))

@@ -40,7 +40,7 @@ froe_status shards_file_check(const char *path, uint64_t *bytes, uint64_t *check
     const ssize_t got = S_ISREG(info.st_mode) ? shards_read_at(file, header, sizeof header, 0) : 0;
     const int error = errno;
     close(file);
-    if (!S_ISREG(info.st_mode)) return support_fail_irregular(diag, path, S_ISDIR(info.st_mode));
+    if (!S_ISREG(info.st_mode)) return support_fail_irregular(diag, path, info.st_mode);
     if (got < 0) return support_fail_file(diag, "read", path, error);
     if (got < HEADER) return support_fail(diag, FROE_E_FORMAT, "%s: The file is too short.", support_short(path));
     *bytes = (uint64_t)info.st_size;

@@ -5,6 +5,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
+#include <sys/stat.h>
 
 void support_one_line(char *text) {
     while (*text) {
@@ -82,9 +83,9 @@ froe_status support_fail_file(froe_diagnostic *diag, const char *done, const cha
                         support_errno(error).text);
 }
 
-froe_status support_fail_irregular(froe_diagnostic *diag, const char *path, bool directory) {
-    return support_fail(diag, FROE_E_IO, "%s: It is %s, not a file.", support_short(path),
-                        directory ? "a directory" : "a device");
+froe_status support_fail_irregular(froe_diagnostic *diag, const char *path, unsigned mode) {
+    const char *kind = S_ISDIR(mode) ? "a directory" : S_ISFIFO(mode) ? "a pipe" : "a device";
+    return support_fail(diag, FROE_E_IO, "%s: It is %s, not a file.", support_short(path), kind);
 }
 
 froe_status support_fail_ending(froe_diagnostic *diag, froe_status status, const char *path, const char *what,

@@ -31,8 +31,9 @@ froe_status support_fail_defaults(froe_diagnostic *diag, const char *maker);
 void support_defaults(void *out, size_t size, const void *all, size_t known);
 /** FROE_E_IO, or FROE_E_MEMORY where `error` is ENOMEM: "PATH: The file cannot be DONE: REASON.", of an errno value. */
 froe_status support_fail_file(froe_diagnostic *diag, const char *done, const char *path, int error);
-/** FROE_E_IO for an input that is not a regular file: "PATH: It is a directory, not a file.", or a device. */
-froe_status support_fail_irregular(froe_diagnostic *diag, const char *path, bool directory);
+/** FROE_E_IO for an input that is not a regular file, by its mode (stat()): "PATH: It is a directory, not a file.", or
+ * a pipe, or a device. */
+froe_status support_fail_irregular(froe_diagnostic *diag, const char *path, unsigned mode);
 /** `status` for an extension that is not among those that there are: "PATH: The ending of WHAT is ENDINGS." */
 froe_status support_fail_ending(froe_diagnostic *diag, froe_status status, const char *path, const char *what,
                                 const char *endings);

@@ -46,14 +46,14 @@ froe_status formats_source_open(const char *path, const froe_read_options *optio
     if (file < 0) return support_fail_file(diag, "read", name, errno);
     ssize_t got = -1;
     int error = fstat(file, &about) ? errno : 0;
-    bool regular = !error && S_ISREG(about.st_mode), directory = !error && S_ISDIR(about.st_mode);
+    bool regular = !error && S_ISREG(about.st_mode);
     if (regular) {
         got = read_fully(file, source->head, sizeof source->head - 1);
         if (got < 0) error = errno;
     }
     close(file);
     if (error) return support_fail_file(diag, "read", name, error);
-    if (!regular) return support_fail_irregular(diag, name, directory);
+    if (!regular) return support_fail_irregular(diag, name, about.st_mode);
     if (!got) return support_fail(diag, FROE_E_FORMAT, "%s: The file is empty.", support_short(name));
     source->head[formats_drop_mark(source->head, (size_t)got)] = '\0';
     source->size = (uint64_t)about.st_size;

@@ -58,7 +58,7 @@ static froe_status open_file(opening *o, int *fd) {
     if (fstat(*fd, &info))
         status = unreadable(o, errno);
     else if (!S_ISREG(info.st_mode))
-        status = support_fail_irregular(o->diag, o->path, S_ISDIR(info.st_mode));
+        status = support_fail_irregular(o->diag, o->path, info.st_mode);
     else
         status = check_size(o, (uint64_t)info.st_size);
     if (status)

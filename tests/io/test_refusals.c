@@ -14,6 +14,9 @@ static void missing_files_and_folders_are_refused(void **state) {
     mkdir("folder.glb", 0777);
     refuse("folder.glb", FROE_E_FORMAT, "folder.glb: It is a directory, and no map");
     refuse("/dev/null", FROE_E_IO, "/dev/null: It is a device");
+    assert_int_equal(mkfifo("pipe.csv", 0600), 0);
+    refuse("pipe.csv", FROE_E_IO, "pipe.csv: It is a pipe, not a file.");
+    unlink("pipe.csv");
     if (geteuid() == 0) return; /* root reads everything */
     write_text("secret.csv", "x,y\n1,2\n");
     chmod("secret.csv", 0);
