@@ -68,6 +68,7 @@ static froe_status refuse_content(map *m, const char *name) {
                             support_short(m->source->path), names.text, name);
     if (m->container && m->source->beyond)
         return map_fail(m, FROE_E_FORMAT, "It is a directory, and no map that can be read as a whole is in it.");
+    if (formats_is_utf16(m->source)) return formats_refuse_utf16(m->source, m->sink);
     return map_fail(m, FROE_E_FORMAT, "The file is of no type that can be read.");
 }
 

@@ -16,6 +16,13 @@ size_t support_utf8_length(const char *text) {
     return wrong ? 0 : n;
 }
 
+bool support_is_utf16(const char *bytes, size_t size) {
+    const unsigned char *c = (const unsigned char *)bytes;
+    if (size < 4) return false;
+    const bool marked = (c[0] == 0xFF && c[1] == 0xFE && (c[2] || c[3])) || (c[0] == 0xFE && c[1] == 0xFF);
+    return marked || (!c[0] != !c[1] && !c[2] == !c[0] && !c[3] == !c[1]);
+}
+
 bool support_is_utf8(const char *text) {
     size_t length = 1;
     for (; text && *text && length; text += length) length = support_utf8_length(text);

@@ -4,6 +4,7 @@
 #include "support/decimal/decimal.h"
 #include "support/fail.h"
 #include "support/path.h"
+#include "support/utf8.h"
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -31,6 +32,7 @@ static bool next_line(cli_rows *rows, char **text, size_t *capacity, size_t *len
     rows->lines++;
     *length = (size_t)got;
     if (!make_room(text, capacity, *length)) return false;
+    if (rows->lines == 1) rows->wide = support_is_utf16(*text, *length);
     for (char *zero; (zero = memchr(*text, '\0', *length));) *zero = '?'; /* no text: it spoils its field */
     return true;
 }
@@ -148,6 +150,7 @@ static int read_header(cli_rows *rows, const cli_column *columns, int dim) {
     rows->numbers = header_text(columns, dim, expected, sizeof expected);
     const bool there = next_record(rows);
     if (!there && stopped(rows)) return fail_reading(rows);
+    if (rows->wide) return cli_fail(CLI_INPUT, rows->path, "The text is in UTF-16, and must be saved in UTF-8.");
     if (there) {
         rows->header = rows->text;
         rows->text = NULL;

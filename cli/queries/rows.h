@@ -40,6 +40,7 @@ typedef struct cli_rows {
     signed char place[SUPPORT_CSV_COLUMNS];        /**< which number a column holds, -1: none */
     char separator;
     int family;         /**< of the names of the axes, see support/text/csv.h */
+    bool wide;          /**< the file is text in UTF-16 */
     bool open;          /**< the file ends within quotation marks */
     char sentence[120]; /**< what is wrong with a bad row */
     int code;           /**< behind CLI_ROWS_FAILED: the exit code */

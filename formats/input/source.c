@@ -2,6 +2,7 @@
 #include "formats/input/source.h"
 #include "support/decimal/decimal.h"
 #include "support/locale.h"
+#include "support/utf8.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <stdarg.h>
@@ -96,7 +97,18 @@ froe_status formats_load(const formats_source *source, formats_sink *sink, bool 
     return FROE_OK;
 }
 
+bool formats_is_utf16(const formats_source *source) {
+    const size_t most = sizeof source->head - 1;
+    return support_is_utf16(source->head, source->size < most ? (size_t)source->size : most);
+}
+
+froe_status formats_refuse_utf16(const formats_source *source, const formats_sink *sink) {
+    return support_fail(sink->diag, FROE_E_FORMAT, "%s: The text is in UTF-16, and must be saved in UTF-8.",
+                        support_short(source->path));
+}
+
 froe_status formats_refuse_zero(const formats_source *source, const formats_sink *sink, size_t byte) {
+    if (formats_is_utf16(source)) return formats_refuse_utf16(source, sink);
     return support_fail(sink->diag, FROE_E_FORMAT, "%s: The file is not text, because byte %zu is zero.",
                         support_short(source->path), byte);
 }

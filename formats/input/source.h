@@ -55,6 +55,11 @@ froe_status formats_load(const formats_source *source, formats_sink *sink, bool 
  * word behind it would not be recognised. No binary format begins with these bytes. Returns how many bytes are left. */
 size_t formats_drop_mark(char *text, size_t size);
 
+/** Does the file seem to be text in UTF-16, which only some of the libraries read? */
+bool formats_is_utf16(const formats_source *source);
+/** FROE_E_FORMAT for such a file, which no reader takes. */
+froe_status formats_refuse_utf16(const formats_source *source, const formats_sink *sink);
+
 /** FROE_E_FORMAT for a text with a NUL at some byte. */
 froe_status formats_refuse_zero(const formats_source *source, const formats_sink *sink, size_t byte);
 /** The same text, but mapped, so that it takes memory only where it is read, and a NUL may stand in it: `capacity` is

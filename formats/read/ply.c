@@ -263,6 +263,7 @@ froe_status formats_read_ply(const formats_source *source, formats_sink *sink) {
     froe_status status = formats_load(source, sink, true, &file);
     p.at = file.data;
     p.end = p.at + file.count;
+    if (!status && formats_is_utf16(source)) status = formats_refuse_utf16(source, sink);
     if (!status && strncmp(p.at, "ply", 3) != 0) status = broken(&p, "The file does not begin like PLY.");
     if (!status) status = read_ply_header(&p);
     if (!status) status = formats_sink_open(sink, 3);

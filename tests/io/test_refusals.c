@@ -39,6 +39,31 @@ static void files_of_the_wrong_type_are_refused(void **state) {
     }
 }
 
+/* As programs of Windows save it. */
+static void text_in_utf16_is_named(void **state) {
+    (void)state;
+    static const struct {
+        const char *path, *text;
+    } files[] = {{"wide.csv", "x,y\n1,2\n"},
+                 {"wide.txt", "x,y\n1,2\n"},
+                 {"wide.geojson", "{\"type\":\"FeatureCollection\",\"features\":[]}"},
+                 {"wide.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"},
+                 {"wide.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"},
+                 {"wide.ply", "ply\nformat ascii 1.0\n"}};
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
+        for (int way = 0; way < 4; way++) { /* low or high bytes first, with or without a byte order mark */
+            char bytes[256];
+            size_t count = 0;
+            const int high = way & 1;
+            if (way < 2) bytes[high] = (char)0xFF, bytes[1 - high] = (char)0xFE, count = 2;
+            for (const char *at = files[i].text; *at; at++, count += 2)
+                bytes[count + (size_t)high] = *at, bytes[count + (size_t)(1 - high)] = '\0';
+            write_bytes(files[i].path, bytes, count);
+            refuse(files[i].path, FROE_E_FORMAT, "The text is in UTF-16, and must be saved in UTF-8.");
+            unlink(files[i].path);
+        }
+}
+
 static void broken_json_is_refused(void **state) {
     (void)state;
     static const char *const texts[] = {
@@ -343,6 +368,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(missing_files_and_folders_are_refused),
         cmocka_unit_test(files_of_the_wrong_type_are_refused),
+        cmocka_unit_test(text_in_utf16_is_named),
         cmocka_unit_test(broken_json_is_refused),
         cmocka_unit_test(numbers_that_are_none_name_their_feature),
         cmocka_unit_test(broken_models_are_refused),
