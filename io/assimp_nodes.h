@@ -20,6 +20,18 @@ typedef froe_status io_arrange_fn(void *user, const formats_source *source, form
 /** As io_read_assimp(), with such a function in between. The list is the caller's; nodes are gone afterwards. */
 froe_status io_read_arranged(const formats_source *source, formats_sink *sink, io_nodes *nodes, io_arrange_fn *arrange,
                              void *user);
+/** A primitive of a mesh of glTF, which assimp makes a mesh of its own: the number of its mesh, and how many points,
+ * edges or triangles it has. */
+typedef struct io_gltf_part {
+    size_t mesh, faces;
+} io_gltf_part;
+typedef ARRAY(io_gltf_part) io_gltf_parts;
+
+/** Before the import: FROE_E_UNSUPPORTED or FROE_E_FORMAT where a glTF file says something about the places of faces
+ * that assimp passes over in silence. `parts` are the caller's. */
+froe_status io_gltf_check(const formats_source *source, formats_sink *sink, io_gltf_parts *parts);
+/** After it: FROE_E_FORMAT where assimp has left out faces. */
+froe_status io_gltf_is_whole(formats_sink *sink, const struct aiScene *scene, const io_gltf_parts *parts);
 /** out = a b, of 3 x 4 matrices; out is another. */
 void io_matrix_multiply(const double a[12], const double b[12], double out[12]);
 #endif

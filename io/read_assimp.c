@@ -269,16 +269,17 @@ froe_status io_read_assimp(const formats_source *source, formats_sink *sink) {
     return status;
 }
 
-froe_status io_read_arranged(const formats_source *source, formats_sink *sink, io_nodes *nodes, io_arrange_fn *arrange,
-                             void *user) {
-    froe_status status = formats_sink_open(sink, 3);
-    if (!status) status = formats_sink_progress(sink, 0);
-    if (status) return status;
+static froe_status import(const formats_source *source, formats_sink *sink, const struct aiScene **scene) {
     pthread_mutex_lock(&import_lock);
-    const struct aiScene *scene = aiImportFile(source->file, 0);
-    if (!scene) status = refuse_import(source, sink);
+    *scene = aiImportFile(source->file, 0);
+    const froe_status status = *scene ? FROE_OK : refuse_import(source, sink);
     pthread_mutex_unlock(&import_lock);
-    if (status) return status;
+    return status;
+}
+
+static froe_status read_scene(const formats_source *source, formats_sink *sink, const struct aiScene *scene,
+                              io_nodes *nodes, io_arrange_fn *arrange, void *user) {
+    froe_status status;
     model w = {.scene = scene, .sink = sink, .nodes = nodes};
     for (unsigned i = 0; i < scene->mNumMeshes; ++i) /* instances count once: only the progress bar depends on it */
         w.faces += scene->mMeshes[i]->mNumFaces ? scene->mMeshes[i]->mNumFaces : scene->mMeshes[i]->mNumVertices;
@@ -309,6 +310,21 @@ froe_status io_read_arranged(const formats_source *source, formats_sink *sink, i
     array_free(&sink->alloc, &w.places);
     array_free(&sink->alloc, &w.paints);
     formats_images_free(&sink->alloc, &w.images);
-    aiReleaseImport(scene);
+    return status;
+}
+
+froe_status io_read_arranged(const formats_source *source, formats_sink *sink, io_nodes *nodes, io_arrange_fn *arrange,
+                             void *user) {
+    io_gltf_parts parts = {0};
+    froe_status status = formats_sink_open(sink, 3);
+    if (!status) status = formats_sink_progress(sink, 0);
+    if (!status && (!strncmp(source->head, "glTF", 4) || !strcmp(source->extension.text, "gltf")))
+        status = io_gltf_check(source, sink, &parts);
+    const struct aiScene *scene = NULL;
+    if (!status) status = import(source, sink, &scene);
+    if (!status) status = io_gltf_is_whole(sink, scene, &parts);
+    array_free(&sink->alloc, &parts);
+    if (!status) status = read_scene(source, sink, scene, nodes, arrange, user);
+    if (scene) aiReleaseImport(scene);
     return status;
 }

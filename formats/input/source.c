@@ -80,20 +80,29 @@ bool formats_is_collection(const formats_source *source) {
     return true;
 }
 
-froe_status formats_load(const formats_source *source, formats_sink *sink, bool binary, formats_text *text) {
+froe_status formats_load_part(const formats_source *source, formats_sink *sink, size_t start, size_t size,
+                              formats_text *text) {
     enum { BEHIND = 1 + SUPPORT_DECIMAL_AHEAD };
-    const bool room =
-        source->size < SIZE_MAX - BEHIND && array_reserve(&sink->alloc, text, (size_t)source->size + BEHIND);
-    char *to = text->data;
+    const bool room = size < SIZE_MAX - BEHIND && array_reserve(&sink->alloc, text, size + BEHIND);
     if (!room) return support_fail_memory(sink->diag);
     int file = open(source->file, O_RDONLY | O_CLOEXEC);
-    ssize_t got = file < 0 ? -1 : read_fully(file, to, (size_t)source->size);
+    const bool there = file >= 0 && (!start || lseek(file, (off_t)start, SEEK_SET) >= 0);
+    ssize_t got = there ? read_fully(file, text->data, size) : -1;
     int error = errno;
     if (file >= 0) close(file);
     if (got < 0) return support_fail_file(sink->diag, "read", source->path, error);
-    text->count = formats_drop_mark(to, (size_t)got);
-    memset(to + text->count, '\0', BEHIND);
-    if (!binary && memchr(to, '\0', text->count)) return formats_refuse_zero(source, sink, strlen(to));
+    text->count = (size_t)got;
+    memset(text->data + text->count, '\0', BEHIND);
+    return FROE_OK;
+}
+
+froe_status formats_load(const formats_source *source, formats_sink *sink, bool binary, formats_text *text) {
+    const froe_status status = formats_load_part(source, sink, 0, (size_t)source->size, text);
+    if (status) return status;
+    const size_t read = text->count;
+    text->count = formats_drop_mark(text->data, read);
+    memset(text->data + text->count, '\0', read - text->count);
+    if (!binary && memchr(text->data, '\0', text->count)) return formats_refuse_zero(source, sink, strlen(text->data));
     return FROE_OK;
 }
 

@@ -55,6 +55,11 @@ froe_status formats_load(const formats_source *source, formats_sink *sink, bool 
  * word behind it would not be recognised. No binary format begins with these bytes. Returns how many bytes are left. */
 size_t formats_drop_mark(char *text, size_t size);
 
+/** `size` bytes of the file from a byte on, or fewer where it ends before, and the same zeros behind them. FROE_E_IO,
+ * FROE_E_MEMORY. */
+froe_status formats_load_part(const formats_source *source, formats_sink *sink, size_t start, size_t size,
+                              formats_text *text);
+
 /** Does the file seem to be text in UTF-16, which only some of the libraries read? */
 bool formats_is_utf16(const formats_source *source);
 /** FROE_E_FORMAT for such a file, which no reader takes. */

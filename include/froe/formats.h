@@ -57,7 +57,7 @@ typedef struct froe_read_report {
     char format[64];      /**< e.g. "GeoJSON", "CSV boxes", "glTF2 (assimp)" */
     char precision[16];   /**< of the reader's coordinates: "float64" or "float32" */
     uint64_t layers;      /**< layers read; 1 for files without layers */
-    uint64_t layers_left; /**< layers not read */
+    uint64_t layers_left; /**< layers not read; of glTF, scenes beside the one that is to be shown */
     uint64_t features;    /**< features, rows, or nodes or named objects with faces */
     uint64_t groups;
     uint64_t linearised;   /**< curves replaced by chords (OGR's default step, 4 degrees) */

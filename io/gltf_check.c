@@ -1,0 +1,192 @@
+/* gltf_check.c: what a glTF file (version 2.0) may say that assimp passes over, so that the model would be another one.
+ *
+ * Those are extensions that it requires (3.12), positions that are no floating-point numbers (KHR_mesh_quantization),
+ * nodes that stand for many (EXT_mesh_gpu_instancing), transformations of another shape than there are (3.5.3), and
+ * faces with wrong indices, which assimp leaves out. Whatever assimp refuses by itself is left to it. */
+#include "assimp_nodes.h"
+#include "formats/input/json.h"
+#include <stdio.h>
+#include <string.h>
+
+typedef struct gltf_check {
+    formats_sink *sink;
+    const formats_json *root;
+    ARRAY(const formats_json *) accessors;
+} gltf_check;
+
+static size_t little_endian(const char *at) {
+    const unsigned char *b = (const unsigned char *)at;
+    return (size_t)b[0] | (size_t)b[1] << 8 | (size_t)b[2] << 16 | (size_t)b[3] << 24;
+}
+
+/* The text of a .gltf, or of the first chunk of a .glb; none where there is none. */
+static froe_status load_text(const formats_source *source, formats_sink *sink, formats_text *text) {
+    enum { HEADER = 12, CHUNK = 8 };
+    const char *head = source->head;
+    if (strncmp(head, "glTF", 4) != 0) return formats_load_part(source, sink, 0, (size_t)source->size, text);
+    if (source->size < HEADER + CHUNK || little_endian(head + 4) != 2 || memcmp(head + HEADER + 4, "JSON", 4) != 0)
+        return FROE_OK;
+    const size_t length = little_endian(head + HEADER);
+    if (length > source->size - HEADER - CHUNK) return FROE_OK;
+    return formats_load_part(source, sink, HEADER + CHUNK, length, text);
+}
+
+static bool is_number(const formats_json *value, double number) {
+    return formats_json_is(value, FORMATS_JSON_NUMBER) && value->number == number;
+}
+
+/* A failure about "node 3 ('arm')". */
+static froe_status fail_at(const gltf_check *c, froe_status status, const char *what, size_t number,
+                           const formats_json *object, const char *sentence) {
+    const char *name = formats_json_string(formats_json_get(object, "name"));
+    char called[64] = "";
+    if (name) snprintf(called, sizeof called, " ('%.50s')", name);
+    return support_fail(c->sink->diag, status, "%s: %s %zu%s: %s", support_short(c->sink->path), what, number, called,
+                        sentence);
+}
+
+/* ------------------------------------------------------------------- extensions -- */
+
+/* Those that say nothing of where faces are, or that assimp reads where it can, and refuses otherwise. */
+static bool is_harmless(const char *extension) {
+    static const char *const beginnings[] = {"KHR_materials_", "KHR_texture_",          "EXT_texture_",
+                                             "MSFT_texture_",  "KHR_lights_",           "EXT_lights_",
+                                             "KHR_xmp",        "KHR_mesh_quantization", "KHR_draco_mesh_compression"};
+    for (size_t i = 0; i < sizeof beginnings / sizeof *beginnings; i++)
+        if (!strncmp(extension, beginnings[i], strlen(beginnings[i]))) return true;
+    return false;
+}
+
+static froe_status check_extensions(const gltf_check *c) {
+    FORMATS_JSON_EACH(item, formats_json_get(c->root, "extensionsRequired")) {
+        const char *name = formats_json_string(item);
+        if (name && !is_harmless(name))
+            return support_fail(c->sink->diag, FROE_E_UNSUPPORTED,
+                                "%s: The file requires the extension '%.60s' of glTF, which is not read.",
+                                support_short(c->sink->path), name);
+    }
+    return FROE_OK;
+}
+
+/* ----------------------------------------------------------------------- meshes -- */
+
+/* The accessor that a member names by its number; NULL: there is none. */
+static const formats_json *accessor_of(const gltf_check *c, const formats_json *object, const char *name) {
+    const formats_json *named = formats_json_get(object, name);
+    const bool is_there =
+        formats_json_is(named, FORMATS_JSON_NUMBER) && named->number >= 0 && named->number < (double)c->accessors.count;
+    return is_there ? c->accessors.data[(size_t)named->number] : NULL;
+}
+
+/* Are positions such as assimp takes all of them for? */
+static bool is_floating(const formats_json *positions) {
+    const char *type = formats_json_string(formats_json_get(positions, "type"));
+    return !positions ||
+           (is_number(formats_json_get(positions, "componentType"), 5126) && type && !strcmp(type, "VEC3"));
+}
+
+/* How many points, edges or triangles a primitive is (3.7.2.1). */
+static size_t faces_of(const gltf_check *c, const formats_json *primitive, const formats_json *positions) {
+    const formats_json *indices = accessor_of(c, primitive, "indices");
+    const formats_json *count = formats_json_get(indices ? indices : positions, "count");
+    const formats_json *mode = formats_json_get(primitive, "mode");
+    const bool is_count = formats_json_is(count, FORMATS_JSON_NUMBER) && count->number >= 0 && count->number < 0x1p32;
+    const size_t n = is_count ? (size_t)count->number : 0;
+    if (is_number(mode, 0) || is_number(mode, 2)) return n;
+    if (is_number(mode, 1)) return n / 2;
+    if (is_number(mode, 3)) return n > 1 ? n - 1 : 0;
+    if (is_number(mode, 5) || is_number(mode, 6)) return n > 2 ? n - 2 : 0;
+    return n / 3;
+}
+
+static froe_status check_meshes(gltf_check *c, io_gltf_parts *parts) {
+    const froe_allocator *alloc = &c->sink->alloc;
+    size_t number = 0;
+    FORMATS_JSON_EACH(accessor, formats_json_get(c->root, "accessors"))
+    if (!array_push(alloc, &c->accessors, accessor)) return support_fail_memory(c->sink->diag);
+    FORMATS_JSON_EACH(mesh, formats_json_get(c->root, "meshes")) {
+        FORMATS_JSON_EACH(primitive, formats_json_get(mesh, "primitives")) {
+            const formats_json *positions = accessor_of(c, formats_json_get(primitive, "attributes"), "POSITION");
+            if (!is_floating(positions))
+                return fail_at(c, FROE_E_UNSUPPORTED, "mesh", number, mesh,
+                               "Its positions are not three floating-point numbers each, as with the extension "
+                               "KHR_mesh_quantization, which is not read.");
+            const io_gltf_part part = {number, faces_of(c, primitive, positions)};
+            if (!array_push(alloc, parts, part)) return support_fail_memory(c->sink->diag);
+        }
+        number++;
+    }
+    return FROE_OK;
+}
+
+/* ------------------------------------------------------------------------ nodes -- */
+
+static bool is_numbers(const formats_json *value, size_t count) {
+    FORMATS_JSON_EACH(item, value)
+    if (!formats_json_is(item, FORMATS_JSON_NUMBER)) return false;
+    return !value || formats_json_size(value) == count;
+}
+
+/* Is a matrix, whose columns come one after the other, one of turns, scales, shears and a move? */
+static bool is_affine(const formats_json *matrix) {
+    size_t i = 0;
+    FORMATS_JSON_EACH(item, matrix) {
+        if (i % 4 == 3 && !is_number(item, i == 15)) return false;
+        i++;
+    }
+    return is_numbers(matrix, 16);
+}
+
+static froe_status check_nodes(const gltf_check *c) {
+    size_t number = 0;
+    FORMATS_JSON_EACH(node, formats_json_get(c->root, "nodes")) {
+        if (formats_json_get(formats_json_get(node, "extensions"), "EXT_mesh_gpu_instancing"))
+            return fail_at(c, FROE_E_UNSUPPORTED, "node", number, node,
+                           "It stands in many places by the extension EXT_mesh_gpu_instancing, which is not read.");
+        if (!is_affine(formats_json_get(node, "matrix")))
+            return fail_at(c, FROE_E_FORMAT, "node", number, node,
+                           "Its matrix is not 16 numbers, of which those of the last row are 0, 0, 0 and 1.");
+        if (!is_numbers(formats_json_get(node, "translation"), 3) ||
+            !is_numbers(formats_json_get(node, "rotation"), 4) || !is_numbers(formats_json_get(node, "scale"), 3))
+            return fail_at(c, FROE_E_FORMAT, "node", number, node,
+                           "Its translation, rotation and scale are not 3, 4 and 3 numbers.");
+        number++;
+    }
+    return FROE_OK;
+}
+
+froe_status io_gltf_check(const formats_source *source, formats_sink *sink, io_gltf_parts *parts) {
+    formats_text text = {0};
+    formats_json_values values = {0};
+    formats_json_error error;
+    gltf_check c = {.sink = sink};
+    froe_status status = load_text(source, sink, &text);
+    const froe_status read =
+        status || !text.count ? FROE_E_FORMAT : formats_json_read(&sink->alloc, text.data, text.count, &values, &error);
+    if (read == FROE_E_MEMORY) status = support_fail_memory(sink->diag);
+    c.root = values.data;
+    const char *version =
+        read ? NULL : formats_json_string(formats_json_get(formats_json_get(c.root, "asset"), "version"));
+    if (version && *version == '2') {
+        const size_t scenes = formats_json_size(formats_json_get(c.root, "scenes"));
+        sink->report.layers_left = scenes ? scenes - 1 : 0;
+        status = check_extensions(&c);
+        if (!status) status = check_meshes(&c, parts);
+        if (!status) status = check_nodes(&c);
+    }
+    array_free(&sink->alloc, &c.accessors);
+    array_free(&sink->alloc, &values);
+    array_free(&sink->alloc, &text);
+    return status;
+}
+
+froe_status io_gltf_is_whole(formats_sink *sink, const struct aiScene *scene, const io_gltf_parts *parts) {
+    for (size_t i = 0; i < parts->count && parts->count == scene->mNumMeshes; i++) {
+        const size_t faces = parts->data[i].faces, read = scene->mMeshes[i]->mNumFaces;
+        if (read < faces)
+            return support_fail(sink->diag, FROE_E_FORMAT,
+                                "%s: mesh %zu: Of %zu points, edges or triangles %zu name vertices that do not exist.",
+                                support_short(sink->path), parts->data[i].mesh, faces, faces - read);
+    }
+    return FROE_OK;
+}

@@ -1,0 +1,93 @@
+/* glTF as a scene: what assimp passes over in silence, so that the scene would be another than the file means, is
+ * refused by a sentence. */
+#include "support.h"
+
+/* A triangle and a half of a quadrilateral, of which the last corner is not there; two scenes. */
+static const char whole[] =
+    "{\"asset\": {\"version\": \"2.0\"}, \"extensionsRequired\": [\"KHR_materials_unlit\"], \"scene\": 0,\n"
+    "\"scenes\": [{\"nodes\": [0]}, {\"nodes\": [1]}],\n"
+    "\"nodes\": [{\"name\": \"a\", \"mesh\": 0, \"matrix\": [2,0,0,0, 0,1,0,0, 0,0,1,0, 3,0,0,1]},\n"
+    "{\"name\": \"b\", \"mesh\": 0, \"translation\": [1, 2, 3], \"scale\": [1, 1, 1]}],\n"
+    "\"meshes\": [{\"name\": \"m\", \"primitives\": [{\"attributes\": {\"POSITION\": 0}, \"indices\": 1, \"mode\": "
+    "4}]}],\n"
+    "\"accessors\": [{\"bufferView\": 0, \"componentType\": 5126, \"type\": \"VEC3\", \"count\": 3},\n"
+    "{\"bufferView\": 1, \"componentType\": 5123, \"type\": \"SCALAR\", \"count\": 3}],\n"
+    "\"bufferViews\": [{\"buffer\": 0, \"byteOffset\": 0, \"byteLength\": 36},\n"
+    "{\"buffer\": 0, \"byteOffset\": 36, \"byteLength\": 12}],\n"
+    "\"buffers\": [{\"byteLength\": 48, \"uri\": \"data:application/octet-stream;base64,"
+    "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIAAAABAAMA\"}]}\n";
+
+/* Writes the text with one word changed. */
+static void write_changed(const char *path, const char *word, const char *other) {
+    char text[sizeof whole + 256];
+    const char *at = strstr(whole, word);
+    assert_non_null(at);
+    snprintf(text, sizeof text, "%.*s%s%s", (int)(at - whole), whole, other, at + strlen(word));
+    write_text(path, text);
+}
+
+static void the_scene_to_be_shown_is_read_and_others_are_counted(void **state) {
+    (void)state;
+    froe_read_report report;
+    write_text("whole.gltf", whole);
+    froe_scene *scene = read_scene("whole.gltf", &report);
+    assert_int_equal(froe_scene_object_count(scene), 1);
+    assert_true(corner(scene, 0, 0)[0] == 3 && corner(scene, 0, 1)[0] == 5);
+    assert_int_equal(report.layers_left, 1);
+    froe_scene_free(scene);
+}
+
+static void what_assimp_passes_over_is_refused(void **state) {
+    (void)state;
+    static const struct {
+        const char *word, *other;
+        froe_status status;
+        const char *sentence;
+    } changes[] = {
+        {"KHR_materials_unlit", "EXT_meshopt_compression", FROE_E_UNSUPPORTED,
+         "changed.gltf: The file requires the extension 'EXT_meshopt_compression' of glTF, which is not read."},
+        {"5126", "5123", FROE_E_UNSUPPORTED, "changed.gltf: mesh 0 ('m'): Its positions are not three floating-point"},
+        {"VEC3", "VEC2", FROE_E_UNSUPPORTED, "changed.gltf: mesh 0 ('m'): Its positions are not three floating-point"},
+        {"\"mesh\": 0", "\"mesh\": 0, \"extensions\": {\"EXT_mesh_gpu_instancing\": {}}", FROE_E_UNSUPPORTED,
+         "changed.gltf: node 0 ('a'): It stands in many places by the extension EXT_mesh_gpu_instancing"},
+        {"0,0,1,0, 3", "0,0,1,0.5, 3", FROE_E_FORMAT, "changed.gltf: node 0 ('a'): Its matrix is not 16 numbers, of"},
+        {"3,0,0,1]", "3,0,0]", FROE_E_FORMAT, "changed.gltf: node 0 ('a'): Its matrix is not 16 numbers, of"},
+        {"[1, 2, 3]", "[1, 2]", FROE_E_FORMAT, "changed.gltf: node 1 ('b'): Its translation, rotation and scale are"},
+        {"[1, 1, 1]", "[1, true, 1]", FROE_E_FORMAT, "changed.gltf: node 1 ('b'): Its translation, rotation and scale"},
+        {"\"SCALAR\", \"count\": 3", "\"SCALAR\", \"count\": 6", FROE_E_FORMAT,
+         "changed.gltf: mesh 0: Of 2 points, edges or triangles 1 name vertices that do not exist."},
+    };
+    for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
+        write_changed("changed.gltf", changes[i].word, changes[i].other);
+        refuse("changed.gltf", changes[i].status, changes[i].sentence);
+    }
+}
+
+static void faces_are_counted_in_every_mode(void **state) {
+    (void)state;
+    static const size_t objects[] = {3, 1, 3, 2, 1, 1, 1}; /* of three corners */
+    for (int mode = 0; mode < 7; mode++) {
+        char other[32];
+        snprintf(other, sizeof other, "\"mode\": %d", mode);
+        write_changed("mode.gltf", "\"mode\": 4", other);
+        froe_scene *scene = read_scene("mode.gltf", NULL);
+        assert_int_equal(froe_scene_object_count(scene), objects[mode]);
+        froe_scene_free(scene);
+    }
+}
+
+static void every_failing_allocation_gives_a_status(void **state) {
+    (void)state;
+    write_text("whole.gltf", whole);
+    test_memory_each(read_with_memory, "whole.gltf");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(the_scene_to_be_shown_is_read_and_others_are_counted),
+        cmocka_unit_test(what_assimp_passes_over_is_refused),
+        cmocka_unit_test(faces_are_counted_in_every_mode),
+        cmocka_unit_test(every_failing_allocation_gives_a_status),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
