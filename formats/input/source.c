@@ -80,6 +80,11 @@ bool formats_is_collection(const formats_source *source) {
     return true;
 }
 
+void formats_end_lines(char *text) {
+    for (char *at = text; (at = strchr(at, '\r')); at++)
+        if (at[1] != '\n') *at = '\n';
+}
+
 froe_status formats_load_part(const formats_source *source, formats_sink *sink, size_t start, size_t size,
                               formats_text *text) {
     enum { BEHIND = 1 + SUPPORT_DECIMAL_AHEAD };
@@ -103,6 +108,7 @@ froe_status formats_load(const formats_source *source, formats_sink *sink, bool 
     text->count = formats_drop_mark(text->data, read);
     memset(text->data + text->count, '\0', read - text->count);
     if (!binary && memchr(text->data, '\0', text->count)) return formats_refuse_zero(source, sink, strlen(text->data));
+    if (!binary && !memchr(text->data, '\n', text->count)) formats_end_lines(text->data);
     return FROE_OK;
 }
 

@@ -47,14 +47,17 @@ froe_status formats_read(const formats_readers *readers, const char *path, const
 
 typedef ARRAY(char) formats_text;
 /** The whole file but for a byte order mark, and behind it a NUL and as many more as numbers are read ahead
- * (support/decimal/decimal.h). FROE_E_IO, FROE_E_MEMORY; FROE_E_FORMAT when a text
- * holds a NUL. */
+ * (support/decimal/decimal.h). Where lines of a text end by returns alone, these become line feeds. FROE_E_IO,
+ * FROE_E_MEMORY; FROE_E_FORMAT when a text holds a NUL. */
 froe_status formats_load(const formats_source *source, formats_sink *sink, bool binary, formats_text *text);
 
 /** Takes the byte order mark of UTF-8 (RFC 3629, section 6) from the beginning of a text: it is no part of it, and a
  * word behind it would not be recognised. No binary format begins with these bytes. Returns how many bytes are left. */
 size_t formats_drop_mark(char *text, size_t size);
 
+/** Returns that end lines by themselves, as on an old Macintosh, become line feeds: for formats in which no text has
+ * returns. */
+void formats_end_lines(char *text);
 /** `size` bytes of the file from a byte on, or fewer where it ends before, and the same zeros behind them. FROE_E_IO,
  * FROE_E_MEMORY. */
 froe_status formats_load_part(const formats_source *source, formats_sink *sink, size_t start, size_t size,

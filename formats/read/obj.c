@@ -281,6 +281,7 @@ froe_status formats_read_obj(const formats_source *source, formats_sink *sink) {
     const froe_allocator *alloc = &sink->alloc;
     formats_text text = {0};
     froe_status status = formats_load(source, sink, false, &text);
+    if (!status) formats_end_lines(text.data);
     obj *o = status ? NULL : support_calloc(alloc, 1, sizeof *o);
     if (!status && !o) status = support_fail_memory(sink->diag);
     if (!status) status = formats_sink_open(sink, 3);

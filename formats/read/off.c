@@ -163,6 +163,7 @@ froe_status formats_read_off(const formats_source *source, formats_sink *sink) {
     const froe_allocator *alloc = &sink->alloc;
     formats_text text = {0};
     froe_status status = formats_load(source, sink, false, &text);
+    if (!status) formats_end_lines(text.data);
     off o = {.source = source, .sink = sink, .begin = text.data, .at = text.data, .length = text.count};
     if (!status) status = read_off_header(&o);
     if (!status) status = formats_sink_open(sink, 3);

@@ -43,6 +43,11 @@ static void each_format_that_needs_no_library_is_read(void **state) {
          "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\nproperty double z\n"
          "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n",
          "PLY", 3, 1},
+        {"returns.obj", "v 0 0 0\rv 1 0 0\rv 0 1 0\rv 0 0 1\rf 1 2 3\rf 1 2 4\rl 3 4\r", "OBJ", 3, 3},
+        {"mixed.obj", "v 0 0 0\rv 1 0 0\r\nv 0 1 0\rv 0 0 1\rf 1 2 3\rf 1 2 4\rl 3 4\n", "OBJ", 3, 3},
+        {"mixed.off", "OFF # corners\r3 1 0\r\n0 0 0\r1 0 0 # a corner\r0 1 0\r3 0 1 2\n", "OFF", 3, 1},
+        {"returns.off", "OFF # corners\r3 1 0\r0 0 0\r1 0 0 # a corner\r0 1 0\r3 0 1 2\r", "OFF", 3, 1},
+        {"returns.csv", "x,y\r1,2\r3,4\r", "CSV points", 2, 2},
         {"own.geojson",
          "{\"type\":\"FeatureCollection\",\"features\":[{\"type\":\"Feature\",\"properties\":{},\"geometry\":"
          "{\"type\":\"LineString\",\"coordinates\":[[0,0],[1,0],[0,1]]}}]}",
