@@ -26,6 +26,7 @@ typedef struct property {
 
 typedef struct element {
     enum { OTHER, VERTEX, FACE, EDGE } kind;
+    char name[WORD_ROOM];
     uint64_t count;
     int properties;
     property property[MOST_PROPERTIES];
@@ -102,8 +103,12 @@ static froe_status read_property(ply *p) {
     to->role = LEFT_ALONE;
     if (e->kind == VERTEX && !list && word[0] >= 'x' && word[0] <= 'z' && !word[1])
         to->role = (ply_role)(X + word[0] - 'x');
-    if (e->kind == FACE && list && (!strcmp(word, "vertex_indices") || !strcmp(word, "vertex_index")))
-        to->role = INDICES;
+    const bool indices = list && (!strcmp(word, "vertex_indices") || !strcmp(word, "vertex_index"));
+    if (e->kind == OTHER && e->count && indices)
+        return support_fail(p->sink->diag, FROE_E_UNSUPPORTED,
+                            "%s: The element '%.40s' names vertices, which is read of faces and edges alone.",
+                            support_short(p->sink->path), e->name);
+    if (e->kind == FACE && indices) to->role = INDICES;
     if (e->kind == EDGE && !list && !strcmp(word, "vertex1")) to->role = FIRST;
     if (e->kind == EDGE && !list && !strcmp(word, "vertex2")) to->role = SECOND;
     static const char *const channels[] = {"red", "green", "blue", "alpha"};
@@ -119,6 +124,7 @@ static froe_status read_element(ply *p) {
     element *e = p->elements.data + p->elements.count++;
     memset(e, 0, sizeof *e);
     next_word(p, word);
+    memcpy(e->name, word, sizeof e->name);
     e->kind = !strcmp(word, "vertex") ? VERTEX : !strcmp(word, "face") ? FACE : !strcmp(word, "edge") ? EDGE : OTHER;
     next_word(p, word);
     e->count = strtoull(word, &end, 10);
@@ -127,6 +133,13 @@ static froe_status read_element(ply *p) {
     p->shapes = p->shapes || ((e->kind == FACE || e->kind == EDGE) && e->count);
     p->all += e->count;
     return FROE_OK;
+}
+
+/* A file without z is flat. */
+static bool has_places(const element *e) {
+    int found = 0;
+    for (int i = 0; i < e->properties; ++i) found |= 1 << e->property[i].role;
+    return e->kind != VERTEX || !e->count || ((found >> X & 1) && (found >> Y & 1));
 }
 
 static froe_status read_ply_header(ply *p) {
@@ -150,7 +163,10 @@ static froe_status read_ply_header(ply *p) {
         }
     }
     skip_line(p); /* data begins behind the line, even when it is empty */
-    return status || formatted ? status : broken(p, "The header names no format.");
+    if (!status && !formatted) status = broken(p, "The header names no format.");
+    for (size_t k = 0; k < p->elements.count && !status; ++k)
+        if (!has_places(p->elements.data + k)) status = broken(p, "Its vertices have no x or no y.");
+    return status;
 }
 
 /* ------------------------------------------------------------------ data -- */

@@ -123,12 +123,16 @@ static void broken_models_are_refused(void **state) {
         {"a.obj", "once upon a time\n"},
         {"a.stl", "solid a\nfacet normal 0 0"},
         {"a.ply", "ply\nformat ascii 1.0\nelement vertex 3\n"},
-        {"a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nend_header\n0\n1\n"},
-        {"a.ply", "ply\nformat ascii 1.0\nelement vertex 999999999\nproperty float x\nend_header\n0\n"},
+        {"a.ply",
+         "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nend_header\n0 0\n1 0\n"},
+        {"a.ply",
+         "ply\nformat ascii 1.0\nelement vertex 999999999\nproperty float x\nproperty float y\nend_header\n0 0\n"},
         {"a.ply", "ply\nformat ascii 1.0\nelement face 1\nproperty list int int vertex_index\nend_header\n1 0\n"},
         {"a.ply", "ply\nformat ascii 1.0\nelement face 1\nproperty list int int vertex_index\nend_header\n-1\n"},
-        {"a.ply", "ply\nelement vertex 1\nproperty float x\nend_header\n0\n"},
-        {"a.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty double x\nend_header\n1234567"},
+        {"a.ply", "ply\nelement vertex 1\nproperty float x\nproperty float y\nend_header\n0 0\n"},
+        {"a.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float z\nend_header\n0 0\n"},
+        {"a.ply", "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty double x\nproperty char "
+                  "y\nend_header\n1234567"},
         {"a.ply", "ply\nformat odd 1.0\nend_header\n"},
         {"a.gltf", "{\"asset\":{\"version\":\"2.0\"},\"scenes\":["},
         {"a.ifc", "ISO-10303-21;\nHEADER;\n"},
@@ -144,6 +148,16 @@ static void broken_models_are_refused(void **state) {
     refuse("b.off", FROE_E_UNSUPPORTED, "b.off");
     write_text("b.obj", "# v 0 0 0\n");
     refuse("b.obj", FROE_E_FORMAT, "has no vertices");
+}
+
+/* Such a file would be a cloud of its points. */
+static void strips_of_ply_are_refused(void **state) {
+    (void)state;
+    write_text("strips.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                             "property float z\nelement tristrips 1\nproperty list int int vertex_indices\n"
+                             "end_header\n0 0 0\n1 0 0\n0 1 0\n4 0 1 2 -1\n");
+    refuse("strips.ply", FROE_E_UNSUPPORTED,
+           "strips.ply: The element 'tristrips' names vertices, which is read of faces and edges alone.");
 }
 
 static void wrong_calls_are_refused(void **state) {
@@ -372,6 +386,7 @@ int main(void) {
         cmocka_unit_test(broken_json_is_refused),
         cmocka_unit_test(numbers_that_are_none_name_their_feature),
         cmocka_unit_test(broken_models_are_refused),
+        cmocka_unit_test(strips_of_ply_are_refused),
         cmocka_unit_test(wrong_calls_are_refused),
         cmocka_unit_test(nothing_is_printed),
         cmocka_unit_test(every_reader_can_be_cancelled_at_every_report),
