@@ -20,6 +20,7 @@ typedef struct map {
     GDALDatasetH data;
     io_shapes shapes;
     bool container;              /* a folder or an archive */
+    bool is_table;               /* CSV with a column of geometry */
     support_extension extension; /* that counts */
     OGRLayerH layer;             /* the fields below belong to it */
     const char *layer_name;
@@ -100,6 +101,26 @@ static froe_status name_feature(map *m, OGRFeatureH feature, GIntBig id, const f
     return formats_feature_group(m->sink, &names, sides);
 }
 
+/* Has a geometry heights other than 0? DXF has heights everywhere. */
+static bool has_heights(OGRGeometryH geometry) {
+    OGREnvelope3D box = {.MinZ = 0};
+    if (!OGR_GT_HasZ(OGR_G_GetGeometryType(geometry))) return false;
+    OGR_G_GetEnvelope3D(geometry, &box);
+    return box.MinZ != 0 || box.MaxZ != 0;
+}
+
+/* GDAL says nothing of a text in a table that is no geometry. */
+static froe_status check_absence(const map *m, OGRFeatureH feature) {
+    for (int i = 0; m->is_table && i < OGR_F_GetFieldCount(feature); ++i) {
+        static const char *const names[] = {"WKT", "geometry", "geom"}; /* see io_read_ogr() */
+        const char *name = OGR_Fld_GetNameRef(OGR_F_GetFieldDefnRef(feature, i)), *text = text_of(feature, i);
+        for (size_t k = 0; k < 3 && text[strspn(text, " ")]; k++)
+            if (support_equal_nocase(name, names[k]))
+                return formats_sink_fail(m->sink, FROE_E_FORMAT, "Its geometry '%.40s' cannot be read.", text);
+    }
+    return FROE_OK;
+}
+
 static froe_status add_feature(map *m, OGRFeatureH feature) {
     formats_sink *sink = m->sink;
     GIntBig id = OGR_F_GetFID(feature);
@@ -113,10 +134,9 @@ static froe_status add_feature(map *m, OGRFeatureH feature) {
         sink->report.linearised += OGR_G_HasCurveGeometry(geometry, TRUE) != 0;
         geometry = OGR_G_GetLinearGeometry(geometry, 0, NULL);
     }
-    if (!geometry)
-        return curved ? formats_sink_fail(sink, FROE_E_FORMAT, "Its curves cannot be linearised.")
-                      : (++sink->report.no_geometry, FROE_OK);
-    sink->report.flattened += OGR_GT_HasZ(OGR_G_GetGeometryType(geometry)) != 0;
+    if (!geometry && curved) return formats_sink_fail(sink, FROE_E_FORMAT, "Its curves cannot be linearised.");
+    if (!geometry) return ++sink->report.no_geometry, check_absence(m, feature);
+    sink->report.flattened += has_heights(geometry);
     formats_sides sides;
     status = io_shapes_sides(sink, &m->shapes, geometry, &sides);
     if (!status) status = name_feature(m, feature, id, &sides);
@@ -246,6 +266,7 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
              .shapes.outlines.wrap = source->options->wrap,
              .crs.wrap = source->options->wrap};
     m.extension = extension;
+    m.is_table = is_csv && formats_csv_has_geometry(source);
     m.container = source->beyond ? strncmp(name, "/vsi", 4) != 0 : strcmp(name, source->file) != 0;
     sink->unit = "feature";
     froe_status status = formats_sink_open(sink, 2);
@@ -254,7 +275,10 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
     status = refuse_virtual(&m, name);
     if (!status) {
         m.data = GDALOpenEx(name, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL,
-                            is_csv ? formats_csv_has_geometry(source) ? wkt : places : NULL, NULL);
+                            !is_csv      ? NULL
+                            : m.is_table ? wkt
+                                         : places,
+                            NULL);
         if (!m.data) status = refuse_content(&m, name);
     }
     if (!status) {

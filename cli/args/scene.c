@@ -54,6 +54,16 @@ static void warn(const cli_common *common, const char *name, const froe_read_rep
                        "warning: Coordinates of a %s are degrees, and these cannot be any: the coordinate system is "
                        "unknown. A member \"crs\" of the file that is null says that, too.",
                        r->format);
+    if (r->flattened)
+        (void)cli_fail(0, name,
+                       "warning: Of %llu feature%s heights (z) are left out, because maps are flat. Models in space "
+                       "come in other formats, such as OBJ, glTF and STL.",
+                       (unsigned long long)r->flattened, support_plural(r->flattened));
+    if (r->no_geometry || r->skipped)
+        (void)cli_fail(0, name,
+                       "warning: Features without a geometry that can be read, and geometries that are empty or of "
+                       "another sort, are left out: %llu and %llu.",
+                       (unsigned long long)r->no_geometry, (unsigned long long)r->skipped);
     if (r->unread)
         (void)cli_fail(0, name,
                        "warning: Of %llu texture%s %llu %s missing or unreadable, first of all '%s'. Their faces have "

@@ -61,7 +61,7 @@ typedef struct froe_read_report {
     uint64_t features;    /**< features, rows, or nodes or named objects with faces */
     uint64_t groups;
     uint64_t linearised;   /**< curves replaced by chords (OGR's default step, 4 degrees) */
-    uint64_t flattened;    /**< features whose z was left out of a plane map */
+    uint64_t flattened;    /**< features with a z other than 0, which was left out of a plane map */
     uint64_t triangulated; /**< polygons of more than 3 corners that were split into triangles */
     uint64_t closed;       /**< polygon rings without their last edge, which was added */
     uint64_t skipped;      /**< geometries without extent to read: of no known sort, empty, lines of one point */

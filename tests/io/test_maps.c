@@ -207,11 +207,24 @@ static void curves_become_chords_and_are_counted(void **state) {
     froe_scene_free(scene);
 }
 
+/* A row that OGR cannot read would be as if it were not there. */
+static void broken_geometries_of_a_table_are_refused(void **state) {
+    (void)state;
+    static const char *const texts[] = {"POINT (1", "POINT (nan 1)", "SRID=3857;POINT (1 2)", "CIRCLE (1 2 3)", "x"};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        char text[128];
+        snprintf(text, sizeof text, "id,Geometry\n1,POINT (0 0)\n2,%s\n", texts[i]);
+        write_text("broken.csv", text);
+        snprintf(text, sizeof text, "broken.csv: feature 2 of 'broken': Its geometry '%s' cannot be read.", texts[i]);
+        refuse("broken.csv", FROE_E_FORMAT, text);
+    }
+}
+
 static void what_is_mended_or_left_out_is_counted(void **state) {
     (void)state;
     write_text("odd.csv",
                "id,WKT\n1,\"POLYGON ((0 0,4 0,4 4))\"\n2,\"LINESTRING Z (5 5 1,6 6 2)\"\n3,\"LINESTRING (1 1)\"\n"
-               "4,POLYGON EMPTY\n5,\"LINESTRING (3 3,3 3)\"\n");
+               "4,POLYGON EMPTY\n5,\"LINESTRING Z (3 3 0,3 3 0)\"\n6,\n");
     froe_read_report report;
     froe_scene *scene = read_scene("odd.csv", &report);
     assert_int_equal(froe_scene_object_count(scene), 5);
@@ -219,6 +232,7 @@ static void what_is_mended_or_left_out_is_counted(void **state) {
     assert_int_equal(report.closed, 1);
     assert_int_equal(report.flattened, 1);
     assert_int_equal(report.skipped, 2);
+    assert_int_equal(report.no_geometry, 1);
     assert_int_equal(froe_scene_object(scene, 4).kind, FROE_SEGMENT);
     assert_int_equal(froe_scene_object(scene, 4).form, FROE_POINT);
     froe_scene_free(scene);
@@ -482,6 +496,7 @@ int main(void) {
         cmocka_unit_test(objects_keep_the_order_of_feature_part_ring_vertex),
         cmocka_unit_test(rings_that_disagree_have_no_side),
         cmocka_unit_test(curves_become_chords_and_are_counted),
+        cmocka_unit_test(broken_geometries_of_a_table_are_refused),
         cmocka_unit_test(what_is_mended_or_left_out_is_counted),
         cmocka_unit_test(coordinates_are_taken_exactly),
         cmocka_unit_test(every_feature_can_be_its_box),
