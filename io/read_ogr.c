@@ -218,6 +218,8 @@ static froe_status add_layers(map *m) {
     if (!status && one) status = filter(m, one);
     m->sink->report.layers = one ? 1 : (uint64_t)layers;
     m->sink->report.layers_left = (uint64_t)layers - m->sink->report.layers;
+    for (int i = 0; i < layers; ++i) /* a system that cannot be read is unknown; GDAL tells of it when first asked */
+        (void)OGR_L_GetSpatialRef(GDALDatasetGetLayer(m->data, i));
     m->heard.failed = false; /* earlier failures did not keep the file from opening */
     if (!status) status = add_features(m, one);
     if (!status && m->heard.failed) status = map_fail(m, FROE_E_FORMAT, "The file cannot be read to its end.");
