@@ -112,8 +112,8 @@ static __int128 area(const int64_t *a, const int64_t *b, const int64_t *c) {
     return (__int128)(b[0] - a[0]) * (c[1] - a[1]) - (__int128)(b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/* Do two vertices or crossings lie at one x, or a vertex on an edge, as seen from above? The partition stands just after
- * the tick and the tree of the snapshot at it, so then they may differ although no coordinate was rounded. */
+/* Do two vertices or crossings lie at one x, or a vertex on an edge, as seen from above? The partition stands just
+ * after the tick and the tree of the snapshot at it, so then they may differ although no coordinate was rounded. */
 static bool something_coincides(const space_program *p) {
     enum { VERTICES = 3 * MOST, PLACES = VERTICES + VERTICES * VERTICES / 2 };
     static const double UNIT = 0x1p-24;

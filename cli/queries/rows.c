@@ -92,7 +92,8 @@ static int axis_behind(const char *name, const char *prefix, int family) {
     return support_csv_axis(name + length, family, length > 0);
 }
 
-/* Which axis does it bound, as xmin does? -1: none, or it is not that end of boxes, lo_ or hi_, which the prefix names. */
+/* Which axis does it bound, as xmin does? -1: none, or it is not that end of boxes, lo_ or hi_, which the prefix
+ * names. */
 static int axis_bounded(const char *name, const char *prefix, int family) {
     bool high;
     const int axis = support_csv_bound(name, family, &high);
