@@ -7,7 +7,6 @@
 #include "support/floats.h"
 #include <errno.h>
 #include <fcntl.h>
-#include <math.h>
 #include <stdio.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -199,8 +198,5 @@ void shards_scene_box(const froe_scene *scene, uint32_t object, double *lo, doub
             hi[a] = !i || x[a] > hi[a] ? x[a] : hi[a];
         }
     }
-    for (int a = 0; a < dim && o.kind == FROE_BALL; a++) {
-        lo[a] = nextafter(lo[a] - o.radius, -INFINITY);
-        hi[a] = nextafter(hi[a] + o.radius, INFINITY);
-    }
+    if (o.kind == FROE_BALL) shards_widen_box(dim, o.radius, lo, hi);
 }

@@ -2,6 +2,7 @@
 #include "record.h"
 #include "support/fail.h"
 #include "support/floats.h"
+#include <float.h>
 #include <math.h>
 
 /* ------------------------------------------------------------------ reading -- */
@@ -12,10 +13,11 @@ size_t froe_shard_record_size(const void *bytes, size_t left) {
     return size <= left ? size : 0;
 }
 
+/* A ball that reaches beyond the largest double is refused, so that no box has to. */
 void shards_widen_box(int dim, double radius, double *lo, double *hi) {
     for (int a = 0; a < dim; a++) {
-        lo[a] = nextafter(lo[a] - radius, -INFINITY);
-        hi[a] = nextafter(hi[a] + radius, INFINITY);
+        lo[a] = fmax(nextafter(lo[a] - radius, -INFINITY), -DBL_MAX);
+        hi[a] = fmin(nextafter(hi[a] + radius, INFINITY), DBL_MAX);
     }
 }
 
@@ -73,8 +75,15 @@ static froe_status check_in_scene(const froe_allocator *alloc, int dim, const fr
     return status;
 }
 
+/* Are the bounds of a ball certain to be doubles? */
+static bool is_bounded(int dim, const double *middle, double radius) {
+    for (int a = 0; a < dim; a++)
+        if (!(fabs(middle[a]) + radius < DBL_MAX)) return false;
+    return true;
+}
+
 /* Can only a scene tell whether a batch is right? What is numbers alone is right if these are finite, radii no less
- * than 0, and the corners of boxes in order. */
+ * than 0, the bounds of balls doubles, and the corners of boxes in order. */
 static bool is_doubtful(int dim, const froe_objects *batch) {
     if (dim < 2 || dim > FROE_MAX_DIM || !batch->coords || batch->indices) return true;
     if (batch->kind != FROE_POINT && batch->kind != FROE_SEGMENT && batch->kind != FROE_BOX && batch->kind != FROE_BALL)
@@ -83,7 +92,8 @@ static bool is_doubtful(int dim, const froe_objects *batch) {
     for (size_t i = 0; i < batch->count * each; i++)
         if (!isfinite(batch->coords[i])) return true;
     for (size_t i = 0; i < batch->count && batch->kind == FROE_BALL; i++)
-        if (!batch->radii || !isfinite(batch->radii[i]) || batch->radii[i] < 0) return true;
+        if (!batch->radii || !(batch->radii[i] >= 0) || !is_bounded(dim, batch->coords + i * each, batch->radii[i]))
+            return true;
     for (size_t i = 0; i < batch->count && batch->kind == FROE_BOX; i++)
         for (int a = 0; a < dim; a++)
             if (batch->coords[i * each + (size_t)a] > batch->coords[i * each + (size_t)(dim + a)]) return true;

@@ -66,7 +66,7 @@ static inline bool shards_records_reserve(froe_shard_records *records, size_t ex
 /** froe_shard_records_add() of a batch that is right. FROE_E_LIMIT, FROE_E_MEMORY. */
 froe_status shards_records_put(froe_shard_records *records, int dim, const froe_objects *batch, uint64_t first,
                                froe_diagnostic *diag);
-/** The box of a ball of which lo and hi are the middle, rounded outwards. */
+/** The box of a ball of which lo and hi are the middle, rounded outwards, but not beyond the largest double. */
 void shards_widen_box(int dim, double radius, double *lo, double *hi);
 /** The box of an object: bounds of its corners, and of a ball of its extent, rounded outwards. */
 static inline void shards_object_box(const shards_object *o, double *lo, double *hi) {

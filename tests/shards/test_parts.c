@@ -3,6 +3,7 @@
 #include "shards/folders.h"
 #include "shards/plan.h"
 #include "support/memory.h"
+#include <float.h>
 #include <froe/shard_parts.h>
 #include <math.h>
 #include <unistd.h>
@@ -329,6 +330,37 @@ static void places_that_are_one_make_one_shard(void **state) {
     free(list);
 }
 
+/* The largest ball there is, whose box must not become infinite where it is rounded. */
+static void the_largest_ball_is_found_in_every_cell(void **state) {
+    (void)state;
+    enum { COUNT_OF_BALLS = 9 };
+    one_object list[COUNT_OF_BALLS] = {{.kind = FROE_BALL, .corners = 1, .radius = DBL_MAX}};
+    double points[2 * COUNT_OF_BALLS];
+    for (int i = 0; i < COUNT_OF_BALLS; i++) {
+        if (i) list[i] = (one_object){.kind = FROE_BALL, .corners = 1, .at = {i, -i}, .tag = (uint64_t)i};
+        points[2 * (size_t)i] = i, points[2 * (size_t)i + 1] = -i;
+    }
+    froe_shards_options o = froe_shards_defaults();
+    froe_shards_report report;
+    froe_shards *shards;
+    froe_finds found;
+    froe_diagnostic diag = {0};
+    o.shards = 4;
+    assert_int_equal(build_folder("largest.froes", 2, list, COUNT_OF_BALLS, &o, &report, NULL), FROE_OK);
+    assert_int_equal(report.shards, 4);
+    assert_true(report.copies >= report.objects + 3);
+    assert_int_equal(froe_shards_open("largest.froes", NULL, &shards, NULL), FROE_OK);
+    if (froe_shards_check(shards, NULL, &diag)) fail_msg("%s", diag.message);
+    assert_int_equal(froe_shards_locate(shards, points, COUNT_OF_BALLS, NULL, &found, NULL), FROE_OK);
+    for (size_t i = 0, at = 0; i < COUNT_OF_BALLS; i++) {
+        assert_int_equal(found.items[at++].tag, 0);
+        if (i) assert_int_equal(found.items[at++].tag, i);
+        assert_int_equal(found.starts[i + 1], at);
+    }
+    froe_finds_free(&found);
+    froe_shards_close(shards);
+}
+
 /* ---------------------------------------------------------------- failures -- */
 
 static void refused(const one_object *o, int dim, froe_status status, const char *sentence) {
@@ -349,6 +381,11 @@ static void what_is_no_object_is_refused_at_once(void **state) {
     refused(&(one_object){.kind = FROE_SEGMENT, .corners = 2, .at = {0, 0, NAN, 1}}, 2, FROE_E_INPUT, "");
     refused(&(one_object){.kind = FROE_BOX, .corners = 2, .at = {0, 3, 1, 2}}, 2, FROE_E_INPUT, "");
     refused(&(one_object){.kind = FROE_BALL, .corners = 1, .radius = -1}, 2, FROE_E_INPUT, "");
+    for (int i = 0; i < 3; i++) { /* balls that have no bounds, so that these have no middle */
+        const double middle = i == 0 ? 1 : i == 1 ? -1e308 : DBL_MAX, radius = i == 0 ? DBL_MAX : 1e308;
+        refused(&(one_object){.kind = FROE_BALL, .corners = 1, .at = {5, middle}, .radius = radius}, 2, FROE_E_INPUT,
+                "ball 0: It reaches beyond the range of doubles.");
+    }
     refused(&(one_object){.kind = FROE_POLYGON, .corners = 4, .at = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 1}}, 3,
             FROE_E_INPUT, "");
     refused(&(one_object){.kind = FROE_POLYGON, .corners = 3}, 2, FROE_E_UNSUPPORTED, "");
@@ -417,6 +454,7 @@ int main(void) {
         cmocka_unit_test(processes_build_the_same_folder_together),
         cmocka_unit_test(an_object_goes_to_every_cell_that_its_box_meets),
         cmocka_unit_test(places_that_are_one_make_one_shard),
+        cmocka_unit_test(the_largest_ball_is_found_in_every_cell),
         cmocka_unit_test(what_is_no_object_is_refused_at_once),
         cmocka_unit_test(memory_that_is_short_leaves_the_old_folder),
         cmocka_unit_test(strangers_in_the_way_stay),
