@@ -180,6 +180,9 @@ froe_status froe_shard_buckets_take(froe_shard_buckets *b, uint32_t number, froe
         status = froe_shard_records_append(&held, from->open, from->filled, diag);
         if (!status) status = hand_over(&held, fn, user);
     }
+    if (!status && held.count)
+        status = support_fail(diag, FROE_E_FORMAT, "%s: Bucket %u holds bytes that are no records.",
+                              support_short(b->folder), number);
     froe_shard_records_free(&held);
     array_free(&b->alloc, &from->blocks);
     if (from->open) support_free(&b->alloc, from->open, b->block);

@@ -7,10 +7,38 @@
 
 /* ------------------------------------------------------------------ reading -- */
 
+/* Has a kind so many corners? */
+static bool may_have_corners(froe_kind kind, size_t corners) {
+    switch (kind) {
+    case FROE_POINT:
+    case FROE_BALL:
+        return corners == 1;
+    case FROE_SEGMENT:
+    case FROE_BOX:
+        return corners == 2;
+    case FROE_POLYGON:
+        return corners >= 3;
+    default:
+        return corners >= 1;
+    }
+}
+
+/* Do the head and the source, which are there, say what reading relies on? */
+static bool is_record(const shards_record *record) {
+    const size_t fixed = (sizeof *record + (record->sourced ? sizeof(shards_source) : 0)) / 8;
+    const size_t numbers = record->words - fixed - (record->kind == FROE_BALL), dim = record->dim;
+    if (record->kind >= FROE_KIND_COUNT || dim < 2 || dim > FROE_MAX_DIM || record->sourced > 1 || record->unused)
+        return false;
+    if (record->words <= fixed + (record->kind == FROE_BALL) || numbers % dim) return false;
+    return may_have_corners((froe_kind)record->kind, numbers / dim) &&
+           shards_record_read(record).source.group <= FROE_NONE;
+}
+
 size_t froe_shard_record_size(const void *bytes, size_t left) {
     if (left < sizeof(shards_record)) return 0;
-    const size_t size = shards_record_bytes(shards_record_at(bytes, 0));
-    return size <= left ? size : 0;
+    const shards_record *record = shards_record_at(bytes, 0);
+    const size_t size = shards_record_bytes(record);
+    return size <= left && is_record(record) ? size : 0;
 }
 
 /* A ball that reaches beyond the largest double is refused, so that no box has to. */

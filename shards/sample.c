@@ -4,6 +4,7 @@
 #include "select.h"
 #include "support/fail.h"
 #include "support/floats.h"
+#include <math.h>
 
 enum { HEAD = 3 }; /* dimension, objects, weight */
 
@@ -82,6 +83,13 @@ static uint64_t *next_item(froe_shard_sample *s) {
     return s->words + HEAD + s->count * s->width;
 }
 
+/* A number that is none has no place among the others, nor has its object a cell. */
+static bool is_finite(const shards_object *o) {
+    for (size_t i = 0; i < o->corners * (size_t)o->dim; i++)
+        if (!isfinite(o->numbers[i])) return false;
+    return o->radius >= 0 && isfinite(o->radius);
+}
+
 froe_status froe_shard_sample_add(froe_shard_sample *s, const void *records, size_t count) {
     SUPPORT_FLOATS_OWN;
     if (!s || (!records && count)) return FROE_E_ARG;
@@ -90,6 +98,7 @@ froe_status froe_shard_sample_add(froe_shard_sample *s, const void *records, siz
         size = froe_shard_record_size(record, count - at);
         if (!size || record->dim != s->dim) return FROE_E_ARG;
         const shards_object object = shards_record_read(record);
+        if (!is_finite(&object)) return FROE_E_ARG;
         double box[2 * FROE_MAX_DIM];
         uint64_t bits[2 * FROE_MAX_DIM], hash = shards_mix(0, record->tag);
         const size_t dim = (size_t)s->dim;

@@ -197,11 +197,7 @@ static froe_status add_objects(froe_scene *scene, const shard_rank *order, size_
 /* What a shard takes over from the scene that the objects came from. */
 static froe_status take_over(froe_scene *scene, const froe_scene *from, const shard_sources *sources,
                              froe_diagnostic *diag) {
-    if (!from) {
-        return sources->group_count
-                   ? support_fail(diag, FROE_E_UNSUPPORTED, "Objects have groups, and there is no scene that has them.")
-                   : FROE_OK;
-    }
+    if (!from) return FROE_OK;
     const froe_crs crs = froe_scene_crs(from);
     const int up = froe_scene_up(from);
     froe_status status = crs.kind == FROE_CRS_UNKNOWN ? FROE_OK : froe_scene_set_crs(scene, &crs);
@@ -231,6 +227,32 @@ static froe_status make_scene(const froe_shard_records *records, int dim, const 
 }
 
 /* --------------------------------------------------------------------- tree -- */
+
+/* Are these whole records of objects that belong into a cell, with groups of the scene? */
+static froe_status check_records(const froe_shard_records *records, const froe_shard_plan *plan, uint32_t cell,
+                                 const froe_scene *scene, froe_diagnostic *diag) {
+    const double *cell_lo = shards_cell_lo(plan, cell), *cell_hi = shards_cell_hi(plan, cell);
+    const size_t groups = scene ? froe_scene_group_count(scene) : 0;
+    for (size_t at = 0, size; at < records->count; at += size) {
+        const shards_record *record = shards_record_at(records->bytes, at);
+        size = froe_shard_record_size(record, records->count - at);
+        if (!size || record->dim != plan->dim)
+            return support_fail(diag, FROE_E_ARG, "At byte %zu there is no whole record of an object of dimension %d.",
+                                at, plan->dim);
+        const shards_object o = shards_record_read(record);
+        double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+        shards_object_box(&o, lo, hi);
+        if (!plan->areas && !shards_boxes_meet(lo, hi, cell_lo, cell_hi, plan->dim))
+            return support_fail(diag, FROE_E_ARG, "tag %llu: The object does not meet the cell of shard %u.",
+                                (unsigned long long)o.tag, cell);
+        if (o.source.group != FROE_NONE && !scene)
+            return support_fail(diag, FROE_E_UNSUPPORTED, "Objects have groups, and there is no scene that has them.");
+        if (o.source.group != FROE_NONE && o.source.group >= groups)
+            return support_fail(diag, FROE_E_INPUT, "tag %llu: The scene has no group %llu.", (unsigned long long)o.tag,
+                                (unsigned long long)o.source.group);
+    }
+    return FROE_OK;
+}
 
 /* Bounds and counts of the objects in a cell. Those that are here for their group alone have no part in it. */
 static void describe_shard(const froe_shard_records *records, const froe_shard_plan *plan, uint32_t cell,
@@ -317,6 +339,7 @@ froe_status froe_shard_build(froe_shard_records *records, const froe_shard_plan 
     if (!records || !plan || !options || !folder || !out) return support_fail_null(diag, __func__);
     if (cell >= plan->count) return support_fail(diag, FROE_E_ARG, "There is no shard %u.", cell);
     froe_status status = shards_check_options(options, diag);
+    if (!status) status = check_records(records, plan, cell, scene, diag);
     if (status) return status;
     const froe_allocator alloc = support_allocator(options->alloc);
     froe_scene *own = NULL;

@@ -46,10 +46,11 @@ FROE_API froe_status froe_shard_records_add(froe_shard_records *records, int dim
 FROE_API froe_status froe_shard_records_append(froe_shard_records *records, const void *bytes, size_t count,
                                                froe_diagnostic *diag);
 FROE_API void froe_shard_records_free(froe_shard_records *records);
-/** How many bytes the record takes that begins here, of which `left` are there. 0: it is not there as a whole. The
+/** How many bytes the record takes that begins here, of which `left` are there. 0: it is not there as a whole, or is no
+ * record. Whether its numbers are those of an object is for froe_shard_sample_add() and froe_shard_build() to say. The
  * bytes are aligned as doubles are. */
 FROE_API size_t froe_shard_record_size(const void *bytes, size_t left);
-/** Its box: dim doubles each, those of balls rounded outwards. */
+/** The box of a record, which froe_shard_record_size() has found: dim doubles each, those of balls rounded outwards. */
 FROE_API void froe_shard_record_box(const void *record, double *lo, double *hi);
 
 /* ------------------------------------------------------------------ sample -- */
@@ -59,7 +60,8 @@ FROE_API void froe_shard_record_box(const void *record, double *lo, double *hi);
 typedef struct froe_shard_sample froe_shard_sample;
 FROE_API froe_status froe_shard_sample_new(int dim, const froe_allocator *alloc, froe_shard_sample **out);
 FROE_API void froe_shard_sample_free(froe_shard_sample *sample);
-/** Counts whole records, and keeps those that are drawn. FROE_E_MEMORY; FROE_E_ARG: other dimensions, no records. */
+/** Counts whole records, and keeps those that are drawn. FROE_E_MEMORY; FROE_E_ARG: one is no record, is of another
+ * dimension, or has a number that is not finite. Those before it are counted. */
 FROE_API froe_status froe_shard_sample_add(froe_shard_sample *sample, const void *records, size_t count);
 /** Of a sample of part of the objects, which is one of `parts`: a hash for froe_shard_sample_cut(). The largest of
  * those of all parts leaves in them together what is in the sample of all, and little more. */
@@ -105,7 +107,8 @@ FROE_API froe_status froe_shard_buckets_add(froe_shard_buckets *buckets, uint32_
  * function. */
 typedef froe_status froe_shard_records_fn(void *user, const void *records, size_t count);
 /** Hands the records of a bucket to a function, in the order they came, and empties it: its place on the disk is given
- * back as it goes, where the system can do that. FROE_E_IO, FROE_E_MEMORY. */
+ * back as it goes, where the system can do that. FROE_E_IO, FROE_E_MEMORY. FROE_E_FORMAT: bytes that are no whole
+ * records were added; those in front of them have been handed over. */
 FROE_API froe_status froe_shard_buckets_take(froe_shard_buckets *buckets, uint32_t bucket, froe_shard_records_fn *fn,
                                              void *user, froe_diagnostic *diag);
 
@@ -124,7 +127,8 @@ typedef struct froe_shard_entry {
  * on the way, to save memory, and freed by the caller. Objects have the order of their tags in it, and those of equal
  * tags the order of their records' bytes. `scene` (may be NULL) gives coordinate system, upward axis and groups. Of
  * options, see froe_shards_options, `shards` and `memory` are ignored. FROE_E_INPUT names the tag of an object that is
- * none; otherwise as froe_build() and froe_tree_save(). */
+ * none, or whose group the scene has not. FROE_E_ARG: bytes that are no record of the plan's dimension, or an object
+ * that does not meet the cell; otherwise as froe_build() and froe_tree_save(). */
 FROE_API froe_status froe_shard_build(froe_shard_records *records, const froe_shard_plan *plan, uint32_t cell,
                                       const froe_scene *scene, const froe_shards_options *options, const char *folder,
                                       froe_shard_entry *out, froe_diagnostic *diag);

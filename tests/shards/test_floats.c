@@ -35,6 +35,19 @@ static void building_alone(floats_run *r, void *user) {
     TELL(r, (froe_shards_abandon(builder), 0));
 }
 
+/* Appends the records that go to a cell. */
+static void take_of_cell(const froe_shard_records *all, const froe_shard_plan *plan, uint32_t cell,
+                         froe_shard_records *out) {
+    for (size_t at = 0, size; (size = froe_shard_record_size(all->bytes + at, all->count - at)) != 0; at += size) {
+        double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
+        uint32_t cells[2] = {0};
+        froe_shard_record_box(all->bytes + at, lo, hi);
+        const uint32_t met = froe_shard_plan_cells(plan, lo, hi, cells);
+        if (cells[0] == cell || (met > 1 && cells[1] == cell))
+            froe_shard_records_append(out, all->bytes + at, size, NULL);
+    }
+}
+
 static void building_by_steps(floats_run *r, void *user) {
     const one_object *list = user;
     const froe_shards_options o = froe_shards_defaults();
@@ -71,10 +84,11 @@ static void building_by_steps(floats_run *r, void *user) {
     MUST(r, froe_shard_buckets_new(".", 2, NULL, &buckets, NULL));
     MUST(r, froe_shard_buckets_add(buckets, 1, records.bytes, records.count, NULL));
     MUST(r, froe_shard_buckets_take(buckets, 1, note_records, r, NULL));
+    froe_shard_records_free(&taken);
     for (uint32_t i = 0; i < 2; i++) {
+        take_of_cell(&records, plan, i, &taken);
         MUST(r, froe_shard_build(&taken, plan, i, NULL, &o, froe_shard_draft_folder(draft), &entries[i], NULL));
         froe_shard_records_free(&taken);
-        froe_shard_records_append(&taken, records.bytes, records.count, NULL);
     }
     MUST(r, froe_shard_manifest_write(plan, entries, froe_shard_draft_folder(draft), NULL, NULL));
     MUST(r, froe_shard_draft_sync(froe_shard_draft_folder(draft), 0, 1, NULL));
@@ -83,7 +97,6 @@ static void building_by_steps(floats_run *r, void *user) {
     MUST(r, froe_shard_draft_end(draft, FROE_OK, NULL));
     floats_note_file(r, "steps.froes/froe.shards");
     froe_shard_records_free(&records);
-    froe_shard_records_free(&taken);
     froe_shard_sample_free(sample), froe_shard_sample_free(other);
     froe_shard_plan_free(plan);
     froe_shard_buckets_free(buckets);

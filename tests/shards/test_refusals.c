@@ -159,6 +159,77 @@ static void shards_are_checked(void **state) {
     froe_shard_records_free(&records);
 }
 
+/* Records that are changed on their way: each step that reads them says so, and reads nothing behind them. */
+static void what_is_no_record_is_refused(void **state) {
+    (void)state;
+    enum { WORDS = 0, KIND = 4, DIM, SOURCED, UNUSED, NUMBERS = 16, SIZE = 48, ALL = 3 * SIZE };
+    static const struct {
+        int at;
+        unsigned char byte;
+    } changes[] = {{WORDS, 0}, {WORDS, 1}, {WORDS, 2},   {WORDS, 5},   {WORDS, 7}, {WORDS + 3, 255}, {KIND, 0},
+                   {KIND, 2},  {KIND, 4},  {KIND, 6},    {KIND, 255},  {DIM, 0},   {DIM, 1},         {DIM, 3},
+                   {DIM, 9},   {DIM, 255}, {SOURCED, 1}, {SOURCED, 2}, {UNUSED, 1}};
+    static const double corners[] = {0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5};
+    const froe_shards_options good = froe_shards_defaults();
+    froe_shard_records records = {0};
+    froe_shard_sample *sample;
+    froe_shard_plan *plan;
+    froe_shard_entry entry;
+    froe_objects batch = froe_objects_defaults();
+    batch.kind = FROE_SEGMENT, batch.count = 3, batch.coords = corners;
+    assert_int_equal(froe_shard_records_add(&records, 2, &batch, 0, &why), FROE_OK);
+    assert_int_equal(records.count, ALL);
+    assert_int_equal(froe_shard_sample_new(2, NULL, &sample), FROE_OK);
+    assert_int_equal(froe_shard_sample_add(sample, records.bytes, ALL), FROE_OK);
+    assert_int_equal(froe_shard_plan_new(sample, 2, 0, &plan, &why), FROE_OK);
+    assert_int_equal(froe_shard_plan_count(plan), 2);
+    for (size_t i = 0; i <= sizeof changes / sizeof *changes; i++) /* and at last one that is cut off */
+        for (size_t r = 0; r < 3; r++) {
+            const bool cut = i == sizeof changes / sizeof *changes;
+            froe_shard_records bad = {0};
+            froe_shard_buckets *buckets;
+            assert_int_equal(froe_shard_records_append(&bad, records.bytes, cut ? SIZE * r + 40 : ALL, &why), FROE_OK);
+            if (!cut) bad.bytes[SIZE * r + (size_t)changes[i].at] = changes[i].byte;
+            assert_int_equal(froe_shard_record_size(bad.bytes + SIZE * r, bad.count - SIZE * r), 0);
+            assert_int_equal(froe_shard_sample_add(sample, bad.bytes, bad.count), FROE_E_ARG);
+            assert_int_equal(froe_shard_buckets_new(".", 1, NULL, &buckets, &why), FROE_OK);
+            assert_int_equal(froe_shard_buckets_add(buckets, 0, bad.bytes, bad.count, &why), FROE_OK);
+            expect(froe_shard_buckets_take(buckets, 0, take_none, NULL, &why), FROE_E_FORMAT,
+                   ".: Bucket 0 holds bytes that are no records.");
+            froe_shard_buckets_free(buckets);
+            expect(froe_shard_build(&bad, plan, 0, NULL, &good, ".", &entry, &why), FROE_E_ARG,
+                   r == 0   ? "At byte 0 there is no whole record of an object of dimension 2."
+                   : r == 1 ? "At byte 48 there is no whole record"
+                            : "");
+            froe_shard_records_free(&bad);
+        }
+    /* What is a record, and its numbers are no object's. */
+    static const double none[] = {NAN, INFINITY, -INFINITY};
+    for (size_t i = 0; i < 3; i++) {
+        memcpy(records.bytes + NUMBERS, none + i, sizeof *none);
+        assert_int_equal(froe_shard_record_size(records.bytes, SIZE), SIZE);
+        assert_int_equal(froe_shard_sample_add(sample, records.bytes, SIZE), FROE_E_ARG);
+    }
+    records.count = SIZE;
+    expect(froe_shard_build(&records, plan, 0, NULL, &good, ".", &entry, &why), FROE_E_INPUT, "tag 0: corner 0 of seg");
+    froe_shard_records_free(&records);
+    /* An object of another cell. */
+    batch.count = 1, batch.coords = corners + 8;
+    assert_int_equal(froe_shard_records_add(&records, 2, &batch, 7, &why), FROE_OK);
+    expect(froe_shard_build(&records, plan, 0, NULL, &good, ".", &entry, &why), FROE_E_ARG,
+           "tag 7: The object does not meet the cell of shard 0.");
+    froe_shard_records_free(&records);
+    /* A group that the scene has not. */
+    froe_scene *scene;
+    assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+    batch.group = FROE_NONE - 1, batch.coords = corners;
+    assert_int_equal(froe_shard_records_add(&records, 2, &batch, 7, &why), FROE_OK);
+    expect(froe_shard_build(&records, plan, 0, scene, &good, ".", &entry, &why), FROE_E_INPUT,
+           "tag 7: The scene has no group 4294967294.");
+    froe_scene_free(scene);
+    froe_shard_plan_free(plan), froe_shard_sample_free(sample), froe_shard_records_free(&records);
+}
+
 /* A disk that is full at once, and one that is full within the first block. */
 static void buckets_on_a_full_disk_are_told(void **state) {
     (void)state;
@@ -542,6 +613,7 @@ int main(void) {
         cmocka_unit_test(builders_are_checked),
         cmocka_unit_test(questions_are_checked),
         cmocka_unit_test(shards_are_checked),
+        cmocka_unit_test(what_is_no_record_is_refused),
         cmocka_unit_test(buckets_on_a_full_disk_are_told),
         cmocka_unit_test(empty_shards_are_asked_nothing),
         cmocka_unit_test(scenes_become_folders_or_nothing),
