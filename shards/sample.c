@@ -6,7 +6,7 @@
 #include "support/floats.h"
 #include <math.h>
 
-enum { HEAD = 3 }; /* dimension, objects, weight */
+enum { HEAD = 3, DIM_BITS = 8 }; /* dimension and, above its bits, the number of items; objects; weight */
 
 /* The finaliser of SplitMix64 (Steele, Lea and Flood, 2014). */
 uint64_t shards_mix(uint64_t hash, uint64_t number) {
@@ -145,16 +145,30 @@ const uint64_t *froe_shard_sample_words(froe_shard_sample *s, size_t *count) {
     SUPPORT_FLOATS_OWN;
     if (!s || !count || !next_item(s)) return NULL;
     shards_sample_settle(s);
-    s->words[0] = (uint64_t)s->dim;
+    s->words[0] = (uint64_t)s->dim | (uint64_t)s->count << DIM_BITS;
     s->words[1] = s->objects;
     s->words[2] = s->weight;
     *count = HEAD + s->count * s->width;
     return s->words;
 }
 
+/* Are they all words of a sample, whose places are numbers? */
+static bool are_words(const froe_shard_sample *s, const uint64_t *words, size_t count) {
+    if (count < HEAD || (count - HEAD) % s->width) return false;
+    const uint64_t items = (count - HEAD) / s->width;
+    if (words[0] != ((uint64_t)s->dim | items << DIM_BITS) || items > SHARDS_SAMPLE || items > words[1]) return false;
+    for (size_t at = HEAD; at < count; at += s->width)
+        for (size_t a = 1; a < s->width; a++) {
+            double middle;
+            memcpy(&middle, words + at + a, sizeof middle);
+            if (!isfinite(middle)) return false;
+        }
+    return true;
+}
+
 froe_status froe_shard_sample_merge(froe_shard_sample *s, const uint64_t *words, size_t count) {
     SUPPORT_FLOATS_OWN;
-    if (!s || !words || count < HEAD || words[0] != (uint64_t)s->dim || (count - HEAD) % s->width) return FROE_E_ARG;
+    if (!s || !words || !are_words(s, words, count)) return FROE_E_ARG;
     for (size_t at = HEAD; at < count; at += s->width) {
         if (words[at] > s->bound) continue;
         uint64_t *item = next_item(s);

@@ -71,7 +71,8 @@ FROE_API void froe_shard_sample_cut(froe_shard_sample *sample, uint64_t bound);
 /** The sample as words, to be sent to other processes of the same order of bytes. They belong to the sample, and are
  * valid until its next call. */
 FROE_API const uint64_t *froe_shard_sample_words(froe_shard_sample *sample, size_t *count);
-/** Adds a sample that came as words. FROE_E_ARG: it is none of the same dimension. */
+/** Adds a sample that came as words. FROE_E_ARG: it is none of the same dimension, or not all of its words are there.
+ * FROE_E_MEMORY: part of it may be added. */
 FROE_API froe_status froe_shard_sample_merge(froe_shard_sample *sample, const uint64_t *words, size_t count);
 
 /* -------------------------------------------------------------------- plan -- */

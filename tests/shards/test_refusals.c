@@ -90,6 +90,23 @@ static void samples_and_plans_are_checked(void **state) {
     assert_int_equal(froe_shard_sample_merge(sample, words, count), FROE_E_ARG); /* of space */
     assert_int_equal(froe_shard_sample_merge(other, words, 1), FROE_E_ARG);
     assert_int_equal(froe_shard_sample_merge(other, words, count - 1), FROE_E_ARG);
+    /* Words that are cut off behind an item, that go on, or of which one has changed. */
+    enum { HEAD = 3, WIDTH = 4 };
+    uint64_t more[HEAD + 2 * WIDTH + 1];
+    assert_int_equal(count, HEAD + WIDTH);
+    assert_int_equal(froe_shard_sample_merge(other, words, HEAD), FROE_E_ARG);
+    memcpy(more, words, count * sizeof *words);
+    memcpy(more + count, words + HEAD, WIDTH * sizeof *words);
+    assert_int_equal(froe_shard_sample_merge(other, more, HEAD + 2 * WIDTH), FROE_E_ARG);
+    for (size_t i = 0; i < WIDTH; i++) {
+        static const double none[] = {NAN, INFINITY, -INFINITY};
+        memcpy(more, words, count * sizeof *words);
+        if (i) memcpy(more + HEAD + i, none + i - 1, sizeof *none);
+        if (!i) more[1] = 0; /* objects, fewer than items */
+        assert_int_equal(froe_shard_sample_merge(other, more, count), FROE_E_ARG);
+    }
+    words = froe_shard_sample_words(other, &count); /* none was added */
+    assert_true(words && count == HEAD + WIDTH && words[1] == 1);
     NULLS(froe_shard_plan_new(NULL, 1, 0, &plan, &why));
     NULLS(froe_shard_plan_new(sample, 1, 0, NULL, &why));
     expect(froe_shard_plan_new(sample, 5000, 0, &plan, &why), FROE_E_ARG, "at most 4096 shards");
