@@ -27,8 +27,9 @@ struct froe_shards_builder {
     const froe_scene *scene; /* whose groups the objects have; NULL: none */
     double *areas;           /* of each group lo and hi, dim doubles each */
     size_t area_count;
-    uint32_t *cells; /* room for all of them */
-    uint64_t sorted; /* objects that are in buckets */
+    uint32_t *cells;    /* room for all of them */
+    uint64_t sorted;    /* objects that are in buckets */
+    froe_status failed; /* what a batch has ended in, of which a part may be in the file */
     froe_diagnostic *diag;
 };
 
@@ -82,18 +83,24 @@ froe_status froe_shards_begin(const char *path, int dim, const froe_shards_optio
     return FROE_OK;
 }
 
+static froe_status fail_again(const froe_shards_builder *b, froe_diagnostic *diag) {
+    return support_fail(diag, b->failed, "Objects that were added before could not be kept, so no folder is built.");
+}
+
 /* Hands the batch, of so many objects, on to file and sample. */
 static froe_status spool_batch(froe_shards_builder *b, size_t objects, froe_diagnostic *diag) {
-    const froe_status status = froe_shard_buckets_add(b->spool, 0, b->batch.bytes, b->batch.count, diag);
-    if (status) return status;
-    if (froe_shard_sample_add(b->sample, b->batch.bytes, b->batch.count)) return support_fail_memory(diag);
-    b->objects += objects;
-    return FROE_OK;
+    b->failed = froe_shard_buckets_add(b->spool, 0, b->batch.bytes, b->batch.count, diag);
+    if (!b->failed && froe_shard_sample_add(b->sample, b->batch.bytes, b->batch.count))
+        b->failed = support_fail_memory(diag);
+    if (!b->failed) b->objects += objects;
+    return b->failed;
 }
 
 froe_status froe_shards_add(froe_shards_builder *b, const froe_objects *batch, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
     if (!b || !batch) return support_fail_null(diag, __func__);
+    if (b->failed) return fail_again(b, diag);
+    if (b->scene) return support_fail(diag, FROE_E_ARG, "A scene is all that this folder is made of.");
     if (batch->groups || batch->group != FROE_NONE)
         return support_fail(diag, FROE_E_UNSUPPORTED, "A folder of shards takes objects with groups as a scene alone.");
     b->batch.count = 0;
@@ -154,14 +161,16 @@ froe_status froe_shards_add_scene(froe_shards_builder *b, const froe_scene *scen
     SUPPORT_FLOATS_OWN;
     enum { BATCH = 4096 };
     if (!b || !scene) return support_fail_null(diag, __func__);
-    if (b->objects || froe_scene_dim(scene) != b->dim)
+    if (b->failed) return fail_again(b, diag);
+    if (b->objects || b->scene || froe_scene_dim(scene) != b->dim)
         return support_fail(diag, FROE_E_ARG, "A scene is all that a folder is made of, and of its dimension.");
     const uint32_t count = (uint32_t)froe_scene_object_count(scene);
     double *coords = NULL;
     size_t room = 0, held = 0;
     froe_status status = froe_scene_check(scene, diag);
+    if (status) return status;
     b->scene = scene;
-    if (!status && froe_scene_group_count(scene) && !find_areas(b)) status = support_fail_memory(diag);
+    if (froe_scene_group_count(scene) && !find_areas(b)) status = support_fail_memory(diag);
     b->batch.count = 0;
     for (uint32_t i = 0; i < count && !status; i++) {
         status = put_scene_object(b, i, &coords, &room, diag);
@@ -170,7 +179,7 @@ froe_status froe_shards_add_scene(froe_shards_builder *b, const froe_scene *scen
         b->batch.count = held = 0;
     }
     if (coords) support_free(&b->alloc, coords, room * sizeof *coords);
-    return status;
+    return b->failed = status;
 }
 
 /* ------------------------------------------------------------------- finish -- */
@@ -267,7 +276,7 @@ froe_status froe_shards_finish(froe_shards_builder *b, froe_shards_report *out, 
     SUPPORT_FLOATS_OWN;
     if (!b) return support_fail_null(diag, __func__);
     froe_shards_report report = {0};
-    froe_status status = make_buckets(b, diag);
+    froe_status status = b->failed ? fail_again(b, diag) : make_buckets(b, diag);
     if (!status) status = build_all(b, diag);
     if (!status) report = froe_shard_report(b->plan, b->entries);
     status = end_builder(b, status, diag);

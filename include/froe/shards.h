@@ -62,8 +62,9 @@ FROE_API froe_status froe_shards_begin(const char *path, int dim, const froe_sha
                                        froe_shards_builder **out, froe_diagnostic *diag);
 /** Adds a batch of objects as froe_scene_add() does, to a file without name in the folder of `path`. Without tags
  * objects are numbered on. Memory does not grow with the objects. Groups are refused: FROE_E_UNSUPPORTED; see
- * froe_shards_add_scene(). FROE_E_INPUT and others as froe_scene_add(); FROE_E_IO: the disk is full, as one of the
- * causes. */
+ * froe_shards_add_scene(). FROE_E_INPUT and others as froe_scene_add(); FROE_E_ARG: the folder is made of a scene;
+ * FROE_E_IO: the disk is full, as one of the causes. Where part of a batch may have been kept, as then, all later calls
+ * fail alike. */
 FROE_API froe_status froe_shards_add(froe_shards_builder *builder, const froe_objects *batch, froe_diagnostic *diag);
 /** Adds all objects of a scene with their groups and tags. The scene is then all that the folder is made of, and must
  * last until froe_shards_finish(). Groups keep their numbers. So that each shard can answer for areas, the objects of a

@@ -247,6 +247,49 @@ static void what_is_no_record_is_refused(void **state) {
     froe_shard_plan_free(plan), froe_shard_sample_free(sample), froe_shard_records_free(&records);
 }
 
+/* A disk that is full for a time: the batch of which a part was kept must not be in a folder, and neither what comes
+ * behind it. */
+static void a_batch_that_failed_is_in_no_folder(void **state) {
+    (void)state;
+    enum { MANY = 60000 };
+    struct rlimit limit;
+    double *corners = calloc(4 * MANY, sizeof *corners);
+    froe_shards_builder *builder;
+    froe_scene *scene;
+    assert_non_null(corners);
+    assert_int_equal(getrlimit(RLIMIT_FSIZE, &limit), 0);
+    froe_objects batch = froe_objects_defaults();
+    batch.kind = FROE_SEGMENT, batch.count = MANY, batch.coords = corners;
+    assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+    assert_int_equal(froe_scene_add(scene, &batch, &why), FROE_OK);
+    signal(SIGXFSZ, SIG_IGN);
+    for (int of_scene = 0; of_scene < 2; of_scene++) {
+        const struct rlimit few = {1 << 20, limit.rlim_max};
+        assert_int_equal(froe_shards_begin("full.froes", 2, NULL, &builder, &why), FROE_OK);
+        assert_int_equal(setrlimit(RLIMIT_FSIZE, &few), 0);
+        const froe_status status =
+            of_scene ? froe_shards_add_scene(builder, scene, &why) : froe_shards_add(builder, &batch, &why);
+        assert_int_equal(setrlimit(RLIMIT_FSIZE, &limit), 0);
+        expect(status, FROE_E_IO, "cannot be written: File too large");
+        expect(froe_shards_add(builder, &batch, &why), FROE_E_IO, "Objects that were added before");
+        expect(froe_shards_add_scene(builder, scene, &why), FROE_E_IO, "Objects that were added before");
+        expect(froe_shards_finish(builder, NULL, &why), FROE_E_IO, "Objects that were added before");
+        assert_int_equal(access("full.froes", F_OK), -1);
+    }
+    signal(SIGXFSZ, SIG_DFL);
+    /* What is made of a scene takes no batch, nor another scene. */
+    froe_scene *empty;
+    assert_int_equal(froe_scene_new(2, NULL, &empty), FROE_OK);
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(froe_shards_begin("full.froes", 2, NULL, &builder, &why), FROE_OK);
+        assert_int_equal(froe_shards_add_scene(builder, i ? empty : scene, &why), FROE_OK);
+        expect(froe_shards_add(builder, &batch, &why), FROE_E_ARG, "A scene is all that this folder is made of.");
+        expect(froe_shards_add_scene(builder, scene, &why), FROE_E_ARG, "A scene is all");
+        froe_shards_abandon(builder);
+    }
+    froe_scene_free(scene), froe_scene_free(empty), free(corners);
+}
+
 /* A disk that is full at once, and one that is full within the first block. */
 static void buckets_on_a_full_disk_are_told(void **state) {
     (void)state;
@@ -631,6 +674,7 @@ int main(void) {
         cmocka_unit_test(questions_are_checked),
         cmocka_unit_test(shards_are_checked),
         cmocka_unit_test(what_is_no_record_is_refused),
+        cmocka_unit_test(a_batch_that_failed_is_in_no_folder),
         cmocka_unit_test(buckets_on_a_full_disk_are_told),
         cmocka_unit_test(empty_shards_are_asked_nothing),
         cmocka_unit_test(scenes_become_folders_or_nothing),
