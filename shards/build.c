@@ -59,6 +59,34 @@ void froe_shards_abandon(froe_shards_builder *b) {
     if (b) (void)end_builder(b, FROE_E_CANCELLED, NULL);
 }
 
+/* Are these options of a tree? A tree of a point tells, before all objects are read; but not what only other objects
+ * can: the settings of a method that takes no points, or of that which "auto" will stand for. */
+static froe_status try_options(int dim, const froe_shards_options *o, const froe_allocator *alloc,
+                               froe_diagnostic *diag) {
+    static const double corner[FROE_MAX_DIM];
+    const bool automatic = !o->method || !strcmp(o->method, "auto");
+    froe_build_options build = froe_build_defaults();
+    froe_objects point = froe_objects_defaults();
+    froe_scene *scene = NULL;
+    froe_tree *tree = NULL;
+    froe_diagnostic why;
+    build.method = o->method;
+    build.settings = automatic ? NULL : o->settings;
+    build.leaf = o->leaf;
+    build.purpose = "query";
+    build.threads = 1;
+    point.kind = FROE_POINT, point.count = 1, point.coords = corner;
+    froe_status status = froe_scene_new(dim, alloc, &scene);
+    if (!status) status = froe_scene_add(scene, &point, &why);
+    if (!status) status = froe_build(scene, &build, &tree, &why);
+    froe_tree_free(tree);
+    froe_scene_free(scene);
+    if (status == FROE_E_MEMORY) return support_fail_memory(diag);
+    if (status != FROE_E_OPTIONS) return FROE_OK;
+    if (diag) *diag = why;
+    return status;
+}
+
 froe_status froe_shards_begin(const char *path, int dim, const froe_shards_options *options, froe_shards_builder **out,
                               froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
@@ -71,6 +99,7 @@ froe_status froe_shards_begin(const char *path, int dim, const froe_shards_optio
     if (o.shards > FROE_SHARDS_MOST)
         return support_fail(diag, FROE_E_OPTIONS, "A folder has at most %d shards.", FROE_SHARDS_MOST);
     const froe_allocator alloc = support_allocator(o.alloc);
+    if ((status = try_options(dim, &o, &alloc, diag))) return status;
     froe_shards_builder *b = support_calloc(&alloc, 1, sizeof *b);
     if (!b) return support_fail_memory(diag);
     *b = (froe_shards_builder){.dim = dim, .o = o, .alloc = alloc, .batch.alloc = alloc};

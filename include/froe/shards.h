@@ -57,7 +57,8 @@ typedef struct froe_shards_report {
 typedef struct froe_shards_builder froe_shards_builder;
 /** Begins the folder `path`. What is there stays until froe_shards_finish() has done. It may be a folder of shards, or
  * an empty one. Nothing but the options' strings must last. FROE_E_IO: something else is there, another program builds
- * it, or it cannot be written. FROE_E_ARG, FROE_E_OPTIONS, FROE_E_MEMORY. */
+ * it, or it cannot be written. FROE_E_OPTIONS: as froe_build(), as far as that can be told without objects. FROE_E_ARG,
+ * FROE_E_MEMORY. */
 FROE_API froe_status froe_shards_begin(const char *path, int dim, const froe_shards_options *options,
                                        froe_shards_builder **out, froe_diagnostic *diag);
 /** Adds a batch of objects as froe_scene_add() does, to a file without name in the folder of `path`. Without tags

@@ -247,6 +247,36 @@ static void what_is_no_record_is_refused(void **state) {
     froe_shard_plan_free(plan), froe_shard_sample_free(sample), froe_shard_records_free(&records);
 }
 
+/* Options are refused before objects are read, and leave nothing. */
+static void options_are_tried_at_the_beginning(void **state) {
+    (void)state;
+    static const struct {
+        const char *method, *settings, *words;
+        uint32_t leaf;
+    } cases[] = {{"nonsense", NULL, "There is no method 'nonsense'.", FROE_LEAF_OWN},
+                 {"kd", "nonsense=3", "Method 'kd' has no option 'nonsense'.", FROE_LEAF_OWN},
+                 {"density", "guards=many", "option 'guards=many'", FROE_LEAF_OWN},
+                 {"auto", NULL, "A leaf capacity of 2147483648 is above", UINT32_C(1) << 31},
+                 {NULL, NULL, "A leaf capacity of 4294967294 is above", FROE_LEAF_OWN - 1}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        froe_shards_options o = froe_shards_defaults();
+        froe_shards_builder *builder = NULL;
+        o.method = cases[i].method, o.settings = cases[i].settings, o.leaf = cases[i].leaf;
+        expect(froe_shards_begin("options.froes", 3, &o, &builder, &why), FROE_E_OPTIONS, cases[i].words);
+        assert_null(builder);
+        assert_int_equal(access(".options.froes.building", F_OK), -1);
+    }
+    /* What depends on objects is no refusal yet: methods of other kinds, and leaves. */
+    for (size_t i = 0; froe_method_at(i); i++)
+        for (int dim = 2; dim <= 4; dim++) {
+            froe_shards_options o = froe_shards_defaults();
+            froe_shards_builder *builder;
+            o.method = froe_method_at(i)->name, o.leaf = 0;
+            assert_int_equal(froe_shards_begin("options.froes", dim, &o, &builder, &why), FROE_OK);
+            froe_shards_abandon(builder);
+        }
+}
+
 /* A disk that is full for a time: the batch of which a part was kept must not be in a folder, and neither what comes
  * behind it. */
 static void a_batch_that_failed_is_in_no_folder(void **state) {
@@ -674,6 +704,7 @@ int main(void) {
         cmocka_unit_test(questions_are_checked),
         cmocka_unit_test(shards_are_checked),
         cmocka_unit_test(what_is_no_record_is_refused),
+        cmocka_unit_test(options_are_tried_at_the_beginning),
         cmocka_unit_test(a_batch_that_failed_is_in_no_folder),
         cmocka_unit_test(buckets_on_a_full_disk_are_told),
         cmocka_unit_test(empty_shards_are_asked_nothing),
