@@ -25,21 +25,27 @@ static froe_status check_entry(const froe_shards *s, uint32_t shard, const count
     const froe_shard_entry *e = shards_entry(s, shard);
     const froe_scene *scene = froe_tree_scene(s->slots[shard].tree);
     const froe_shard_plan *plan = s->manifest.plan;
+    froe_shard_entry found = {0}; /* bounds alone */
     uint64_t own = 0, last = 0;
-    bool right = true;
+    bool right = true, any = false;
     for (uint32_t i = 0; i < e->objects && right; i++) {
         double lo[FROE_MAX_DIM], hi[FROE_MAX_DIM];
         const uint64_t tag = froe_scene_object(scene, i).tag;
         shards_scene_box(scene, i, lo, hi);
         const bool here = shards_boxes_meet(lo, hi, shards_cell_lo(plan, shard), shards_cell_hi(plan, shard), s->dim);
-        right = tag >= last && (here ? shards_boxes_meet(lo, hi, e->lo, e->hi, s->dim) : plan->areas);
+        right = tag >= last && (here || plan->areas);
         last = tag;
-        if (here) c->wanted[shard]--;
+        if (here) {
+            c->wanted[shard]--;
+            shards_entry_bound(&found, plan, shard, lo, hi, !any);
+            any = true;
+        }
         if (shards_plan_first(plan, lo) != shard) continue;
         own++;
         const uint32_t met = shards_plan_cells(plan, lo, hi, c->cells);
         for (uint32_t j = 0; j < met; j++) c->wanted[c->cells[j]]++;
     }
+    for (int a = 0; a < s->dim && right; a++) right = found.lo[a] == e->lo[a] && found.hi[a] == e->hi[a];
     return right && own == e->own ? FROE_OK : fail_cell(diag);
 }
 

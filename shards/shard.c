@@ -254,6 +254,16 @@ static froe_status check_records(const froe_shard_records *records, const froe_s
     return FROE_OK;
 }
 
+void shards_entry_bound(froe_shard_entry *e, const froe_shard_plan *plan, uint32_t cell, const double *lo,
+                        const double *hi, bool first) {
+    const double *cell_lo = shards_cell_lo(plan, cell), *cell_hi = shards_cell_hi(plan, cell);
+    for (int a = 0; a < plan->dim; a++) {
+        const double x = lo[a] > cell_lo[a] ? lo[a] : cell_lo[a], y = hi[a] < cell_hi[a] ? hi[a] : cell_hi[a];
+        e->lo[a] = first || x < e->lo[a] ? x : e->lo[a];
+        e->hi[a] = first || y > e->hi[a] ? y : e->hi[a];
+    }
+}
+
 /* Bounds and counts of the objects in a cell. Those that are here for their group alone have no part in it. */
 static void describe_shard(const froe_shard_records *records, const froe_shard_plan *plan, uint32_t cell,
                            froe_shard_entry *e) {
@@ -266,11 +276,7 @@ static void describe_shard(const froe_shard_records *records, const froe_shard_p
         e->objects++;
         if (!shards_boxes_meet(lo, hi, cell_lo, cell_hi, plan->dim)) continue;
         e->own += shards_plan_first(plan, lo) == cell;
-        for (int a = 0; a < plan->dim; a++) {
-            const double x = lo[a] > cell_lo[a] ? lo[a] : cell_lo[a], y = hi[a] < cell_hi[a] ? hi[a] : cell_hi[a];
-            e->lo[a] = !any || x < e->lo[a] ? x : e->lo[a];
-            e->hi[a] = !any || y > e->hi[a] ? y : e->hi[a];
-        }
+        shards_entry_bound(e, plan, cell, lo, hi, !any);
         any = true;
     }
 }

@@ -15,4 +15,8 @@ ssize_t shards_read_at(int file, void *to, size_t count, off_t place);
 froe_status shards_file_check(const char *path, uint64_t *bytes, uint64_t *check, froe_diagnostic *diag);
 /** Is the struct from froe_shards_defaults()? */
 froe_status shards_check_options(const froe_shards_options *options, froe_diagnostic *diag);
+/** Lets the bounds of an entry hold what a box, which meets the cell, has in common with it. first: they hold nothing
+ * yet. */
+void shards_entry_bound(froe_shard_entry *entry, const froe_shard_plan *plan, uint32_t cell, const double *lo,
+                        const double *hi, bool first);
 #endif

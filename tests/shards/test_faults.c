@@ -7,6 +7,7 @@
 #include "support/sanitized.h"
 #include <dirent.h>
 #include <errno.h>
+#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <sys/resource.h>
@@ -378,6 +379,15 @@ static void one_less_is_its_own(froe_shard_entry *e) {
 static void its_bounds_are_less(froe_shard_entry *e) {
     e->hi[0] = e->lo[0];
 }
+static void an_upper_bound_is_a_little_less(froe_shard_entry *e) {
+    e->hi[1] = nextafter(e->hi[1], -INFINITY);
+}
+static void a_lower_bound_is_a_little_more(froe_shard_entry *e) {
+    e->lo[0] = nextafter(e->lo[0], INFINITY);
+}
+static void a_lower_bound_is_less(froe_shard_entry *e) {
+    e->lo[1] = -100;
+}
 static void in_order(froe_shard_entry *e) {
     put_other_tree(e, 2, (const uint64_t[]){3, 5});
 }
@@ -394,9 +404,16 @@ static void what_a_manifest_says_is_compared_with_its_shards(void **state) {
     static const struct {
         void (*change)(froe_shard_entry *e);
         const char *sentence; /* NULL: all is well */
-    } cases[] = {
-        {nothing_changes, NULL},     {in_order, NULL},     {one_object_more, other}, {one_less_is_its_own, cell},
-        {its_bounds_are_less, cell}, {out_of_order, cell}, {in_space, other}};
+    } cases[] = {{nothing_changes, NULL},
+                 {in_order, NULL},
+                 {one_object_more, other},
+                 {one_less_is_its_own, cell},
+                 {an_upper_bound_is_a_little_less, cell},
+                 {a_lower_bound_is_a_little_more, cell},
+                 {a_lower_bound_is_less, cell},
+                 {its_bounds_are_less, cell},
+                 {out_of_order, cell},
+                 {in_space, other}};
     one_object *list = lattice_objects(2, FROE_SEGMENT, OLD_OBJECTS, 50, 1);
     froe_shards_options o = froe_shards_defaults();
     o.shards = 1, o.threads = 1;
