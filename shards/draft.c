@@ -150,7 +150,8 @@ static froe_status check_target(const froe_shard_draft *d, const char *path, fro
     char other[NAME_MAX + 1] = "";
     if (!is_taken(d)) return FROE_OK;
     if (access(d->target, R_OK) && errno == EACCES) return support_fail_file(diag, "written", path, EACCES);
-    if (is_own_folder(d->target, other)) return FROE_OK;
+    if (is_own_folder(d->target, other)) /* who may not write it may not remove its files either */
+        return access(d->target, W_OK | X_OK) ? support_fail_file(diag, "written", path, errno) : FROE_OK;
     return *other ? support_fail(diag, FROE_E_IO, "%s: The folder is not replaced, because it holds '%.60s'.",
                                  support_short(path), other)
                   : support_fail(diag, FROE_E_IO, "%s: What is there is no folder, and is not replaced.",

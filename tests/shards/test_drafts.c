@@ -221,12 +221,46 @@ static void programs_at_the_same_time_do_not_touch_drafts_of_each_other(void **s
     free(owner);
 }
 
+/* Tries to replace a folder that may be read and not written: it stays, and nothing is beside it. Returns what is wrong;
+ * 1: this user cannot get here. */
+static int replace_shut_folder(void) {
+    froe_shard_draft *draft;
+    froe_diagnostic diag = {0};
+    if (mkdir("shut.froes", 0777) || !put_file("shut.froes", 0) || chmod("shut.froes", 0555)) return 1;
+    const froe_status begun = froe_shard_draft_begin("shut.froes", NULL, &draft, &diag);
+    if (!begun) froe_shard_draft_end(draft, FROE_E_CANCELLED, NULL);
+    if (begun != FROE_E_IO) return 2;
+    if (!strstr(diag.message, "shut.froes: The file cannot be written: Permission denied")) return 3;
+    if (access("shut.froes/shard-0000.froe", F_OK) || !access(".shut.froes.building", F_OK)) return 4;
+    /* One that is shut while the new one grows. */
+    if (chmod("shut.froes", 0755) || froe_shard_draft_begin("shut.froes", NULL, &draft, NULL)) return 5;
+    if (!put_file(froe_shard_draft_folder(draft), 1) || chmod("shut.froes", 0555)) return 6;
+    if (froe_shard_draft_end(draft, FROE_OK, &diag) != FROE_E_IO) return 7;
+    return access("shut.froes/shard-0000.froe", F_OK) || !access(".shut.froes.building", F_OK) ? 8 : 0;
+}
+
+static void a_folder_that_cannot_be_written_is_not_replaced(void **state) {
+    (void)state;
+    assert_int_equal(system("rm -rf shut.froes .shut.froes.building && chmod 777 ."), 0);
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (!child) /* root may write everywhere */
+        _exit(geteuid() == 0 && (setgid(12346) || setuid(12345)) ? 1 : replace_shut_folder());
+    int ended;
+    assert_int_equal(waitpid(child, &ended, 0), child);
+    assert_int_equal(system("chmod -f 755 shut.froes; rm -rf shut.froes"), 0);
+    assert_true(WIFEXITED(ended));
+    if (WEXITSTATUS(ended) == 1) skip();
+    assert_int_equal(WEXITSTATUS(ended), 0);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_folder_that_another_program_built_meanwhile_is_replaced),
         cmocka_unit_test(a_stranger_that_came_meanwhile_stays),
         cmocka_unit_test(a_lock_that_is_kept_on_the_old_folder_is_told),
         cmocka_unit_test(a_folder_that_was_replaced_is_removed_in_parts),
+        cmocka_unit_test(a_folder_that_cannot_be_written_is_not_replaced),
         cmocka_unit_test(drafts_that_cannot_be_are_told),
         cmocka_unit_test(without_locks_a_draft_belongs_to_who_made_it),
         cmocka_unit_test(programs_at_the_same_time_do_not_touch_drafts_of_each_other),
