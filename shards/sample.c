@@ -112,7 +112,7 @@ froe_status froe_shard_sample_add(froe_shard_sample *s, const void *records, siz
         if (!item) return FROE_E_MEMORY;
         *item = hash;
         for (size_t a = 0; a < dim; a++) {
-            const double middle = 0.5 * box[a] + 0.5 * box[dim + a];
+            const double middle = 0.5 * box[a] + 0.5 * box[dim + a] + 0.0; /* and never -0, which equals 0 */
             memcpy(item + 1 + a, &middle, sizeof middle);
         }
         s->count++;

@@ -60,6 +60,28 @@ static void equal_tags_are_in_one_order(void **state) {
     }
 }
 
+/* Middles that are 0 and -0, of which a cut is made that lies at one or the other. */
+static void a_cut_at_0_has_no_sign(void **state) {
+    (void)state;
+    enum { MIDDLES = 8 };
+    const double least = 0x1p-1074; /* half of it is rounded to 0, or to -0 */
+    one_object list[MIDDLES];
+    for (size_t i = 0; i < MIDDLES; i++) {
+        const double lo = i < 4 ? -2 * least : i < 6 ? -least : 0, hi = i < 4 ? 0 : lo;
+        list[i] = (one_object){.kind = FROE_BOX, .corners = 2, .at = {lo, 0, hi, 0}, .tag = i};
+    }
+    froe_shards_options o = froe_shards_defaults();
+    froe_shards_report report;
+    o.shards = 2;
+    assert_int_equal(build_folder("signs.froes", 2, list, MIDDLES, &o, &report, NULL), FROE_OK);
+    assert_int_equal(report.shards, 2);
+    for (uint64_t seed = 1; seed < 8; seed++) {
+        shuffle(list, MIDDLES, seed);
+        assert_int_equal(build_folder("shuffled.froes", 2, list, MIDDLES, &o, NULL, NULL), FROE_OK);
+        assert_equal_folders("signs.froes", "shuffled.froes", 2);
+    }
+}
+
 static int by_hash(const void *a, const void *b) {
     const uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
     return (x > y) - (x < y);
@@ -449,6 +471,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(equal_tags_are_in_one_order),
         cmocka_unit_test(order_and_threads_make_no_difference),
+        cmocka_unit_test(a_cut_at_0_has_no_sign),
         cmocka_unit_test(samples_of_many_objects_do_not_depend_on_their_order),
         cmocka_unit_test(memory_is_used_up_where_a_folder_has_no_more_shards),
         cmocka_unit_test(processes_build_the_same_folder_together),
