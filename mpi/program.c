@@ -2,6 +2,7 @@
 #include "ask.h"
 #include "rows.h"
 #include "support/fail.h"
+#include <errno.h>
 #include <getopt.h>
 #include <math.h>
 #include <stdio.h>
@@ -9,7 +10,7 @@
 #include <string.h>
 
 static const char help[] =
-    "usage: mpirun -n RANKS froe-mpi build FILE.csv -o FOLDER [--shards N] [--memory BYTES[K|M|G]] [--threads N]\n"
+    "usage: mpirun -n RANKS froe-mpi build FILE.csv -o FOLDER [--shards N] [--memory BYTES[K|M|G|T]] [--threads N]\n"
     "                                      [--method NAME]\n"
     "       mpirun -n RANKS froe-mpi range  FOLDER --queries FILE.csv [--shape SHAPE] [OPTION]...\n"
     "       mpirun -n RANKS froe-mpi locate FOLDER --queries FILE.csv [--above | --below] [OPTION]...\n"
@@ -100,13 +101,15 @@ static int build(const mpi_ranks *ranks, const job *j) {
 
 /* ----------------------------------------------------------------- options -- */
 
-static bool read_size(const char *text, uint64_t most, uint64_t *out) {
+/* A whole number of decimal digits, with one of the units behind it or none. */
+static bool read_whole(const char *text, const char *units, uint64_t most, uint64_t *out) {
     char *end;
+    errno = 0;
     const unsigned long long number = strtoull(text, &end, 10);
-    static const char units[] = "KMG";
     const char *unit = *end ? strchr(units, *end) : NULL;
     const unsigned shift = unit ? 10 * (unsigned)(unit - units + 1) : 0;
-    if (end == text || *text == '-' || (*end && (!unit || end[1])) || number > most >> shift) return false;
+    if (*text < '0' || *text > '9' || errno) return false; /* also a sign, or a blank */
+    if ((*end && (!unit || end[1])) || number > most >> shift) return false;
     *out = (uint64_t)number << shift;
     return true;
 }
@@ -116,6 +119,12 @@ static bool read_real(const char *text, double *out) {
     char *end;
     *out = strtod(text, &end);
     return end != text && !*end && *out >= 0 && isfinite(*out);
+}
+
+static bool is_method(const char *name) {
+    bool found = !strcmp(name, "auto");
+    for (size_t i = 0; !found && froe_method_at(i); i++) found = !strcmp(name, froe_method_at(i)->name);
+    return found;
 }
 
 /* One letter for each option; those of `build` are in capitals, but for -o. Its letter must be among those that the
@@ -144,20 +153,20 @@ static bool read_option(int letter, job *j) {
         return true;
     case 'W':
         j->shards.method = optarg;
-        return true;
+        return is_method(optarg);
     case 'q':
         j->queries = optarg;
         return true;
     case 'S':
-        good = read_size(optarg, FROE_SHARDS_MOST, &number) && number, j->shards.shards = (uint32_t)number;
+        good = read_whole(optarg, "", FROE_SHARDS_MOST, &number) && number, j->shards.shards = (uint32_t)number;
         return good;
     case 'M':
-        return read_size(optarg, UINT64_MAX, &j->shards.memory) && j->shards.memory;
+        return read_whole(optarg, "KMGT", UINT64_MAX, &j->shards.memory) && j->shards.memory;
     case 't':
-        good = read_size(optarg, 1024, &number), j->shards.threads = q->batch.threads = (unsigned)number;
+        good = read_whole(optarg, "", 1024, &number), j->shards.threads = q->batch.threads = (unsigned)number;
         return good;
     case 'k':
-        good = read_size(optarg, 2147483646, &number), q->k = number;
+        good = read_whole(optarg, "", 2147483646, &number), q->k = number;
         return good;
     case 's':
         return mpi_shape_named(optarg, &q->shape);
@@ -185,6 +194,8 @@ static const char *expected(int letter) {
         return "a number from 1 to 4096";
     case 'M':
         return "a size, as 500M or 4G";
+    case 'W':
+        return "auto or a method that 'froe methods' lists";
     case 't':
         return "a number from 0 to 1024";
     case 's':
