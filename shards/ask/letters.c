@@ -151,15 +151,23 @@ static froe_status take_answers(shards_call *call, shards_letter *c, uint32_t sh
     return at == all ? FROE_OK : shards_letter_cut(diag);
 }
 
+/* Does it say why a question is bad? See shards_call_shard(). */
+static bool is_refusal(const froe_diagnostic *bad) {
+    return (bad->status == FROE_E_INPUT || bad->status == FROE_E_UNSUPPORTED) &&
+           memchr(bad->message, '\0', sizeof bad->message);
+}
+
 froe_status shards_take_answers(shards_call *call, shards_letter *c, uint32_t shard, const size_t *which,
                                 size_t questions, froe_diagnostic *diag) {
     uint64_t head[2];
     if (!shards_letter_words(c, head, 2) || head[0] > c->left || head[1] > questions) return shards_letter_cut(diag);
     if (head[1] < questions) {
-        const void *bad = take(c, sizeof call->bad);
-        if (!bad) return shards_letter_cut(diag);
+        froe_diagnostic bad = {0};
+        const void *found = take(c, sizeof bad);
+        if (found) memcpy(&bad, found, sizeof bad);
+        if (!is_refusal(&bad)) return shards_letter_cut(diag);
         if (which[head[1]] < call->limit) {
-            memcpy(&call->bad, bad, sizeof call->bad);
+            call->bad = bad;
             call->limit = which[head[1]];
             call->bad.object = (uint32_t)call->limit;
         }

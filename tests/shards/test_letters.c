@@ -180,6 +180,7 @@ static void answers_come_whole_or_are_refused(void **state) {
             const size_t all = kind == 2 ? 0 : 7;
             const shards_list list = {.count = QUESTIONS,
                                       .limit = limit,
+                                      .bad = {.status = FROE_E_INPUT, .message = "It is no point."},
                                       .counts = counts,
                                       .tags = {tags, all, all},
                                       .objects = {objects, all, all},
@@ -190,6 +191,24 @@ static void answers_come_whole_or_are_refused(void **state) {
             assert_int_equal(take_answers(s, &q, bytes, count, 100), FROE_OK);
             for (size_t memory = 0; memory < 4; memory++)
                 assert_int_equal(take_answers(s, &q, bytes, count, memory), FROE_E_MEMORY);
+        }
+}
+
+/* A question is bad for a reason that a call can return, in a sentence that ends. */
+static void refusals_of_other_processes_are_checked(void **state) {
+    froe_shards *s = *state;
+    static uint64_t words[1000];
+    unsigned char *bytes = (unsigned char *)words;
+    uint32_t counts[QUESTIONS] = {0};
+    const shards_question q = shards_kind_points(s, numbers, QUESTIONS, NULL);
+    static const froe_status statuses[] = {FROE_OK, FROE_E_INPUT, FROE_E_UNSUPPORTED, FROE_E_MEMORY, (froe_status)-1};
+    for (size_t i = 0; i < sizeof statuses / sizeof *statuses; i++)
+        for (int ends = 0; ends < 2; ends++) {
+            shards_list list = {.count = QUESTIONS, .limit = 2, .bad = {.status = statuses[i]}, .counts = counts};
+            memset(list.bad.message, 'a', sizeof list.bad.message - (size_t)ends);
+            const size_t count = put_everywhere(s, NULL, &list, bytes, sizeof words);
+            assert_int_equal(take_answers(s, &q, bytes, count, 100),
+                             ends && (i == 1 || i == 2) ? FROE_OK : FROE_E_FORMAT);
         }
 }
 
@@ -240,6 +259,7 @@ int main(void) {
         cmocka_unit_test(questions_come_whole_or_are_refused),
         cmocka_unit_test(ranges_of_other_numbers_are_refused),
         cmocka_unit_test(answers_come_whole_or_are_refused),
+        cmocka_unit_test(refusals_of_other_processes_are_checked),
         cmocka_unit_test(processes_have_pairs_of_their_own),
         cmocka_unit_test(sharing_may_lack_memory),
     };
