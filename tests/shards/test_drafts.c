@@ -221,8 +221,8 @@ static void programs_at_the_same_time_do_not_touch_drafts_of_each_other(void **s
     free(owner);
 }
 
-/* Tries to replace a folder that may be read and not written: it stays, and nothing is beside it. Returns what is wrong;
- * 1: this user cannot get here. */
+/* Tries to replace a folder that may be read and not written: it stays, and nothing is beside it. Returns what is
+ * wrong; 1: this user cannot get here. */
 static int replace_shut_folder(void) {
     froe_shard_draft *draft;
     froe_diagnostic diag = {0};

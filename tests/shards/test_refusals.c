@@ -90,23 +90,6 @@ static void samples_and_plans_are_checked(void **state) {
     assert_int_equal(froe_shard_sample_merge(sample, words, count), FROE_E_ARG); /* of space */
     assert_int_equal(froe_shard_sample_merge(other, words, 1), FROE_E_ARG);
     assert_int_equal(froe_shard_sample_merge(other, words, count - 1), FROE_E_ARG);
-    /* Words that are cut off behind an item, that go on, or of which one has changed. */
-    enum { HEAD = 3, WIDTH = 4 };
-    uint64_t more[HEAD + 2 * WIDTH + 1];
-    assert_int_equal(count, HEAD + WIDTH);
-    assert_int_equal(froe_shard_sample_merge(other, words, HEAD), FROE_E_ARG);
-    memcpy(more, words, count * sizeof *words);
-    memcpy(more + count, words + HEAD, WIDTH * sizeof *words);
-    assert_int_equal(froe_shard_sample_merge(other, more, HEAD + 2 * WIDTH), FROE_E_ARG);
-    for (size_t i = 0; i < WIDTH; i++) {
-        static const double none[] = {NAN, INFINITY, -INFINITY};
-        memcpy(more, words, count * sizeof *words);
-        if (i) memcpy(more + HEAD + i, none + i - 1, sizeof *none);
-        if (!i) more[1] = 0; /* objects, fewer than items */
-        assert_int_equal(froe_shard_sample_merge(other, more, count), FROE_E_ARG);
-    }
-    words = froe_shard_sample_words(other, &count); /* none was added */
-    assert_true(words && count == HEAD + WIDTH && words[1] == 1);
     NULLS(froe_shard_plan_new(NULL, 1, 0, &plan, &why));
     NULLS(froe_shard_plan_new(sample, 1, 0, NULL, &why));
     expect(froe_shard_plan_new(sample, 5000, 0, &plan, &why), FROE_E_ARG, "at most 4096 shards");
@@ -125,6 +108,39 @@ static void samples_and_plans_are_checked(void **state) {
     froe_shard_plan_free(NULL);
     froe_shard_sample_free(sample), froe_shard_sample_free(other), froe_shard_sample_free(NULL);
     froe_shard_records_free(&records);
+}
+
+/* Words of a sample that are cut off behind an item, that go on, or of which one has changed. */
+static void samples_come_whole_or_are_refused(void **state) {
+    (void)state;
+    enum { HEAD = 3, WIDTH = 4 };
+    static const double corners[] = {0, 0, 0, 1, 1, 1}, none[] = {NAN, INFINITY, -INFINITY};
+    uint64_t more[HEAD + 2 * WIDTH];
+    froe_shard_records records = {0};
+    froe_shard_sample *sample, *other;
+    froe_objects batch = froe_objects_defaults();
+    size_t count;
+    batch.kind = FROE_SEGMENT, batch.count = 1, batch.coords = corners;
+    assert_int_equal(froe_shard_records_add(&records, 3, &batch, 0, &why), FROE_OK);
+    assert_int_equal(froe_shard_sample_new(3, NULL, &sample), FROE_OK);
+    assert_int_equal(froe_shard_sample_new(3, NULL, &other), FROE_OK);
+    assert_int_equal(froe_shard_sample_add(sample, records.bytes, records.count), FROE_OK);
+    const uint64_t *words = froe_shard_sample_words(sample, &count);
+    assert_true(words && count == HEAD + WIDTH);
+    assert_int_equal(froe_shard_sample_merge(other, words, HEAD), FROE_E_ARG);
+    memcpy(more, words, count * sizeof *words);
+    memcpy(more + count, words + HEAD, WIDTH * sizeof *words);
+    assert_int_equal(froe_shard_sample_merge(other, more, HEAD + 2 * WIDTH), FROE_E_ARG);
+    for (size_t i = 0; i < WIDTH; i++) {
+        memcpy(more, words, count * sizeof *words);
+        if (i) memcpy(more + HEAD + i, none + i - 1, sizeof *none);
+        if (!i) more[1] = 0; /* objects, fewer than items */
+        assert_int_equal(froe_shard_sample_merge(other, more, count), FROE_E_ARG);
+    }
+    assert_int_equal(froe_shard_sample_merge(other, words, count), FROE_OK);
+    words = froe_shard_sample_words(other, &count); /* nothing else was added */
+    assert_true(words && count == HEAD + WIDTH && words[1] == 1);
+    froe_shard_sample_free(sample), froe_shard_sample_free(other), froe_shard_records_free(&records);
 }
 
 static void shards_are_checked(void **state) {
@@ -179,7 +195,7 @@ static void shards_are_checked(void **state) {
 /* Records that are changed on their way: each step that reads them says so, and reads nothing behind them. */
 static void what_is_no_record_is_refused(void **state) {
     (void)state;
-    enum { WORDS = 0, KIND = 4, DIM, SOURCED, UNUSED, NUMBERS = 16, SIZE = 48, ALL = 3 * SIZE };
+    enum { WORDS = 0, KIND = 4, DIM, SOURCED, UNUSED, SIZE = 48, ALL = 3 * SIZE };
     static const struct {
         int at;
         unsigned char byte;
@@ -220,8 +236,25 @@ static void what_is_no_record_is_refused(void **state) {
                             : "");
             froe_shard_records_free(&bad);
         }
-    /* What is a record, and its numbers are no object's. */
-    static const double none[] = {NAN, INFINITY, -INFINITY};
+    froe_shard_plan_free(plan), froe_shard_sample_free(sample), froe_shard_records_free(&records);
+}
+
+/* What is a record, and no object of this shard. */
+static void what_is_no_object_of_a_shard_is_refused(void **state) {
+    (void)state;
+    enum { NUMBERS = 16, SIZE = 48 };
+    static const double corners[] = {0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5}, none[] = {NAN, INFINITY, -INFINITY};
+    const froe_shards_options good = froe_shards_defaults();
+    froe_shard_records records = {0};
+    froe_shard_sample *sample;
+    froe_shard_plan *plan;
+    froe_shard_entry entry;
+    froe_objects batch = froe_objects_defaults();
+    batch.kind = FROE_SEGMENT, batch.count = 3, batch.coords = corners;
+    assert_int_equal(froe_shard_records_add(&records, 2, &batch, 0, &why), FROE_OK);
+    assert_int_equal(froe_shard_sample_new(2, NULL, &sample), FROE_OK);
+    assert_int_equal(froe_shard_sample_add(sample, records.bytes, records.count), FROE_OK);
+    assert_int_equal(froe_shard_plan_new(sample, 2, 0, &plan, &why), FROE_OK);
     for (size_t i = 0; i < 3; i++) {
         memcpy(records.bytes + NUMBERS, none + i, sizeof *none);
         assert_int_equal(froe_shard_record_size(records.bytes, SIZE), SIZE);
@@ -287,6 +320,7 @@ static void a_batch_that_failed_is_in_no_folder(void **state) {
     froe_shards_builder *builder;
     froe_scene *scene;
     assert_non_null(corners);
+    assert_int_equal(system("rm -rf full.froes"), 0); /* of an earlier run */
     assert_int_equal(getrlimit(RLIMIT_FSIZE, &limit), 0);
     froe_objects batch = froe_objects_defaults();
     batch.kind = FROE_SEGMENT, batch.count = MANY, batch.coords = corners;
@@ -703,7 +737,9 @@ int main(void) {
         cmocka_unit_test(builders_are_checked),
         cmocka_unit_test(questions_are_checked),
         cmocka_unit_test(shards_are_checked),
+        cmocka_unit_test(samples_come_whole_or_are_refused),
         cmocka_unit_test(what_is_no_record_is_refused),
+        cmocka_unit_test(what_is_no_object_of_a_shard_is_refused),
         cmocka_unit_test(options_are_tried_at_the_beginning),
         cmocka_unit_test(a_batch_that_failed_is_in_no_folder),
         cmocka_unit_test(buckets_on_a_full_disk_are_told),
