@@ -62,6 +62,31 @@ static void a_grazing_contact_is_one_instant(void **state) {
     assert_true(c->instant && !c->since_start && !c->to_stop);
 }
 
+/* A wall, and a bar that comes through it at t = 2. Between 4 and the next double it leaves the wall, comes back and
+ * leaves it again, in quarters of that time. So the first contact goes on in the second piece, although both spans
+ * there begin and end between the same doubles. */
+static void contacts_within_neighbouring_doubles_are_kept_in_order(void **state) {
+    (void)state;
+    static found f;
+    const double next = nextafter(4, 8), no = (double)NAN;
+    const double times[] = {0, 4, next, 8, 0, 4, next, 8, 0, 0};
+    const double xy[] = {0, 9, 0, -9, 0, 9, 0, 9, 0, 20, 0, 20, 0, 20, 0, 20, -1, 0, 1, 0};
+    const double controls[] = {no, no, 0, 13, no, no, no, no, no, no, no, no, no, no, no, no, no, no, no, no};
+    const double seconds[] = {no, no, 0, -13, no, no, no, no, no, no, no, no, no, no, no, no, no, no, no, no};
+    froe_moving b = froe_moving_defaults();
+    b.vertex_count = 4;
+    b.count = 2;
+    b.starts = (const size_t[]){0, 4, 8, 9, 10};
+    b.times = times;
+    b.coords = xy;
+    b.controls = controls;
+    b.second_controls = seconds;
+    assert_int_equal(contacts_of(&b, NULL, &f), 2);
+    const froe_contact *c = f.list;
+    assert_true(c[0].begin[0] == 2 && c[0].begin[1] == 2 && !c[0].instant && !c[1].instant);
+    assert_true(c[0].end[0] >= 4 && c[0].end[1] == next && c[1].begin[0] >= 4 && c[1].end[1] == next);
+}
+
 /* Three moving points that meet a wall at 1/3, 2 and 7 of the window, and one that never does. */
 static const double wall_times[] = {0, 0, 0, 8, 0, 8, 0, 8, 0, 8, 0, 8, 0, 8, 0, 8, 0, 8};
 static const double wall_xy[] = {0,  -9, 0, 9, 1,  1, -23, 1, 2, 1, -22, 1, 2, 3, -6, 3, 3, 3,
@@ -321,6 +346,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(contacts_are_those_of_exact_brute_force),
         cmocka_unit_test(a_grazing_contact_is_one_instant),
+        cmocka_unit_test(contacts_within_neighbouring_doubles_are_kept_in_order),
         cmocka_unit_test(times_are_enclosed_and_the_first_is_found),
         cmocka_unit_test(objects_of_one_group_or_vertex_may_be_left_out),
         cmocka_unit_test(bad_options_are_refused_and_calls_can_be_stopped),

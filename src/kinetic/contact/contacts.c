@@ -19,6 +19,7 @@ void froe_contact_defaults_into(froe_contact_options *out, size_t size) {
 /* A span of one pair of slices. */
 typedef struct contact_record {
     uint32_t a, b;
+    double from; /* when the time begins that the slices have in common */
     meet_span span;
 } contact_record;
 
@@ -94,7 +95,7 @@ static bool look_at_slices(void *user, unsigned number, uint32_t i, uint32_t j) 
     w->failed[0] = p->object;
     w->failed[1] = q->object;
     for (int k = 0; k < w->meet.span_count && !w->status; k++)
-        if (!array_push(&m->alloc, &w->records, (contact_record){p->object, q->object, w->meet.spans[k]}))
+        if (!array_push(&m->alloc, &w->records, (contact_record){p->object, q->object, from, w->meet.spans[k]}))
             w->status = FROE_E_MEMORY;
     return !w->status;
 }
@@ -120,16 +121,14 @@ static froe_status find_spans(contact_search *s, froe_diagnostic *diag) {
 
 /* ----------------------------------------------------------------- all of them -- */
 
+/* Spans of one pair of slices stay in their order: where two begin and end between neighbouring doubles, these do not
+ * tell it. */
 static int compare_records(void *user, uint32_t i, uint32_t j) {
     const contact_search *s = user;
     const contact_record *a = s->records.data + i, *b = s->records.data + j;
     if (a->a != b->a) return a->a < b->a ? -1 : 1;
     if (a->b != b->b) return a->b < b->b ? -1 : 1;
-    double x = a->span.begin.low, y = b->span.begin.low;
-    if (x != y) return x < y ? -1 : 1;
-    x = a->span.end.high, y = b->span.end.high;
-    if (x != y) return x < y ? -1 : 1;
-    return a->span.from_start - b->span.from_start; /* what ends at an instant, before what begins there */
+    return (a->from > b->from) - (a->from < b->from);
 }
 
 static int compare_contacts(void *user, uint32_t i, uint32_t j) {
