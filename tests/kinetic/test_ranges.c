@@ -167,6 +167,52 @@ static void test_visitors_of_a_range(void **state) {
     assert_true(all.windows > all.stopped && all.events > 1000);
 }
 
+enum { CORNER = 8, BESIDE = 40 };
+
+/* At t = 32 three ends pass one another at x = 11. What may be there with them reaches to where two of these segments
+ * cross, x = 9.89, and that is on the other side of a border at 9.9375, where most segments are. Two other ends pass at
+ * x = 10 at the same time. */
+static froe_motion *make_two_events_beside_a_border(void) {
+    enum { SEGMENTS = CORNER + BESIDE };
+    static const double moving[CORNER][4][2] = {/* both ends at the beginning, and at the end of the window */
+                                                {{11, 0}, {9, 10}, {11, 0}, {9, 10}},
+                                                {{10, 5}, {8, 6}, {12, 5}, {10, 6}},
+                                                {{12, 20}, {13.5, 21}, {10, 20}, {11.5, 21}},
+                                                {{10, -20}, {10.5, -25}, {10, -20}, {10.5, -25}},
+                                                {{9.75, -30}, {10.25, -36}, {10.25, -30}, {10.75, -36}},
+                                                {{-60, 0}, {-59, 1}, {-60, 0}, {-59, 1}},
+                                                {{60, 0}, {61, 1}, {60, 0}, {61, 1}},
+                                                {{55, -9}, {56, -8}, {64, -9}, {65, -8}}};
+    size_t starts[2 * SEGMENTS + 1] = {0};
+    double times[4 * SEGMENTS], coords[8 * SEGMENTS];
+    for (size_t v = 0; v < (size_t)2 * SEGMENTS; v++) {
+        const size_t s = v / 2, e = v % 2;
+        const double width = (double)(s + 1) / 64;
+        for (size_t i = 0; i < 2; i++) {
+            times[2 * v + i] = (double)(i * MOVING_TIME);
+            coords[4 * v + 2 * i] = s < CORNER ? moving[s][2 * i + e][0] : 9.9375 + (e ? width : -width);
+            coords[4 * v + 2 * i + 1] = s < CORNER ? moving[s][2 * i + e][1] : 100 + 3 * (double)s + (double)e;
+        }
+        starts[v + 1] = 2 * v + 2;
+    }
+    froe_motion_options w = froe_motion_defaults();
+    froe_moving b = froe_moving_defaults();
+    w.begin = 0, w.end = MOVING_TIME;
+    b.vertex_count = (size_t)2 * SEGMENTS, b.count = SEGMENTS;
+    b.starts = starts, b.times = times, b.coords = coords;
+    return batch_motion(&w, &b, NULL);
+}
+
+/* Events of one tick are told by where their certificates are, however far what may be there with them reaches. */
+static void test_events_of_one_tick_keep_their_order(void **state) {
+    (void)state;
+    sums all = {0};
+    for (uint64_t seed = 1; seed <= 8; seed++)
+        for (unsigned threads = 1; threads <= 2; threads++)
+            assert_true(compare_motion(make_two_events_beside_a_border(), seed, threads, RANGES, &all));
+    assert_true(all.windows > all.stopped && all.kinds[FROE_EVENT_BATCH]);
+}
+
 /* On one to eight threads. */
 static void test_events_and_trees_do_not_depend_on_threads(void **state) {
     (void)state;
@@ -302,6 +348,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_events_and_trees_do_not_depend_on_threads),
         cmocka_unit_test(test_visitors_of_a_range),
+        cmocka_unit_test(test_events_of_one_tick_keep_their_order),
         cmocka_unit_test(test_bodies_turn_in_ranges_as_in_one_partition),
         cmocka_unit_test(test_ranges_need_their_guards),
         cmocka_unit_test(test_ranges_need_to_stop_at_what_is_wide),

@@ -381,6 +381,7 @@ static bool settle_tick(froe_kinetic *k, unsigned rounds, const event_watcher *w
             g = (event_group){i, 1, {items[i].slab[0], items[i].slab[1]}};
             for (size_t j = i + 1; j < count && items[j].slab[0] <= g.slab[1]; j++, g.count++)
                 if (items[j].slab[1] > g.slab[1]) g.slab[1] = items[j].slab[1];
+            const double place = g.slab[0];
             event_summary event = describe(k, &g);
             /* a turn and nothing else may leave the tree as it is */
             if (g.count == 1 && items[i].kind == CERT_TURN && turn_is_free(&k->tree, items[i].cert))
@@ -390,6 +391,7 @@ static bool settle_tick(froe_kinetic *k, unsigned rounds, const event_watcher *w
             if (k->call.stopped) break;
             k->counts.batches += event.event.kind == FROE_EVENT_BATCH;
             k->events.slab[0] = g.slab[0], k->events.slab[1] = g.slab[1];
+            k->events.place = place;
             if (!round) go_on &= event_tell(k, watcher, &event.event, &item_of(k, &g, 0)->claim);
         }
     }

@@ -45,7 +45,8 @@ typedef struct event_state {
     bool reporting;           /**< a visitor is in the callback of an event, */
     now_claim reported;       /**< about this; no points: appearances and the like */
     event_phase phase;        /**< of what is told */
-    double slab[2];           /**< of the group that is told, in x */
+    double slab[2];           /**< of the group that is told, in x, with all that may be in the same place */
+    double place;             /**< where its certificates begin, in x, by which groups are told from left to right */
 } event_state;
 
 /** An event of this kind at the present tick, of no objects yet. */

@@ -105,7 +105,7 @@ static bool keep_event(void *user, const froe_event *event) {
     if (!own) return true;
     const now_claim *claim = &part->events.reported;
     range_event kept = {.tick = event->tick,
-                        .place = part->events.slab[0],
+                        .place = part->events.place,
                         .claim = {name_in_whole(range, claim->p), name_in_whole(range, claim->q), claim->above},
                         .count = event->object_count,
                         .kind = (uint8_t)event->kind,
