@@ -1,6 +1,8 @@
 /* film_instants.c: see film_instants.h. */
 #include "film_instants.h"
+#include "support/axes.h"
 #include "support/fail.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -56,10 +58,41 @@ void film_instants_end(film_instants *x) {
     support_free(&x->alloc, x->seen, froe_motion_object_count(x->motion));
 }
 
+/* May the eye be in the plane of a triangle at a time? */
+static bool may_be_edge_on(const film_instants *x, uint32_t object, double time) {
+    const froe_moving_object o = froe_motion_object(x->motion, object);
+    const froe_camera camera = x->turn ? film_turn_at(x->turn, time) : froe_camera_defaults();
+    const bool parallel = x->view.eye.parallel;
+    double at[3][3], way[3], size = 0, far = 0, most = 0;
+    for (int i = 0; i < 3; i++)
+        if (!froe_motion_position(x->motion, o.vertices[i], time, at[i])) return false;
+    for (int k = 0; k < 3; k++) {
+        way[k] = x->turn ? camera.eye[k] - (parallel ? camera.target[k] : 0) : x->view.eye.at[k];
+        if (!parallel) most = fmax(most, fabs(way[k])), way[k] -= at[0][k];
+        far = fmax(far, fabs(way[k]));
+        for (int i = 0; i < 3; i++) most = fmax(most, fabs(at[i][k])), size = fmax(size, fabs(at[i][k] - at[0][k]));
+    }
+    double a[3], b[3], normal[3];
+    for (int k = 0; k < 3; k++) a[k] = at[1][k] - at[0][k], b[k] = at[2][k] - at[0][k];
+    support_cross(a, b, normal);
+    return !(fabs(support_dot(normal, way)) > size * (1e-9 * size * far + 1e-12 * most * (size + far))); /* NaN, too */
+}
+
+/* A picture has no face of what turns its edge to the eye at the very time, and may turn a side to it from then on. */
+static void add_edge_on(film_instants *x, double time) {
+    const bool rests = !x->turn;
+    for (uint32_t i = 0; i < froe_motion_object_count(x->motion); i++) {
+        const froe_moving_object o = froe_motion_object(x->motion, i);
+        if (x->seen[i] || time < o.birth || time > o.death || (rests && stands_still(x->motion, i))) continue;
+        x->seen[i] = may_be_edge_on(x, i, time);
+    }
+}
+
 froe_status film_instants_find(film_instants *x, const uint64_t *tags, size_t count, double from, double to,
                                froe_diagnostic *diag) {
     memset(x->seen, 0, froe_motion_object_count(x->motion));
     for (size_t i = 0; i < count; i++) x->seen[tags[i]] = 1;
+    add_edge_on(x, from);
     x->list.count = 0;
     froe_sight_options o = froe_sight_defaults();
     memcpy(o.at, x->turn ? x->turn->at : x->view.eye.at, sizeof o.at);

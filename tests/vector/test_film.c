@@ -217,6 +217,48 @@ static void what_is_seen_for_less_than_a_frame_is_seen(void **state) {
     }
 }
 
+/* Seen from the front, a leaf turns its edge to the eye at t = 0, and from t = 1.5 on for good. */
+static void faces_that_turn_their_edge_to_the_eye_are_seen_in_between(void **state) {
+    (void)state;
+    for (int way = 0; way < 4; way++) {
+        const bool parallel = way % 2,
+                   late = way > 1; /* late: it comes into being at t = 0.5, with its edge to the eye */
+        const double birth = late ? 0.5 : 0;
+        const size_t starts[] = {0, 1, 2, 3, 4, 5, 9};
+        const double times[] = {0, 0, 0, 0, 0, birth, 1, 1.5, 4}, births[] = {0, birth};
+        const double at[] = {-9, 5, -9, 9, 5, -9, 0, 5, -5, 0, 0, 0, 0, 0, 4, 0, 2, 2, 4, 2, 2, 0, 2, 2, 0, 3, 3};
+        const uint32_t groups[] = {0, 1};
+        froe_motion *motion = NULL;
+        froe_motion_options w = froe_motion_defaults();
+        froe_render_options o = froe_render_defaults();
+        froe_film_options film = froe_film_defaults();
+        froe_diagnostic diag = {.message = ""};
+        w.dim = 3, w.begin = 0, w.end = 4;
+        assert_int_equal(froe_motion_new(&w, NULL, &motion, NULL), FROE_OK);
+        for (int i = 0; i < 2; i++) {
+            uint32_t id;
+            assert_int_equal(froe_motion_add_group(motion, &(froe_group){.name = i ? "t1" : "t0"}, &id), FROE_OK);
+        }
+        froe_moving m = froe_moving_defaults();
+        m.vertex_count = 6, m.count = 2, m.starts = starts, m.times = times, m.coords = at;
+        m.births = births, m.groups = groups;
+        assert_int_equal(froe_motion_add(motion, &m, NULL), FROE_OK);
+        o.camera.parallel = parallel, o.camera.fit = parallel;
+        o.camera.eye[0] = o.camera.eye[2] = 0, o.camera.eye[1] = -20;
+        film.frames = 3, film.exact = true;
+        if (froe_film(motion, "leaf.svg", &o, &film, NULL, &diag)) fail_msg("%s", diag.message);
+        playing_read("leaf.svg");
+        double seen[2] = {1, 0};
+        for (size_t i = 0; i < playing_file.path_count; i++)
+            if (playing_file.paths[i].group[1] == '1') {
+                seen[0] = fmin(seen[0], playing_file.paths[i].from);
+                seen[1] = fmax(seen[1], playing_file.paths[i].to);
+            }
+        assert_true(fabs(4 * seen[0] - birth) < 3e-6 && fabs(4 * seen[1] - 1.5) < 3e-6);
+        froe_motion_free(motion);
+    }
+}
+
 /* Whatever comes and goes and changes places: what is shown stands in the list in the order of the picture. */
 static void a_list_shows_each_picture_in_its_order(void **state) {
     (void)state;
@@ -364,6 +406,7 @@ int main(void) {
         cmocka_unit_test(faces_come_into_sight_at_their_instant),
         cmocka_unit_test(lives_of_any_length_are_shown),
         cmocka_unit_test(what_is_seen_for_less_than_a_frame_is_seen),
+        cmocka_unit_test(faces_that_turn_their_edge_to_the_eye_are_seen_in_between),
         cmocka_unit_test(a_list_shows_each_picture_in_its_order),
         cmocka_unit_test(every_way_to_film_finds_the_changes),
         cmocka_unit_test(allocations_may_fail),

@@ -225,6 +225,9 @@ static bool find_roots(align_room *room, num_poly *f, align_case c, meet_time *o
         if (!walk_time(&room->arena, room->from, room->to, root, &out[*found])) return false;
         *found += counts(room, c, num_isolated_ball(root));
     }
+    /* at the end: from then on it may be 0 for as long as the next pieces last */
+    if (!num_poly_sign(&room->arena, f, num_dyadic_scaled(&room->arena, 1, 1, 0)) && counts(room, c, num_ball_from(1)))
+        out[(*found)++] = (meet_time){room->to, room->to};
     return true;
 }
 
