@@ -93,6 +93,18 @@ def test_layouts_that_lose_nothing(same):
     assert np.array_equal(froe.segments(same).arrays().coords, froe.segments(SEGMENTS).arrays().coords)
 
 
+BOX = np.array([0.0, 0, 3, 3])
+
+
+@pytest.mark.parametrize(
+    "same",
+    [BOX.astype(">f8"), BOX.astype("f4"), BOX.astype("i8"), BOX.astype("u1"), np.repeat(BOX, 2)[::2], BOX[::-1].copy()[::-1],
+     np.frombuffer(b"x" + BOX.tobytes(), "f8", 4, 1), BOX.astype(np.longdouble), BOX.tolist(), tuple(BOX)],
+)  # fmt: skip
+def test_layouts_of_one_box(tree, same):
+    assert sorted(tree.query_one(same).tolist()) == [0, 1]
+
+
 @pytest.mark.parametrize("number", [2**60, -(2**63), 2**63, 2**54 + 4])
 def test_large_whole_numbers_that_are_doubles(number):
     kind = np.uint64 if number >= 2**63 else np.int64
@@ -142,8 +154,9 @@ def test_empty_arrays(tree):
         (lambda t: t.query([[0, 0, 1, 1]], eps=-1), InputError, "eps"),
         (lambda t: t.query_one([0, 0, 1]), ArrayError, "do not make rows"),
         (lambda t: t.query_one(np.zeros((2, 4))), ArrayError, "4 numbers"),
-        (lambda t: t.query_one(np.zeros(4, "f4")), ArrayError, "float64"),
-        (lambda t: t.query_one(np.zeros(8)[::2]), ArrayError, "contiguous"),
+        (lambda t: t.query_one(np.zeros(4, bool)), ArrayError, "float64"),
+        (lambda t: t.query_one(np.ma.masked_array(np.zeros(4), [0, 0, 0, 1])), ArrayError, "masked"),
+        (lambda t: t.query_one(np.array([2**53 + 1, 0, 2**54, 1])), ArrayError, "9007199254740993"),
         (lambda t: t.query([[0, 0, 1, 1]], threads=-1), ArgumentError, "threads"),
         (lambda t: t.query([[0, 0, 1, 1]], threads=2**40), ArgumentError, "threads"),
         (lambda t: t.query([[0, 0, 1, 1]], threads=1.5), ArrayError, "threads"),

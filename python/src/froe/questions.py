@@ -13,6 +13,7 @@ from . import _core, _ranges
 from ._arrays import Doubles, Ids, Progress, doubles, rows, whole
 from ._ranges import Points, Relation, Round
 from .answers import Answers
+from .errors import ArrayError
 
 if TYPE_CHECKING:
     from .tree import Tree
@@ -115,7 +116,12 @@ class Questions:
         >>> froe.segments([[0, 0, 2, 2], [3, 0, 3, 2]]).build().query_one([0, 0, 1, 1])
         array([0], dtype=int32)
         """
-        return np.asarray(self._core.box(box if type(box) is np.ndarray else doubles(box, "box")))
+        if type(box) is np.ndarray:
+            try:
+                return np.asarray(self._core.box(box))
+            except ArrayError:
+                pass  # it has another type or layout, which most boxes of a loop do not have
+        return np.asarray(self._core.box(doubles(box, "box")))
 
     def count(
         self,
