@@ -112,6 +112,22 @@ def test_large_whole_numbers_that_are_doubles(number):
     assert froe.points([[number, 0.5]]).bounds[0, 0] == number
 
 
+def at_odd_address(array):
+    """The same at an address that no item of more than one byte should have."""
+    return np.frombuffer(b"x" + array.tobytes(), array.dtype, array.size, 1).reshape(array.shape)
+
+
+def test_arrays_at_odd_addresses(tree):
+    scene = froe.Scene(2)
+    scene.add_points(np.zeros((2, 2)), tags=at_odd_address(np.array([7, 9], np.uint64)))
+    scene.add_hulls(at_odd_address(np.eye(2)), at_odd_address(np.array([0, 2], np.uint64)))
+    assert scene.arrays().tags.tolist() == [7, 9, 2]
+    room = np.zeros(17, np.uint8)
+    nothing = np.ndarray((0, 2), np.float64, room.data, 1)  # which numpy takes for aligned
+    assert len(tree.locate(nothing)) == 0 and len(froe.points(nothing)) == 0
+    assert len(froe.triangles(np.eye(3), np.ndarray((0, 3), np.uint32, room.data, 1))) == 0
+
+
 def test_large_tags():
     tags = [2**64 - 1, 2**53 + 1, 2**63, 0]  # numpy 1 makes doubles of such a list
     scene = froe.Scene(2)
