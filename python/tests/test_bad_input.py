@@ -49,6 +49,7 @@ def tree():
         ([np.array([2**60 + 1, 0]), np.array([0.5, 0])], "1152921504606846977"),
         ([[2**80, 0, 0, 0]], "object"),
         (np.ma.masked_array(np.zeros((1, 4)), mask=[[1, 0, 0, 0]]), "masked"),
+        ([[0, 0, 1, 1], np.ma.masked_array(np.zeros(4), mask=[1, 0, 0, 0])], "masked"),
     ],
 )
 def test_arrays_that_are_none(bad, word):

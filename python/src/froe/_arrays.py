@@ -20,7 +20,8 @@ EXACT = 2**53  # whole numbers up to this are doubles
 
 def plain(values: npt.ArrayLike, name: str) -> npt.NDArray[Any]:
     """An array of anything. Rows of different lengths make none, and masks are not passed over."""
-    if isinstance(values, np.ma.MaskedArray) and np.asarray(values.mask).any():
+    parts = values if isinstance(values, (list, tuple)) else [values]
+    if any(isinstance(part, np.ma.MaskedArray) and np.asarray(part.mask).any() for part in parts):
         raise ArrayError(f"{name} has masked items, which have no value.")
     try:
         return np.asarray(values)
