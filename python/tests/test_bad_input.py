@@ -1,6 +1,7 @@
 """Bad input becomes an exception that says what is wrong, and nothing is changed."""
 
 import pickle
+import warnings
 
 import numpy as np
 import pytest
@@ -55,6 +56,13 @@ def tree():
 def test_arrays_that_are_none(bad, word):
     with pytest.raises(ArrayError, match=word):
         froe.segments(bad)
+
+
+def test_large_numbers_are_refused_without_a_warning():
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        with pytest.raises(ArrayError, match="float64 cannot hold"):
+            froe.points(np.array([[np.longdouble("1e4000"), 0]]))
 
 
 def test_one_point_is_no_array_of_points():

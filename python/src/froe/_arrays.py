@@ -55,7 +55,8 @@ def _converted(array: npt.NDArray[Any], name: str) -> Doubles:
         return array.astype(np.float64)
     if array.dtype.kind not in "fiu":
         raise ArrayError(f"{name} must be an array of float64, and its type is {array.dtype}.")
-    converted = array.astype(np.float64)
+    with np.errstate(over="ignore"):  # infinity is refused below
+        converted = array.astype(np.float64)
     if array.dtype.kind in "iu":
         lost = _rounded(array, converted)
     else:
