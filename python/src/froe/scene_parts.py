@@ -57,7 +57,7 @@ class SceneArrays:
     :ivar starts: one more than objects
     :ivar corners: numbers of vertices; of a box its lower and upper corner, of a ball its centre
     :ivar radii: of each object, 0 except for balls
-    :ivar tags: of each object, the number that the caller gave it, or 0
+    :ivar tags: of each object, the number that the caller gave it, or its own
     :ivar faces: of each object, the polygon that it is a part of, or -1
     :ivar groups: of each object, its group, or -1
     """
