@@ -153,6 +153,7 @@ def test_empty_arrays(tree):
         assert len(froe.segments(empty)) == 0 and len(tree.query(empty)) == 0
     assert froe.segments(np.zeros((0, 6))).dim == froe.points(np.zeros((0, 3))).dim == 3
     assert froe.boxes(np.zeros((0, 2, 4))).dim == 4 and len(froe.boxes([], [])) == 0
+    assert len(froe.triangles(np.eye(3), [])) == len(froe.triangles([], [])) == 0
     for rows_of_nothing in ([[]], np.zeros((5, 0))):
         with pytest.raises(ArrayError, match=r"has \([15], 0\)"):
             tree.query(rows_of_nothing)

@@ -277,7 +277,7 @@ class Scene:
             self._add(_kinds.POLYGON, rows(vertices, "triangles", 9, 3), **about)
         else:
             corners = whole(triangles, "triangles", np.uint32)
-            if corners.ndim != 2 or corners.shape[1] != 3:
+            if corners.shape != (0,) and (corners.ndim != 2 or corners.shape[1] != 3):
                 raise ArrayError(f"triangles must have the shape (m, 3), and has {corners.shape}.")
             self._add(_kinds.POLYGON, rows(vertices, "vertices", 3, 3), indices=corners.ravel(), **about)
 
