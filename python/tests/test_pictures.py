@@ -111,9 +111,17 @@ def test_solids_of_the_plane_are_drawn_by_their_borders():
     assert set(lines[2]) == {(0, 0), (200, 0), (0, 200)} and lines[2][0] == lines[2][-1] and len(lines[2]) == 4
 
 
+@pytest.mark.parametrize("points", [[[3, 4]], [[3, 4]] * 5, [[3, 4], [3, 4], [5, 4]]])
+def test_hulls_without_area_are_drawn(points):
+    scene = froe.Scene(2)
+    scene.add_hulls(points, [0, len(points)])
+    (line,) = drawn_lines(scene.build("kd").draw(width=800, lo=[0, 0], hi=[8, 8]).svg)
+    assert set(line) == {(100 * x, 800 - 100 * y) for x, y in points}
+
+
 @pytest.mark.parametrize("ends", [
     [1e17, 1e17, 1e17, 1e17], [1e17, 1e17, 1e17 + 64, 1e17], [0, 0, 5e-324, 5e-324], [3, 3, 3, 3], [0, 7, 9, 7],
-    [-1.7e308, -1.7e308, 1.7e308, 1.7e308], [1.7e308, 0, 1.7e308, 0],
+    [-1.7e308, -1.7e308, 1.7e308, 1.7e308], [1.7e308, 0, 1.7e308, 0], [-MOST, -MOST, MOST, MOST], [0, 0, MOST, MOST],
 ])  # fmt: skip
 def test_pictures_of_scenes_of_every_size(ends):
     svg = froe.segments([ends]).build("kd").draw(width=500).svg

@@ -49,4 +49,4 @@ def _around(points: Doubles) -> Doubles:
             border.append([x, y])
         if start == 0:
             border.pop()  # the other half begins there
-    return np.array(border)
+    return np.array(border) if len(points) > 1 else points
