@@ -10,6 +10,7 @@ import pytest
 import froe
 from froe.errors import ArgumentError, ArrayError, CancelledError, OptionError, UnsupportedError
 
+MOST = np.finfo(float).max
 FRONT, BEHIND = [[0, 0, 0], [4, 0, 0], [2, 0, 3]], [[1, 5, 0.5], [3, 5, 0.5], [2, 5, 1.5]]
 
 

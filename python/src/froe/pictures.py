@@ -168,7 +168,7 @@ def _window(tree: Tree, lo: npt.ArrayLike | None, hi: npt.ArrayLike | None) -> t
     bounds = tree.scene.bounds
     found = np.array([[0.0, 0.0], [1.0, 1.0]]) if bounds is None else bounds
     half = float((found[1] / 2 - found[0] / 2).max())
-    margin = max(0.06 * half or 1.0, 4 * float(np.spacing(np.abs(found).max())))
+    margin = max(0.06 * half or 1.0, 2.0**-50 * float(np.abs(found).max()))
     most = np.finfo(np.float64).max
     lower = np.maximum(found[0], margin - most) - margin if lo is None else point(lo, "lo", 2)
     upper = np.minimum(found[1], most - margin) + margin if hi is None else point(hi, "hi", 2)
