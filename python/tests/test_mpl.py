@@ -1,5 +1,7 @@
 """Pictures of matplotlib, by the colours of their pixels."""
 
+import warnings
+
 import matplotlib
 
 matplotlib.use("agg")
@@ -95,6 +97,18 @@ def test_cells_and_pieces_of_a_map():
     assert len(cells.get_paths()) == len(tree.cells([0, 0], [4, 4])) > 1
     assert len(lines.get_segments()) == len(tree.pieces())
     assert axes.get_xlim() == (0, 4)
+    pyplot.close(figure)
+
+
+@pytest.mark.parametrize("ends", [[3, 4, 3, 4], [0, 1, 5, 1], [2, 0, 2, 9]])
+def test_scenes_without_extent_are_drawn_without_a_warning(ends):
+    figure, axes = pyplot.subplots()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        froe.mpl.draw(axes, froe.segments([ends]).build())
+        figure.canvas.draw()
+    low, high = np.transpose([axes.get_xlim(), axes.get_ylim()])
+    assert (low < high).all() and (low <= ends[:2]).all() and (high >= ends[2:]).all()
     pyplot.close(figure)
 
 

@@ -61,6 +61,7 @@ def draw(
     4
     """
     from matplotlib.collections import LineCollection, PolyCollection
+    from matplotlib.transforms import nonsingular
 
     if tree.dim != 2:
         raise ValueError("The tree is not one of the plane.")
@@ -71,8 +72,8 @@ def draw(
     lines = LineCollection(_outlines.of_pieces(tree), colors=color, linewidths=linewidth)
     ax.add_collection(cells)
     ax.add_collection(lines)
-    ax.set_xlim(lower[0], upper[0])
-    ax.set_ylim(lower[1], upper[1])
+    ax.set_xlim(nonsingular(lower[0], upper[0]))
+    ax.set_ylim(nonsingular(lower[1], upper[1]))
     ax.set_aspect("equal")
     return cells, lines
 
