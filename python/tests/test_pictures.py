@@ -1,6 +1,7 @@
 """Pictures, files of scenes, measures and comparisons."""
 
 import math
+import pickle
 import re
 import xml.etree.ElementTree as ElementTree
 
@@ -47,6 +48,10 @@ def test_saved_pictures(space, tmp_path):
     assert (tmp_path / "a.svg").read_text() == picture.svg
     with pytest.raises(UnsupportedError, match="png"):
         picture.save(tmp_path / "a.png")
+    again = pickle.loads(pickle.dumps(picture))  # as processes that draw return it
+    assert again.svg == picture.svg and again.report == picture.report
+    again.save(tmp_path / "b.pdf")
+    assert (tmp_path / "b.pdf").read_bytes() == (tmp_path / "a.pdf").read_bytes()
 
 
 @pytest.mark.parametrize(

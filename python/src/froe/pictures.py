@@ -6,6 +6,7 @@ import math
 import os
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -147,9 +148,12 @@ def _numbers(options: Mapping[str, Any]) -> dict[str, Any]:
 def render(tree: Tree, progress: Callable[[float], object] | None, options: Mapping[str, Any]) -> Picture:
     """The picture that ``Tree.render`` returns."""
     numbers = _numbers(options)
-    core = tree._core
-    svg, report = core.render(None, SVG, numbers, progress)
-    return Picture(svg.decode(), RenderReport(**report), lambda path: core.render(path, SVG, numbers, None))
+    svg, report = tree._core.render(None, SVG, numbers, progress)
+    return Picture(svg.decode(), RenderReport(**report), partial(_write, tree, numbers))
+
+
+def _write(tree: Tree, numbers: Mapping[str, Any], path: str) -> None:
+    tree._core.render(path, SVG, dict(numbers), None)
 
 
 # --------------------------------------------------------------------- partitions
