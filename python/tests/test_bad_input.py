@@ -107,9 +107,19 @@ BOX = np.array([0.0, 0, 3, 3])
 
 @pytest.mark.parametrize(
     "same",
-    [BOX.astype(">f8"), BOX.astype("f4"), BOX.astype("i8"), BOX.astype("u1"), np.repeat(BOX, 2)[::2], BOX[::-1].copy()[::-1],
-     np.frombuffer(b"x" + BOX.tobytes(), "f8", 4, 1), BOX.astype(np.longdouble), BOX.tolist(), tuple(BOX)],
-)  # fmt: skip
+    [
+        BOX.astype(">f8"),
+        BOX.astype("f4"),
+        BOX.astype("i8"),
+        BOX.astype("u1"),
+        np.repeat(BOX, 2)[::2],
+        BOX[::-1].copy()[::-1],
+        np.frombuffer(b"x" + BOX.tobytes(), "f8", 4, 1),
+        BOX.astype(np.longdouble),
+        BOX.tolist(),
+        tuple(BOX),
+    ],
+)
 def test_layouts_of_one_box(tree, same):
     assert sorted(tree.query_one(same).tolist()) == [0, 1]
 

@@ -127,3 +127,14 @@ def test_what_holds_arrays_is_equal_to_itself_alone(tree):
     ):
         one, other = make(), make()
         assert one == one and one != other and {one, other} == {other, one} and len({one, other}) == 2
+
+
+def test_one_thing_is_not_called_several():
+    scene, motion = froe.points([[0, 0]]), froe.Motion(0, 1)
+    tree = scene.build()
+    motion.add([0, 0], [[0, 0], [1, 1]], [0, 1, 2])
+    assert repr(scene) == "<froe.Scene: 1 object in R^2>"
+    assert repr(tree) == "<froe.Tree: 1 object in R^2, 1 piece, by index>"
+    assert repr(tree.query([[0, 0, 1, 1]])) == "<froe.Answers: 1 to 1 question>"
+    assert repr(motion) == "<froe.Motion: 1 object in R^2, from 0 to 1>"
+    assert "<title>1 cell, 1 piece</title>" in tree.draw().svg

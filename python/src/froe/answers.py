@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ._arrays import Doubles, Ids, part
+from ._words import counted
 
 
 class Answers:
@@ -48,7 +49,7 @@ class Answers:
         return (self[i] for i in range(len(self)))
 
     def __repr__(self) -> str:
-        return f"<froe.Answers: {len(self.ids)} to {len(self)} questions>"
+        return f"<froe.Answers: {len(self.ids)} to {counted(len(self), 'question')}>"
 
     def counts(self) -> npt.NDArray[np.int64]:
         """How many answers each question has.

@@ -13,6 +13,7 @@ import numpy.typing as npt
 
 from . import _core
 from ._arrays import Doubles, Ids, Progress, doubles, point, rows, whole
+from ._words import counted
 from .errors import ArrayError
 from .scene import Scene, core_of
 from .tree import Tree
@@ -335,7 +336,7 @@ class Motion:
 
     def __repr__(self) -> str:
         begin, end = self.window
-        return f"<froe.Motion: {len(self)} objects in R^{self.dim}, from {begin:g} to {end:g}>"
+        return f"<froe.Motion: {counted(len(self), 'object')} in R^{self.dim}, from {begin:g} to {end:g}>"
 
 
 class Kinetic:

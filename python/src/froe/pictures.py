@@ -15,6 +15,7 @@ import numpy.typing as npt
 
 from . import _outlines
 from ._arrays import Doubles, doubles, point
+from ._words import counted
 from .errors import ArgumentError, OptionError, UnsupportedError
 
 if TYPE_CHECKING:
@@ -205,9 +206,10 @@ def draw(tree: Tree, width: float, lo: npt.ArrayLike | None, hi: npt.ArrayLike |
         by_depth.setdefault(depth, []).append(path(corners, "Z"))
     fills = [f'<path fill="{_shade(depth, most)}" d="{"".join(by_depth[depth])}"/>' for depth in sorted(by_depth)]
     lines = "".join(path(corners if len(corners) > 1 else corners[[0, 0]], "") for corners in shapes)
+    contents = f"{counted(len(cells), 'cell')}, {counted(len(shapes), 'piece')}"
     return Picture(
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width:.2f}" height="{height:.2f}" '
-        f'viewBox="0 0 {width:.2f} {height:.2f}">\n<title>{len(cells)} cells, {len(shapes)} pieces</title>\n'
+        f'viewBox="0 0 {width:.2f} {height:.2f}">\n<title>{contents}</title>\n'
         f'<g stroke="#ffffff" stroke-width="0.6" stroke-linejoin="round">{"".join(fills)}</g>\n'
         f'<path fill="none" stroke="#1b2630" stroke-width="1.4" stroke-linecap="round" d="{lines}"/>\n</svg>\n'
     )

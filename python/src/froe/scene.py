@@ -11,6 +11,7 @@ import numpy.typing as npt
 
 from . import _core, _kinds
 from ._arrays import Doubles, Ids, Progress, doubles, rows, whole
+from ._words import counted
 from .errors import ArrayError, OptionError, UnsupportedError
 from .report import Report
 from .scene_parts import Crs, Group, ReadReport, SceneArrays
@@ -187,7 +188,7 @@ class Scene:
         self._core.write(path)
 
     def __repr__(self) -> str:
-        return f"<froe.Scene: {len(self)} objects in R^{self.dim}>"
+        return f"<froe.Scene: {counted(len(self), 'object')} in R^{self.dim}>"
 
     def add_points(self, points: npt.ArrayLike, **about: Any) -> None:
         """Adds points.
@@ -375,7 +376,7 @@ def segments(segments: npt.ArrayLike, dim: int | None = None) -> Scene:
 
     >>> import froe
     >>> froe.segments([[0, 0, 1, 1]]), froe.segments([[0, 0, 0, 1, 1, 1]])
-    (<froe.Scene: 1 objects in R^2>, <froe.Scene: 1 objects in R^3>)
+    (<froe.Scene: 1 object in R^2>, <froe.Scene: 1 object in R^3>)
     """
     array = doubles(segments, "segments")
     scene = Scene(_dim(array, "segments", 2, dim))
@@ -436,7 +437,7 @@ def triangles(vertices: npt.ArrayLike, triangles: npt.ArrayLike | None = None) -
 
     >>> import froe
     >>> froe.triangles([[[0, 0, 0], [1, 0, 0], [0, 1, 0]]])
-    <froe.Scene: 1 objects in R^3>
+    <froe.Scene: 1 object in R^3>
     """
     scene = Scene(3)
     scene.add_triangles(vertices, triangles)

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from . import _core, pictures, report
 from ._arrays import Ids, Progress, doubles, point
+from ._words import counted
 from .errors import ClosedError, OptionError
 from .parts import Cells, Pieces
 from .pictures import Picture
@@ -249,7 +250,8 @@ class Tree(Questions):
             found = self.report
         except ClosedError:
             return "<froe.Tree: closed>"
-        return f"<froe.Tree: {found.objects} objects in R^{found.dim}, {found.pieces} pieces, by {found.method}>"
+        objects, pieces = counted(found.objects, "object"), counted(found.pieces, "piece")
+        return f"<froe.Tree: {objects} in R^{found.dim}, {pieces}, by {found.method}>"
 
     def close(self) -> None:
         """Frees the tree. Every later question raises ClosedError. Without it the tree is freed with its last
