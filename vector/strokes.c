@@ -57,6 +57,9 @@ static bool is_length(double x, bool above_0) {
 }
 
 froe_status vector_check_lines(const froe_render_options *options, froe_diagnostic *diag) {
+    if (options->lines >= FROE_LINE_END)
+        return support_fail(diag, FROE_E_OPTIONS, "option 'lines': The bits 0x%X are no kinds of lines.",
+                            options->lines & ~(FROE_LINE_END - 1u));
     if (options->line_style_count && !options->line_styles) return support_fail_null(diag, "froe_render_options");
     for (size_t i = 0; i < options->line_style_count; i++) {
         const froe_line_style *s = options->line_styles + i;

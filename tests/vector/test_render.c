@@ -311,6 +311,10 @@ static void bad_options_are_refused_and_leave_no_file(void **state) {
     o.decimals = 7;
     assert_int_equal(froe_render(tree, "none.svg", &o, NULL, &why), FROE_E_OPTIONS);
     o = froe_render_defaults();
+    o.lines |= FROE_LINE_END;
+    assert_int_equal(froe_render(tree, "none.svg", &o, NULL, &why), FROE_E_OPTIONS);
+    assert_non_null(strstr(why.message, "0x400"));
+    o = froe_render_defaults();
     o.camera.width = 0;
     assert_int_equal(froe_render(tree, "none.svg", &o, NULL, &why), FROE_E_OPTIONS);
     o = froe_render_defaults();
