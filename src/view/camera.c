@@ -232,6 +232,16 @@ static froe_status put_in_place(const froe_camera *camera, const froe_scene *sce
     return FROE_OK;
 }
 
+static froe_status check_section(const double *plane, froe_diagnostic *diag) {
+    if (!plane) return FROE_OK;
+    for (int k = 0; k < 4; k++)
+        if (!isfinite(plane[k]))
+            return support_fail_at(diag, FROE_E_ARG, FROE_NONE, FROE_NONE, (uint32_t)k,
+                                   "Number %d of the plane of the section is %g, not a finite number.", k, plane[k]);
+    if (plane[0] != 0 || plane[1] != 0 || plane[2] != 0) return FROE_OK;
+    return support_fail(diag, FROE_E_ARG, "The normal of the plane of the section has length 0.");
+}
+
 froe_status froe_camera_place(const froe_camera *camera, const froe_scene *scene, froe_projection *out,
                               froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
@@ -254,10 +264,11 @@ froe_status froe_camera_place(const froe_camera *camera, const froe_scene *scene
         return support_fail(diag, FROE_E_OPTIONS, "An angle of view of %g degrees is not in 1 .. 170.", c->fov);
     if (!(c->scale >= 0) || !isfinite(c->scale))
         return support_fail(diag, FROE_E_OPTIONS, "A scale of %g is none.", c->scale);
-    const froe_status settled = scene_settle(scene, diag);
-    if (settled) return settled;
+    froe_status status = check_section(c->section, diag);
+    if (!status) status = scene_settle(scene, diag);
+    if (status) return status;
     const bool ok = fit_points_new(camera, scene, &points);
-    const froe_status status = ok ? put_in_place(camera, scene, &points, out, diag) : support_fail_memory(diag);
+    status = ok ? put_in_place(camera, scene, &points, out, diag) : support_fail_memory(diag);
     array_free(&scene->alloc, &points.own);
     return status;
 }

@@ -67,6 +67,9 @@ static void cameras_are_checked(void **state) {
         c = froe_camera_defaults(), c.fov = angles[i], place(&c, FROE_E_OPTIONS, "angle of view");
         c = froe_camera_defaults(), c.scale = scales[i], place(&c, FROE_E_OPTIONS, "scale");
     }
+    static const double planes[][4] = {{0, 0, 0, 1}, {NAN, 0, 0, 0}, {1, -INFINITY, 0, 0}, {0, 0, 1, NAN}};
+    static const char *const why_not[] = {"length 0", "Number 0", "Number 1", "Number 3"};
+    for (int i = 0; i < 4; i++) c = froe_camera_defaults(), c.section = planes[i], place(&c, FROE_E_ARG, why_not[i]);
     c = froe_camera_defaults(), c.parallel = true, c.scale = 1e-308; /* one unit of the page is more than a double */
     place(&c, FROE_E_ARG, "too small");
     c.scale = 1;

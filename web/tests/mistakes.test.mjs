@@ -90,6 +90,8 @@ test("numbers are not rounded, and neither true nor -1 nor NaN stands for someth
     assert.throws(() => froe.generateMotion("moving", 4).contacts({ from: NaN }), options(/^The option from is nan, not a number\.$/));
     assert.equal(scene().build({ seed: 2n ** 53n - 1n }).report.seed, 2 ** 53 - 1);
     assert.ok(model().render({ section: -1 }).bytes.length > 0);
+    for (const [sectionPlane, told] of [[[0, 0, 0, 1], /length 0/], [[0, 0, NaN, 1], /Number 2 .* nan/], [[1, 0, 0, Infinity], /Number 3 .* inf/]])
+        assert.throws(() => model().render({ sectionPlane }), { status: "FROE_E_ARG", message: told });
 });
 
 test("a list of names is a list, and one name alone does not pass for one", () => {
