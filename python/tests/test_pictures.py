@@ -158,6 +158,13 @@ def test_scenes_as_files(tmp_path):
         froe.generate("segments", 0)
 
 
+def test_the_scene_of_a_tree_tells_how_it_was_read(tmp_path):
+    froe.segments([[0, 0, 1, 1]]).write(tmp_path / "a.geojson")
+    scene = froe.read(tmp_path / "a.geojson")
+    assert scene.build().scene.read_report == scene.read_report and scene.read_report.format == "GeoJSON"
+    assert froe.segments([[0, 0, 1, 1]]).build().scene.read_report is None
+
+
 def test_parts_of_trees_as_files(tmp_path):
     tree = froe.generate("segments", 20).build("kd")
     for what in ("fragments", "cells", "cuts"):

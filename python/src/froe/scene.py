@@ -31,7 +31,7 @@ class Scene:
     - ``threads``: how many may work at once; 0: one for each processor
     - ``progress``: a function that is called now and then with the share done, from 0 to 1; False from it ends the call
 
-    :ivar read_report: how the file was read, of a scene that ``froe.read`` returned, otherwise None
+    :ivar read_report: how the file was read, of a scene that ``froe.read`` returned and of its trees; otherwise None
     :param dim: dimension of the space, from 2 to 8
     :raises ArgumentError: the dimension is out of range
     :raises ArrayError: an array has another shape or type, or numbers that float64 does not have
@@ -343,7 +343,8 @@ class Scene:
         >>> froe.segments([[0, 0, 2, 2], [0, 2, 2, 0]]).build("autopartition", purpose="pieces").report.pieces
         3
         """
-        return Tree(self._core.build(method, purpose, settings, leaf, seed, None, max_pieces, threads, progress))
+        core = self._core.build(method, purpose, settings, leaf, seed, None, max_pieces, threads, progress)
+        return Tree(core, read=self.read_report)
 
 
 def core_of(scene: Scene, name: str) -> _core.Scene:

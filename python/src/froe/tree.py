@@ -19,6 +19,7 @@ from .report import Report
 
 if TYPE_CHECKING:
     from .scene import Scene
+    from .scene_parts import ReadReport
 
 
 class Tree(Questions):
@@ -41,9 +42,10 @@ class Tree(Questions):
     :raises OutOfMemoryError: there is not enough memory for the answers
     """
 
-    def __init__(self, core: _core.Tree, path: str | None = None) -> None:
+    def __init__(self, core: _core.Tree, path: str | None = None, read: ReadReport | None = None) -> None:
         self._core = core
         self._path = path
+        self._read = read  # how its scene was
 
     @property
     def scene(self) -> Scene:
@@ -55,7 +57,7 @@ class Tree(Questions):
         """
         from .scene import Scene
 
-        return Scene._of(self._core.scene())
+        return Scene._of(self._core.scene(), self._read)
 
     @property
     def report(self) -> Report:
