@@ -117,7 +117,7 @@ export class Scene extends Resource {
     build(options = {}) {
         const all = arraysOf({ order: Uint32Array }, options), core = this[CORE];
         if (all.order) all.orderCount = all.order.length;
-        return core.within((arena) => Tree.made(core, core.made("froe_build", this[AT], core.options(arena, "build", all))));
+        return core.within((arena) => Tree.made(core, core.made("froe_build", this[AT], core.options(arena, "build", all)), this.source));
     }
 
     /** The bytes of a file that read() takes: a name ends in .geojson, .json, .csv, .off or .obj. */

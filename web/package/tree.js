@@ -16,10 +16,16 @@ const PIECES = 44, CELLS = 44, CUTS_ROOM = 64, NODE = 48; // bytes of froe_piece
 
 /** A binary space partition with its scene. Immutable. */
 export class Tree extends Questions {
-    static made(core, address) { return new Tree(core, new Handle(core, "froe_tree_free", address)); }
+    #source = null; // of its scene
+
+    static made(core, address, source = null) {
+        const tree = new Tree(core, new Handle(core, "froe_tree_free", address));
+        tree.#source = source;
+        return tree;
+    }
 
     /** The scene that it was built of, which cannot grow any more. It keeps the tree in use. */
-    get scene() { return Scene.of(this); }
+    get scene() { return Object.assign(Scene.of(this), { source: this.#source }); }
     get #scene() { return this[CORE].get("froe_tree_scene", this[AT]); }
     /** { lo, hi } of the scene, or null where there are no objects. */
     bounds() { return boundsOf(this[CORE], this.#scene); }
@@ -148,7 +154,7 @@ export class Tree extends Questions {
     section(plane) {
         const core = this[CORE], numbers = doubles(plane, this.dim + 1, "plane");
         return core.within((arena) => Tree.made(core,
-            core.made("froe_tree_section", this[AT], arena.array(numbers), core.options(arena, "build"))));
+            core.made("froe_tree_section", this[AT], arena.array(numbers), core.options(arena, "build")), this.#source));
     }
 
     /** The bytes of a saved tree, as `froe build` writes it. */

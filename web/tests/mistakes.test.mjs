@@ -94,6 +94,13 @@ test("numbers are not rounded, and neither true nor -1 nor NaN stands for someth
         assert.throws(() => model().render({ sectionPlane }), { status: "FROE_E_ARG", message: told });
 });
 
+test("the scene of a tree tells how it was read", () => {
+    const scene = froe.read("a.obj", bytes("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")), tree = scene.build({ purpose: "draw" });
+    assert.equal(scene.source.format, "OBJ");
+    for (const one of [tree, tree.section([1, 0, 0, 0.5])]) assert.deepEqual(one.scene.source, scene.source);
+    for (const one of [model(), froe.open(tree.save())]) assert.equal(one.scene.source, null);
+});
+
 test("a list of names is a list, and one name alone does not pass for one", () => {
     const tree = model(), names = (lines) => tree.render({ lines }).text;
     assert.throws(() => names("mesh"), { status: "FROE_E_OPTIONS", message: "The option lines does not take the text 'mesh'." });
