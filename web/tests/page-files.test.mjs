@@ -75,6 +75,30 @@ for (const [format, files] of Object.entries(FILES))
         assert.deepEqual(page.wrong, []);
     });
 
+test("the preview shows models of every size", async () => {
+    const inked = async (scale, more) => {
+        const corners = [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0], [0, 0, 1]].map((corner) => `v ${corner.map((x) => x * scale).join(" ")}\n`);
+        await dropped(page, { "t.obj": text(`${corners.join("")}f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n`) });
+        await drawn(page);
+        await page.evaluate((patch) => { location.hash = `#draw?scene=file&${patch}`; }, more);
+        await page.waitForFunction(() => document.querySelector(".sheet.drawn"));
+        await page.evaluate(() => document.querySelector(".sheet").classList.remove("drawn"));
+        const shot = (await (await page.$(".sheet canvas")).screenshot()).toString("base64");
+        return page.evaluate(async (shot) => {
+            const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${shot}`)).blob());
+            const paint = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d");
+            paint.drawImage(bitmap, 0, 0);
+            const all = new Uint32Array(paint.getImageData(0, 0, bitmap.width, bitmap.height).data.buffer), { length } = all, ground = all[bitmap.width * 8 + 8];
+            return all.filter((colour) => colour !== ground).length / length;
+        }, shot);
+    };
+    for (const more of ["parallel=no", "parallel=yes", "section=x"]) {
+        const usual = await inked(1, more);
+        assert.ok(usual > 0.05 && usual < 0.9, `${more}: ${usual}`);
+        for (const scale of [1e-60, 1e60, 1e300]) assert.ok(Math.abs(await inked(scale, more) - usual) < 0.01, `${more}, ${scale}`);
+    }
+});
+
 test("a model turns in an SVG of its own", async () => {
     const folder = mkdtempSync(join(folders, "turning-"));
     await dropped(page, { "t.ply": ply });

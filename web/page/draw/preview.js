@@ -37,6 +37,7 @@ export class Preview {
     #faces = [];
     #lines = null;
     #origin = [0, 0, 0];
+    #unit = 1;
     #painted = "";
     #uniforms = { levels: { value: 0 }, lit: { value: true }, cut: { value: [0, 0, 0, 1] } };
 
@@ -49,10 +50,12 @@ export class Preview {
     /** What froe made of the scene: arrays as scene.arrays() gives them, and the groups. */
     show(model) {
         this.#clear();
-        // Coordinates are floats here; they are taken from the middle, so that models far from the origin do not shake.
-        this.#origin = [0, 1, 2].map((k) => 0.5 * (model.lo[k] + model.hi[k]));
+        // Coordinates are floats here; they are taken from the middle, so that models far from the origin do not shake, and
+        // in halves of the longest side, so that floats hold those of every size.
+        this.#origin = [0, 1, 2].map((k) => 0.5 * model.lo[k] + 0.5 * model.hi[k]);
+        this.#unit = Math.max(...[0, 1, 2].map((k) => 0.5 * model.hi[k] - 0.5 * model.lo[k])) || 1;
         const coords = new Float32Array(model.arrays.coords.length);
-        for (let i = 0; i < coords.length; i++) coords[i] = model.arrays.coords[i] - this.#origin[i % 3];
+        for (let i = 0; i < coords.length; i++) coords[i] = (model.arrays.coords[i] - this.#origin[i % 3]) / this.#unit;
         const { opaque, clear } = cornersOf(model);
         this.#addFaces(model, coords, opaque, false);
         if (clear.length) this.#addFaces(model, coords, clear, true);
@@ -90,7 +93,8 @@ export class Preview {
         const white = shading === "white" || shading === "none";
         this.#uniforms.lit.value = shading === "flat" || shading === "cel";
         this.#uniforms.levels.value = shading === "cel" ? 4 : 0;
-        const [a, b, c, d] = section ?? [0, 0, 0, 1], at = section ? d - a * this.#origin[0] - b * this.#origin[1] - c * this.#origin[2] : d;
+        const [a, b, c, d] = section ?? [0, 0, 0, 1], [x, y, z] = this.#origin;
+        const at = section ? (d - a * x - b * y - c * z) / this.#unit : d;
         this.#uniforms.cut.value = [a, b, c, at];
         this.#lines.material.clippingPlanes = section ? [new Plane(new Vector3(-a, -b, -c), at)] : [];
         this.#lines.visible = lines || white;
@@ -109,11 +113,11 @@ export class Preview {
 
     /** Draws what a camera of camera.js sees, `width` x `height` pixels. */
     draw(camera, width, height, model) {
-        const around = 0.5 * Math.hypot(...[0, 1, 2].map((k) => model.hi[k] - model.lo[k])) || 1;
-        const eye = camera.eye.map((x, k) => x - this.#origin[k]), target = camera.target.map((x, k) => x - this.#origin[k]);
+        const inside = (point) => point.map((x, k) => (x - this.#origin[k]) / this.#unit), eye = inside(camera.eye), target = inside(camera.target);
+        const around = Math.hypot(...inside(model.hi)) || 1;
         const away = Math.hypot(...eye), far = away + 1.1 * around, near = Math.max(away - 1.1 * around, 1e-3 * around);
         const half = Math.tan(camera.fov * Math.PI / 360) * camera.height / (camera.height - 2 * camera.margin);
-        const tall = camera.height / 2 / camera.scale, wide = camera.width / 2 / camera.scale;
+        const scale = camera.scale * this.#unit, tall = camera.height / 2 / scale, wide = camera.width / 2 / scale;
         const lens = camera.parallel ? new OrthographicCamera(-wide, wide, tall, -tall, away - 1.1 * around, far)
             : new PerspectiveCamera(2 * Math.atan(half) * 180 / Math.PI, camera.width / camera.height, near, far);
         lens.up.set(...camera.axes.up);
