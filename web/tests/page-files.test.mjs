@@ -130,8 +130,11 @@ for (const [what, [files, sentence]] of Object.entries(BROKEN))
         const told = await said(page);
         assert.match(told, sentence);
         assert.match(told, /^([A-Z]|[at]\.)[^]* [^]*[.!?]$/);
+        const disabled = () => page.$$eval("button", (all) => all.filter((it) => /^(Save as|Turning|Saved)/.test(it.getAttribute("aria-label") ?? it.textContent)).map((it) => it.disabled));
+        assert.deepEqual(await disabled(), new Array(5).fill(true)); // there is nothing to take away
         await dropped(page, { "t.ply": ply });
         await drawn(page);
+        assert.deepEqual(await disabled(), new Array(5).fill(false));
         page.wrong.length = 0;
     });
 

@@ -59,6 +59,7 @@ class DrawRoom {
     #own = false;       // is it a file that was dropped?
     #frame = 0;
     #timer = 0;
+    #saves = [];        // buttons of what there is once something is drawn
     #preview = null;
     #stopTurning;
     #resized;
@@ -102,8 +103,12 @@ class DrawRoom {
         p.scale = h("div", { class: "stack" }, c.choice("scale", "Scale", [["fit", "As fits"], ...SCALES.map((s) => [String(s), `1 : ${s}`])]),
             c.switch("unit", "The model is in", UNITS));
         p.command = h("code", {});
+        const saver = (label, format, more) => {
+            this.#saves.push(button(label, () => this.#download(format), { disabled: true, ...more }));
+            return this.#saves.at(-1);
+        };
         p.downloads = h("div", { class: "buttons three" }, ["SVG", "PDF", "PNG"].map((format) =>
-            button(format, () => this.#download(format.toLowerCase()), { "aria-label": `Save as ${format}` })));
+            saver(format, format.toLowerCase(), { "aria-label": `Save as ${format}` })));
         return [
             group("Model",
                 c.choice("scene", "Sample", [...Object.entries(MODELS).map(([id, { title }]) => [id, title]), ["file", "Own file"]]),
@@ -127,8 +132,7 @@ class DrawRoom {
             group("Paper",
                 c.choice("paper", "Size", Object.entries(PAPERS).map(([id, { title }]) => [id, title])), p.scale),
             group("Take away", p.downloads,
-                
-                h("div", { class: "buttons two" }, button("Turning SVG", () => this.#download("turning")), button("Saved tree", () => this.#download("froe"))),
+                h("div", { class: "buttons two" }, saver("Turning SVG", "turning"), saver("Saved tree", "froe")),
                 h("details", {}, h("summary", {}, "The same from a terminal"), h("p", { class: "soft" }, "With the saved tree, this line draws the same bytes."), p.command)),
         ];
     }
@@ -161,7 +165,8 @@ class DrawRoom {
         this.#showProgress("Reading", 0);
         this.#hideDrawing();
         this.#parts.canvas.style.opacity = 0;
-        this.#model = this.#picture = null; // nothing of the scene before is drawn or saved any more
+        this.#model = null; // nothing of the scene before is drawn or saved any more
+        this.#keep(null);
         this.#title = title;
         this.#source = source;
         try {
@@ -188,6 +193,7 @@ class DrawRoom {
     cancel() {
         if (this.#artist.stay()) return;
         this.#artist.close();
+        this.#keep(null);
         this.#rest();
         this.#host.say(h("span", {}, "Cancelled."), button("Draw again", () => this.#open(this.#source, this.#title)));
     }
@@ -205,7 +211,7 @@ class DrawRoom {
         if (!best) this.#ask();
     }
     #showPicture(picture, options, time) {
-        this.#picture = picture;
+        this.#keep(picture);
         const p = this.#parts, url = URL.createObjectURL(new Blob([picture.bytes], { type: "image/svg+xml" }));
         const old = p.drawing.src;
         p.drawing.onload = () => {
@@ -220,6 +226,10 @@ class DrawRoom {
         this.#host.say(h("span", {}, h("b", {}, "Exact. "), [...contents, size(picture.bytes.length)].join(", ")),
             h("span", { class: "soft" }, `${(time / 1000).toFixed(2)} s, from ${counted(this.#tree.fragments, "piece")} of ${counted(this.#tree.objects, "object")}`));
         if (this.#tree.objects <= QUICK_ENOUGH) this.#artist.improve().catch((error) => this.#fail(error));
+    }
+    #keep(picture) {
+        this.#picture = picture;
+        for (const button of this.#saves) button.disabled = !picture;
     }
     #showProgress(what, share) {
         const p = this.#parts;
@@ -289,7 +299,6 @@ class DrawRoom {
     /* -- files ------------------------------------------------------------------- */
 
     async #download(format) {
-        if (!this.#picture) return;
         const options = optionsOf(this.#host.state, this.#model), name = `${this.#file}.${format}`;
         try {
             if (format === "turning") {
