@@ -9,12 +9,13 @@ import geometries
 import geopandas
 import numpy as np
 import pytest
-from shapely.geometry import GeometryCollection, Point, Polygon, box, mapping
+from shapely.geometry import GeometryCollection, LineString, Point, Polygon, box, mapping
 
 import froe
 import froe.compat.pyvista
 from froe.adapters.features import of_mappings
 from froe.adapters.shapely import features
+from froe.compat.shapely import STRtree
 
 DATA = __import__("pathlib").Path(__file__).resolve().parents[2] / "data"
 
@@ -71,6 +72,15 @@ def test_tables_of_geopandas():
     table = geopandas.GeoDataFrame({"name": ["A", "B"]}, geometry=[box(0, 0, 1, 1), box(1, 0, 2, 1)], index=[7, 9])
     for one in (table, table.geometry):
         assert froe.from_geopandas(one).build().groups([[1, 0.5]]).ids.tolist() == [0, 1]
+
+
+def test_a_column_of_geometries_is_many():
+    column = geopandas.GeoSeries([Point(0, 0), None, LineString([(1, 0), (1, 4)])])
+    scene = froe.from_shapely(column)
+    assert len(scene) == len(froe.from_shapely(list(column))) and scene.group_count == 3
+    index = STRtree(column)
+    assert index.query(column, predicate="intersects").tolist() == [[0, 2], [0, 2]]
+    assert index.nearest(column.dropna()).tolist() == [0, 2]
 
 
 def test_cells_as_polygons_cover_the_window():

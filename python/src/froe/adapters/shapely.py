@@ -38,11 +38,16 @@ def from_shapely(geometries: Any, names: Sequence[str] | None = None) -> Scene:
     return features(geometries).scene(names)
 
 
+def is_one(geometries: Any) -> bool:
+    """Is this one geometry? A column of geopandas has a ``geom_type``, too, which is a column."""
+    return isinstance(getattr(geometries, "geom_type", None), str)
+
+
 def features(geometries: Any) -> Features:
     """The same as arrays: at once with shapely 2, geometry by geometry with shapely 1.8."""
     import shapely
 
-    if hasattr(geometries, "geom_type"):
+    if is_one(geometries):
         geometries = [geometries]
     if hasattr(shapely, "get_parts"):
         return _of_arrays(shapely, geometries)

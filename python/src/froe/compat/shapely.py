@@ -22,7 +22,7 @@ import numpy as np
 import numpy.typing as npt
 
 from froe.adapters.features import Features
-from froe.adapters.shapely import features
+from froe.adapters.shapely import features, is_one
 from froe.compat.nearest import Nearest
 from froe.compat.relations import Relations
 
@@ -180,5 +180,5 @@ def _array(geometries: Any) -> npt.NDArray[np.object_]:
 
 
 def _asked(geometry: Any) -> tuple[bool, Features]:
-    single = geometry is None or hasattr(geometry, "geom_type")
+    single = geometry is None or is_one(geometry)
     return single, features(_array([geometry] if single else geometry))
