@@ -68,6 +68,13 @@ def test_geojson_files_and_collections(tmp_path):
         froe.from_geojson({"features": []})
 
 
+def test_heights_that_only_some_places_have_are_left_out():
+    line = {"type": "LineString", "coordinates": [[0, 0], [1, 1, 1], [2, 0, 3, 4]]}
+    assert froe.from_geojson(line).bounds.tolist() == [[0, 0], [2, 1]]
+    with pytest.raises(ValueError, match="Object 0 is not a geometry"):
+        froe.from_geojson({"type": "LineString", "coordinates": [[0, 0], [1], [2, 2]]})
+
+
 def test_tables_of_geopandas():
     table = geopandas.GeoDataFrame({"name": ["A", "B"]}, geometry=[box(0, 0, 1, 1), box(1, 0, 2, 1)], index=[7, 9])
     for one in (table, table.geometry):

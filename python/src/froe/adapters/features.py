@@ -190,7 +190,10 @@ class _Chains:
         self.owners: list[int] = []
 
     def add(self, coordinates: Any, owner: int) -> None:
-        corners = np.asarray(coordinates)
+        try:
+            corners = np.asarray(coordinates)
+        except ValueError:  # some places have heights, others have none
+            corners = np.asarray([corner[:2] for corner in coordinates])
         if corners.size:
             if corners.dtype.kind not in "fiu":
                 raise ValueError(f"its coordinates are of the type {corners.dtype}")
