@@ -64,8 +64,15 @@ def test_geojson_files_and_collections(tmp_path):
     for source in (collection, path, str(path)):
         tree = froe.from_geojson(source, names="name").build()
         assert tree.groups([[0.5, 0.5], [5.5, 5.5]]).ids.tolist() == [0, 2]
-    with pytest.raises(ValueError, match="not GeoJSON"):
-        froe.from_geojson({"features": []})
+    path.write_text(json.dumps(collection), encoding="utf-8-sig")  # as Windows writes files
+    assert len(froe.from_geojson(path)) == 8
+    point = {"type": "Point", "coordinates": [1, 2]}
+    for wrong in ({"features": []}, [point], 5, {"type": "FeatureCollection", "features": None},
+                  {"type": "FeatureCollection", "features": [None]},
+                  {"type": "Feature", "properties": ["A"], "geometry": point}):  # fmt: skip
+        with pytest.raises(ValueError, match=r"^This is not GeoJSON: .* is missing or of another type\.$") as caught:
+            froe.from_geojson(wrong, names="name")
+        assert "subscriptable" not in str(caught.value) and "iterable" not in str(caught.value)
 
 
 def test_heights_that_only_some_places_have_are_left_out():

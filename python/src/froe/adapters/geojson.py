@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import json
 import os
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -34,16 +35,33 @@ def from_geojson(source: Any, names: str | None = None) -> Scene:
 
     is_file = isinstance(source, (str, os.PathLike))
     if is_file:
-        source = json.loads(Path(source).read_text(encoding="utf-8"))
+        source = json.loads(Path(source).read_text(encoding="utf-8-sig"))
     source = getattr(source, "__geo_interface__", source)
-    try:
-        features = source["features"] if source["type"] == "FeatureCollection" else [source]
-        rows = [(one["geometry"], one.get("properties") or {}) if one["type"] == "Feature" else (one, {})
-                for one in features]
-    except (KeyError, TypeError) as why:
-        raise ValueError(f"This is not GeoJSON: {why} is missing or of another type.") from why
+    features = _member(source, "features", Sequence) if _type(source) == "FeatureCollection" else [source]
+    rows = [_row(one) for one in features]
     labels = None if names is None else [str(properties.get(names, "")) for _, properties in rows]
     scene = of_mappings([geometry for geometry, _ in rows]).scene(labels)
     if is_file and "crs" not in source:
         scene.crs = Crs("geographic", "WGS 84", "OGC:CRS84", "degree")
     return scene
+
+
+def _member(of: Any, name: str, kind: type) -> Any:
+    found = of.get(name) if isinstance(of, Mapping) else None
+    if not isinstance(found, kind):
+        raise ValueError(f"This is not GeoJSON: '{name}' is missing or of another type.")
+    return found
+
+
+def _type(of: Any) -> str:
+    found: str = _member(of, "type", str)
+    return found
+
+
+def _row(feature: Any) -> tuple[Any, Mapping[str, Any]]:
+    """The geometry of a feature, and its properties."""
+    if _type(feature) != "Feature":
+        return feature, {}
+    if "geometry" not in feature:
+        raise ValueError("This is not GeoJSON: 'geometry' is missing or of another type.")
+    return feature["geometry"], _member(feature, "properties", Mapping) if feature.get("properties") else {}
