@@ -414,14 +414,15 @@ class Questions:
         :param objects: (n,) ids, as ``ray`` returns them
         :param origins: (n, dim)
         :param directions: (n, dim)
-        :returns: points (n, dim), normals of length 1 that look towards the origin (n, dim), distances from the origin
-            (n,)
+        :returns: points (n, dim); normals (n, dim) of length 1, or 0 where there is none; distances from the origin
+            (n,); a normal is the object's own, whichever side the ray comes from. Seen from where it points to, the
+            corners of a polygon turn left. That of a segment of the plane points to its left, and others outwards
         :cost: O(1) for each
 
         >>> import froe
         >>> tree = froe.segments([[2, -1, 2, 1]]).build()
-        >>> [found.tolist() for found in tree.hit_places([0], [[0, 0]], [[1, 0]])]
-        [[[2.0, 0.0]], [[-1.0, 0.0]], [2.0]]
+        >>> [found.tolist() for found in tree.hit_places([0, 0], [[0, 0], [5, 0]], [[1, 0], [-1, 0]])]
+        [[[2.0, 0.0], [2.0, 0.0]], [[-1.0, 0.0], [-1.0, 0.0]], [2.0, 3.0]]
         """
         ids = whole(objects, "objects", np.uint32)
         start, way = self._rows(origins, "origins", 1), self._rows(directions, "directions", 1)
