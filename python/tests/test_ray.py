@@ -124,3 +124,12 @@ def test_what_is_refused():
         Ray(CUBE).intersects_any([1, 2, 3], [[1, 0, 0]])
     with pytest.raises(ValueError, match="no triangles"):
         Ray(Mesh(np.empty((0, 3)), np.empty((0, 3), int))).closest_point([[0, 0, 0]])
+
+
+@pytest.mark.parametrize("length", [5e-324, 1e-310, 1.0, 1e308])
+def test_places_of_rays_of_every_length(length):
+    ray = Ray(Mesh([(0, 0, 0), (4, 0, 0), (0, 4, 0), (0, 0, 0.5), (4, 0, 0.5), (0, 4, 0.5)], [(0, 1, 2), (3, 4, 5)]))
+    with np.errstate(all="raise"):
+        locations, index, triangle = ray.intersects_location([[0.25, 0.25, 1]], [[0, 0, -length]])
+    assert locations == pytest.approx(np.array([[0.25, 0.25, 0.5], [0.25, 0.25, 0]]), abs=1e-14)
+    assert index.tolist() == [0, 0] and triangle.tolist() == [1, 0]

@@ -65,8 +65,14 @@ class Ray:
         triangle, ray, along = self._hits(origins, directions, multiple_hits)
         if not return_locations:
             return triangle, ray
-        locations = origins[ray] + along[:, None] * directions[ray]
-        same = (np.diff(ray, prepend=-1) == 0) & (np.diff(along, prepend=np.nan) == 0)
+        start, way = origins[ray], directions[ray]
+        with np.errstate(over="ignore", invalid="ignore"):
+            locations = start + along[:, None] * way
+        far = ~np.isfinite(locations).all(axis=1)  # more steps of a tiny direction than a double tells
+        locations[far] = self.tree.hit_places(triangle[far], start[far], way[far])[0]
+        same = np.arange(len(ray)) > 0
+        for found in (ray[:, None], along[:, None], locations):
+            same[1:] &= (found[1:] == found[:-1]).all(axis=1)
         return triangle[~same], ray[~same], locations[~same]
 
     def intersects_location(
