@@ -1,5 +1,6 @@
 """Long calls: signals, threads, processes, and arrays that change meanwhile."""
 
+import copy
 import multiprocessing
 import os
 import pickle
@@ -336,6 +337,17 @@ def test_pickles(tmp_path):
     opened = froe.open(tmp_path / "a.froe")
     assert len(pickle.dumps(opened)) < 500 < len(pickle.dumps(tree))
     assert np.array_equal(pickle.loads(pickle.dumps(opened)).query(ranges).ids, tree.query(ranges).ids)
+
+
+@pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy])
+def test_a_copy_is_of_the_tree_and_not_of_what_its_file_has_become(tmp_path, copied):
+    froe.segments(short_segments(1000)).build().save(tmp_path / "a.froe")
+    ranges, opened = windows(100, 0.05), froe.open(tmp_path / "a.froe")
+    froe.points([[9, 9]]).build().save(tmp_path / "a.froe")
+    again = copied(opened)
+    expected = opened.query(ranges).ids.tolist()
+    opened.close()
+    assert again.query(ranges).ids.tolist() == expected and len(expected) > 1
 
 
 def test_answers_outlive_the_tree(tree):

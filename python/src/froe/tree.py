@@ -241,6 +241,13 @@ class Tree(Questions):
             return open, (self._path,)
         return _from_bytes, (self._core.to_bytes(),)
 
+    def __copy__(self) -> Tree:
+        """Of the bytes of the tree: there may be another one in the file that it was opened from."""
+        return Tree(_core.from_bytes(self._core.to_bytes()), read=self._read)
+
+    def __deepcopy__(self, _: object) -> Tree:
+        return self.__copy__()
+
     def __enter__(self) -> Tree:
         return self
 
