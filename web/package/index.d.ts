@@ -552,7 +552,7 @@ export class Motion extends Resource {
     positions(time: number): Float64Array;
     /** All contacts, in the order of their beginnings. None is missed. */
     contacts(options?: { from?: number; to?: number; first?: boolean; apart?: boolean }): Contacts;
-    /** The same motion in space, whose bodies are vertices on parabolas, at most `reached` <= `deviation` from where bodies
+    /** The same motion, whose bodies are vertices on parabolas, at most `reached` <= `deviation` from where bodies
      * have them. */
     withoutBodies(deviation: number): { motion: Motion; reached: number };
     /** A partition that follows the motion, at the beginning of the window. */

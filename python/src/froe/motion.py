@@ -274,7 +274,6 @@ class Motion:
 
         :param deviation: how far a vertex may be from where its body has it, at any instant
         :returns: the motion, and a bound of how far vertices are off
-        :raises UnsupportedError: the motion is of the plane
         :raises ArgumentError: the deviation is not a number above 0
         :raises LimitError: doubles, or instants, are too far apart for this deviation
         :cost: O(times of the result)
