@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import froe
-from froe.errors import ArgumentError, ArrayError, CancelledError, OptionError, UnsupportedError
+from froe.errors import ArgumentError, ArrayError, CancelledError, FileError, OptionError, UnsupportedError
 
 MOST = np.finfo(float).max
 FRONT, BEHIND = [[0, 0, 0], [4, 0, 0], [2, 0, 3]], [[1, 5, 0.5], [3, 5, 0.5], [2, 5, 1.5]]
@@ -156,6 +156,14 @@ def test_scenes_as_files(tmp_path):
         froe.generate("nothing", 5)
     with pytest.raises(ArgumentError):
         froe.generate("segments", 0)
+
+
+def test_pictures_that_cannot_be_saved(space, tmp_path):
+    for picture in (space.render(), froe.segments([[0, 0, 1, 1]]).build().draw()):
+        with pytest.raises(FileError, match="no-folder.*The file cannot be written: No such file"):
+            picture.save(tmp_path / "no-folder" / "a.svg")
+        with pytest.raises((OptionError, UnsupportedError), match="no-ending"):
+            picture.save(tmp_path / "no-ending")
 
 
 def test_the_scene_of_a_tree_tells_how_it_was_read(tmp_path):

@@ -16,7 +16,7 @@ import numpy.typing as npt
 from . import _outlines
 from ._arrays import Doubles, doubles, point
 from ._words import counted
-from .errors import ArgumentError, OptionError, UnsupportedError
+from .errors import ArgumentError, FileError, OptionError, UnsupportedError
 
 if TYPE_CHECKING:
     from .tree import Tree
@@ -84,7 +84,7 @@ class Picture:
 
         :param path: ends in .svg; for pictures with hidden surfaces removed also .pdf, .eps, and .csv or .geojson with
             the lines alone
-        :raises UnsupportedError: the picture cannot be written in that format
+        :raises UnsupportedError, OptionError: the picture cannot be written in that format, or there is no such ending
         :raises FileError: the file cannot be written
         :cost: that of making the picture again
 
@@ -98,7 +98,10 @@ class Picture:
         if self._writer is not None:
             self._writer(os.fspath(path))
         elif Path(path).suffix.lower() == ".svg":
-            Path(path).write_text(self.svg, encoding="utf-8")
+            try:
+                Path(path).write_text(self.svg, encoding="utf-8")
+            except OSError as why:
+                raise FileError(f"{os.fspath(path)}: The file cannot be written: {why.strerror}.") from why
         else:
             raise UnsupportedError(f"{os.fspath(path)}: Pictures of partitions are saved as .svg only.")
 
