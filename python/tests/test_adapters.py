@@ -177,7 +177,7 @@ def test_tables_bring_their_coordinate_system(tmp_path):
     assert tree.scene.crs == scene.crs == froe.tree._from_bytes(tree._core.to_bytes()).scene.crs  # files keep it
     tree.scene.write(tmp_path / "a.geojson")
     assert "EPSG" in (tmp_path / "a.geojson").read_text()
-    with pytest.raises(froe.errors.FrozenError):
+    with pytest.raises(froe.errors.FrozenError, match=r"^The scene takes no coordinate system: scene is frozen\.$"):
         scene.crs = None
     assert froe.from_geopandas(geopandas.GeoSeries(places)).crs is None
 

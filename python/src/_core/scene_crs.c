@@ -27,7 +27,7 @@ PyObject *core_scene_set_crs(PyObject *self, PyObject *const *args, Py_ssize_t c
     const froe_status status = froe_scene_set_crs(scene, &crs);
     core_scene_give((core_scene *)self);
     if (!status) return Py_NewRef(Py_None);
-    return core_fail(status, "The scene takes no coordinate system, because of %s.", froe_status_text(status));
+    return core_fail(status, "The scene takes no coordinate system: %s.", froe_status_text(status));
 }
 
 /* across(): how many features seem to cross the antimeridian */

@@ -45,7 +45,7 @@ PyObject *core_scene_add_group(PyObject *self, PyObject *const *args, Py_ssize_t
     const froe_status status = froe_scene_add_group(scene, &group, &id);
     core_scene_give((core_scene *)self);
     if (!status) return PyLong_FromUnsignedLong(id);
-    return core_fail(status, "The scene takes no further group, because of %s.", froe_status_text(status));
+    return core_fail(status, "The scene takes no further group: %s.", froe_status_text(status));
 }
 
 /* group(id): (name, material, left, right, colour) */
