@@ -213,6 +213,47 @@ static void test_events_of_one_tick_keep_their_order(void **state) {
     assert_true(all.windows > all.stopped && all.kinds[FROE_EVENT_BATCH]);
 }
 
+/* At t = 32 the plan of segment 0 goes on, which is above the end of another one on the left, and between two ends on
+ * the right. Just then the end on the left passes its own end, so that it leaves and enters; and the two ends on the right
+ * pass, with nothing between them. Most segments are in the middle, where half of them move. */
+static froe_motion *make_pass_where_a_plan_goes_on(void) {
+    enum { AROUND = 4, SEGMENTS = AROUND + BESIDE, KNOTS = 2 * SEGMENTS * 2 + 2 };
+    static const double moving[AROUND][4][2] = {/* both ends at the beginning, and at the end of the window */
+                                                {{-60, 0}, {60, 1}, {-60, 0}, {60, 1}},
+                                                {{-64, -10}, {-70, -12}, {-56, -10}, {-62, -12}},
+                                                {{36, 5}, {46, 6}, {44, 5}, {54, 6}},
+                                                {{44, -5}, {56, -6}, {36, -5}, {48, -6}}};
+    size_t starts[2 * SEGMENTS + 1] = {0}, at = 0;
+    double times[KNOTS], coords[2 * KNOTS];
+    for (size_t v = 0; v < (size_t)2 * SEGMENTS; v++, starts[v] = at) {
+        const size_t s = v / 2, e = v % 2, knots = s ? 2 : 3;
+        const double width = (double)(s + 1) / 64;
+        for (size_t i = 0; i < knots; i++, at++) {
+            const double away = s % 2 ? 0 : 0.83 * (double)i - 0.4;
+            times[at] = (double)(i * MOVING_TIME) / (double)(knots - 1);
+            coords[2 * at] = s < AROUND ? moving[s][i / (knots - 1) * 2 + e][0] : away + (e ? width : -width);
+            coords[2 * at + 1] = s < AROUND ? moving[s][i / (knots - 1) * 2 + e][1] + (double)(knots == 3 && i == 1)
+                                            : 100 + 3 * (double)s + (double)e;
+        }
+    }
+    froe_motion_options w = froe_motion_defaults();
+    froe_moving b = froe_moving_defaults();
+    w.begin = 0, w.end = MOVING_TIME;
+    b.vertex_count = (size_t)2 * SEGMENTS, b.count = SEGMENTS;
+    b.starts = starts, b.times = times, b.coords = coords;
+    return batch_motion(&w, &b, NULL);
+}
+
+/* A segment that was to stay while its plan goes on leaves in all of its ranges, or in none. */
+static void test_segments_leave_everywhere(void **state) {
+    (void)state;
+    sums all = {0};
+    for (uint64_t seed = 1; seed <= 8; seed++)
+        for (unsigned threads = 1; threads <= 2; threads++)
+            assert_true(compare_motion(make_pass_where_a_plan_goes_on(), seed, threads, RANGES, &all));
+    assert_true(all.windows > 0);
+}
+
 /* On one to eight threads. */
 static void test_events_and_trees_do_not_depend_on_threads(void **state) {
     (void)state;
@@ -349,6 +390,7 @@ int main(void) {
         cmocka_unit_test(test_events_and_trees_do_not_depend_on_threads),
         cmocka_unit_test(test_visitors_of_a_range),
         cmocka_unit_test(test_events_of_one_tick_keep_their_order),
+        cmocka_unit_test(test_segments_leave_everywhere),
         cmocka_unit_test(test_bodies_turn_in_ranges_as_in_one_partition),
         cmocka_unit_test(test_ranges_need_their_guards),
         cmocka_unit_test(test_ranges_need_to_stop_at_what_is_wide),

@@ -79,6 +79,7 @@ static void leave_after_all(froe_kinetic *k, name_point p) {
     uint32_t found[2];
     for (size_t i = staying_at(&k->tree, p, found); i-- > 0;) {
         ktree_segment_at(&k->tree, found[i])->stays = false;
+        k->events.ousted = true;
         renew_note_leaving(k, found[i], 1);
     }
 }
