@@ -214,8 +214,8 @@ static void test_events_of_one_tick_keep_their_order(void **state) {
 }
 
 /* At t = 32 the plan of segment 0 goes on, which is above the end of another one on the left, and between two ends on
- * the right. Just then the end on the left passes its own end, so that it leaves and enters; and the two ends on the right
- * pass, with nothing between them. Most segments are in the middle, where half of them move. */
+ * the right. Just then the end on the left passes its own end, so that it leaves and enters; and the two ends on the
+ * right pass, with nothing between them. Most segments are in the middle, where half of them move. */
 static froe_motion *make_pass_where_a_plan_goes_on(void) {
     enum { AROUND = 4, SEGMENTS = AROUND + BESIDE, KNOTS = 2 * SEGMENTS * 2 + 2 };
     static const double moving[AROUND][4][2] = {/* both ends at the beginning, and at the end of the window */
