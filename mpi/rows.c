@@ -49,7 +49,7 @@ static off_t cut(off_t header, off_t rest, uint64_t part, uint64_t parts) {
 static froe_status open_rows(row_file *f, uint64_t part, uint64_t parts) {
     struct stat info;
     if (!stat(f->path, &info) && !S_ISREG(info.st_mode)) /* a pipe would be waited for */
-        return support_fail_irregular(f->diag, f->path, S_ISDIR(info.st_mode));
+        return support_fail_irregular(f->diag, f->path, info.st_mode);
     f->file = fopen(f->path, "rb");
     if (!f->file) return fail_file(f, "opened");
     const ssize_t header = getline(&f->header, &f->header_room, f->file);

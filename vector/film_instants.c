@@ -92,7 +92,7 @@ froe_status film_instants_find(film_instants *x, const uint64_t *tags, size_t co
                                froe_diagnostic *diag) {
     memset(x->seen, 0, froe_motion_object_count(x->motion));
     for (size_t i = 0; i < count; i++) x->seen[tags[i]] = 1;
-    add_edge_on(x, from);
+    if (!x->all) add_edge_on(x, from);
     x->list.count = 0;
     froe_sight_options o = froe_sight_defaults();
     memcpy(o.at, x->turn ? x->turn->at : x->view.eye.at, sizeof o.at);

@@ -135,11 +135,17 @@ static froe_status read_element(ply *p) {
     return FROE_OK;
 }
 
-/* A file without z is flat. */
-static bool has_places(const element *e) {
-    int found = 0;
-    for (int i = 0; i < e->properties; ++i) found |= 1 << e->property[i].role;
-    return e->kind != VERTEX || !e->count || ((found >> X & 1) && (found >> Y & 1));
+/* Does an element lack what its items are made of? A file without z is flat. */
+static froe_status check_element(ply *p, const element *e) {
+    unsigned found = 0, needed = 0;
+    for (int i = 0; i < e->properties; ++i) found |= 1u << e->property[i].role;
+    if (e->kind == VERTEX) needed = 1u << X | 1u << Y;
+    if (e->kind == FACE) needed = 1u << INDICES;
+    if (e->kind == EDGE) needed = 1u << FIRST | 1u << SECOND;
+    if (!e->count || (found & needed) == needed) return FROE_OK;
+    return broken(p, e->kind == VERTEX ? "Its vertices have no x or no y."
+                     : e->kind == FACE ? "Its faces have no list vertex_indices."
+                                       : "Its edges have no vertex1 or no vertex2.");
 }
 
 static froe_status read_ply_header(ply *p) {
@@ -164,8 +170,7 @@ static froe_status read_ply_header(ply *p) {
     }
     skip_line(p); /* data begins behind the line, even when it is empty */
     if (!status && !formatted) status = broken(p, "The header names no format.");
-    for (size_t k = 0; k < p->elements.count && !status; ++k)
-        if (!has_places(p->elements.data + k)) status = broken(p, "Its vertices have no x or no y.");
+    for (size_t k = 0; k < p->elements.count && !status; ++k) status = check_element(p, p->elements.data + k);
     return status;
 }
 

@@ -160,6 +160,27 @@ static void strips_of_ply_are_refused(void **state) {
            "strips.ply: The element 'tristrips' names vertices, which is read of faces and edges alone.");
 }
 
+/* They would have their corners at the first vertex, or none. */
+static void items_of_ply_without_vertices_are_refused(void **state) {
+    (void)state;
+    static const struct {
+        const char *element, *sentence;
+    } cases[] = {{"edge 1\nproperty int v1\nproperty int v2", "Its edges have no vertex1 or no vertex2."},
+                 {"edge 1\nproperty int vertex1", "Its edges have no vertex1 or no vertex2."},
+                 {"edge 1\nproperty list int int vertex_indices", "Its edges have no vertex1 or no vertex2."},
+                 {"face 1\nproperty list int int vertex_list", "Its faces have no list vertex_indices."},
+                 {"face 1\nproperty int vertex_indices", "Its faces have no list vertex_indices."}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[400];
+        snprintf(text, sizeof text,
+                 "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nelement %s\nend_header\n"
+                 "1 1\n2 2\n2 0 1\n",
+                 cases[i].element);
+        write_text("items.ply", text);
+        refuse("items.ply", FROE_E_FORMAT, cases[i].sentence);
+    }
+}
+
 static void wrong_calls_are_refused(void **state) {
     (void)state;
     froe_scene *scene = NULL;
@@ -387,6 +408,7 @@ int main(void) {
         cmocka_unit_test(numbers_that_are_none_name_their_feature),
         cmocka_unit_test(broken_models_are_refused),
         cmocka_unit_test(strips_of_ply_are_refused),
+        cmocka_unit_test(items_of_ply_without_vertices_are_refused),
         cmocka_unit_test(wrong_calls_are_refused),
         cmocka_unit_test(nothing_is_printed),
         cmocka_unit_test(every_reader_can_be_cancelled_at_every_report),
