@@ -40,7 +40,8 @@ typedef struct event_state {
     ARRAY(uint32_t) meeting; /**< segments in one line of which ends meet now, two and two */
     ARRAY(uint32_t) staying; /**< segments whose plans change now, and that stay in the tree */
     ARRAY(event_renewal) renewed;
-    bool ousted;              /**< a segment that was to stay has left, as a certificate about it fails */
+    double ousted;            /**< of segments that were to stay and have left, as a certificate about them fails: how
+                                   wide the widest was in x */
     ARRAY(uint32_t) turning;  /**< segments whose ends change sides now */
     ARRAY(uint32_t) flopping; /**< in space: surfaces of triangles that may turn over now */
     bool reporting;           /**< a visitor is in the callback of an event, */

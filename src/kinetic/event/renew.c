@@ -2,6 +2,7 @@
 #include "kinetic/event/renew.h"
 #include "base/sort.h"
 #include "kinetic/kinetic.h"
+#include <math.h>
 
 enum { CERTS_EACH = 1 << 14 }; /* so many certificates are looked at for a segment, at most */
 
@@ -74,12 +75,20 @@ static void find_renewed(froe_kinetic *k) {
     }
 }
 
+/* In the units of places in doubles; infinite where they are none. */
+static double width_of(now_state *now, uint32_t segment) {
+    const uint32_t *end = now->segments.data[segment].end;
+    const now_spot a = now_vertex_spot(now, end[0]), b = now_vertex_spot(now, end[1]);
+    const double width = fabs(a.x - b.x) + a.error + b.error;
+    return width >= 0 ? width : (double)INFINITY;
+}
+
 /* A segment is to leave after all. */
 static void leave_after_all(froe_kinetic *k, name_point p) {
     uint32_t found[2];
     for (size_t i = staying_at(&k->tree, p, found); i-- > 0;) {
         ktree_segment_at(&k->tree, found[i])->stays = false;
-        k->events.ousted = true;
+        k->events.ousted = fmax(k->events.ousted, width_of(&k->now, found[i]));
         renew_note_leaving(k, found[i], 1);
     }
 }

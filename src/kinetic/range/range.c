@@ -2,6 +2,7 @@
 #include "kinetic/range/range.h"
 #include "kinetic/event/change.h"
 #include "kinetic/kinetic.h"
+#include <math.h>
 
 /* ------------------------------------------------------------------ motion -- */
 
@@ -146,9 +147,10 @@ froe_status range_follow(kinetic_range *range, range_window *window) {
     while (part->now.tick < window->tick && part->now.tick < atomic_load(&window->stopped) &&
            !base_cancelled(window->task)) {
         event_step(part, window->tick, &watcher);
-        /* Which of the pairs in one line are known depends on what happened before. And where a segment is ousted, what
-         * its other ranges tell depends on that. */
-        if (part->call.stopped || part->collinear.count || part->events.ousted || range->wide != 0 || range->meets)
+        /* Where a wide segment leaves after all, ranges that do not know why let it stay, and tell other events. */
+        if (!(part->events.ousted <= range->guard / 2)) range->wide = fmax(range->wide, part->events.ousted);
+        /* which of the pairs in one line are known depends on what happened before */
+        if (part->call.stopped || part->collinear.count || range->wide != 0 || range->meets)
             stop_at(range, window, part->now.tick);
     }
     range->counts = part->counts;
