@@ -2,6 +2,7 @@
  * of their meshes are read. It speaks for read_assimp.c. */
 #ifndef FROE_IO_ASSIMP_NODES_H
 #define FROE_IO_ASSIMP_NODES_H
+#include "formats/input/json.h"
 #include "readers.h"
 #include <assimp/scene.h>
 
@@ -25,13 +26,19 @@ froe_status io_read_arranged(const formats_source *source, formats_sink *sink, i
 typedef struct io_gltf_part {
     size_t mesh, faces;
 } io_gltf_part;
-typedef ARRAY(io_gltf_part) io_gltf_parts;
+/** What is found before the import and looked at after it. */
+typedef struct io_gltf_found {
+    ARRAY(io_gltf_part) parts;
+    formats_json_error error; /**< of a text that is no JSON; line 0: there is none */
+} io_gltf_found;
 
 /** Before the import: FROE_E_UNSUPPORTED or FROE_E_FORMAT where a glTF file says something about the places of faces
- * that assimp passes over in silence. `parts` are the caller's. */
-froe_status io_gltf_check(const formats_source *source, formats_sink *sink, io_gltf_parts *parts);
-/** After it: FROE_E_FORMAT where assimp has left out faces. */
-froe_status io_gltf_is_whole(formats_sink *sink, const struct aiScene *scene, const io_gltf_parts *parts);
+ * that assimp passes over in silence. The parts are the caller's. */
+froe_status io_gltf_check(const formats_source *source, formats_sink *sink, io_gltf_found *found);
+/** After it: FROE_E_FORMAT where assimp has left out faces, or has read a text that could not be looked through. */
+froe_status io_gltf_is_whole(formats_sink *sink, const struct aiScene *scene, const io_gltf_found *found);
+/** What assimp calls the format of a scene; "": nothing. */
+const char *io_assimp_format(const struct aiScene *scene);
 /** out = a b, of 3 x 4 matrices; out is another. */
 void io_matrix_multiply(const double a[12], const double b[12], double out[12]);
 #endif

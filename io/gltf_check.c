@@ -19,8 +19,8 @@ static size_t little_endian(const char *at) {
     return (size_t)b[0] | (size_t)b[1] << 8 | (size_t)b[2] << 16 | (size_t)b[3] << 24;
 }
 
-/* The text of a .gltf, or of the first chunk of a .glb; none where there is none. */
-static froe_status load_text(const formats_source *source, formats_sink *sink, formats_text *text) {
+/* The bytes of a .gltf, or of the first chunk of a .glb; none where there are none. */
+static froe_status load_bytes(const formats_source *source, formats_sink *sink, formats_text *text) {
     enum { HEADER = 12, CHUNK = 8 };
     const char *head = source->head;
     if (strncmp(head, "glTF", 4) != 0) return formats_load_part(source, sink, 0, (size_t)source->size, text);
@@ -29,6 +29,13 @@ static froe_status load_text(const formats_source *source, formats_sink *sink, f
     const size_t length = little_endian(head + HEADER);
     if (length > source->size - HEADER - CHUNK) return FROE_OK;
     return formats_load_part(source, sink, HEADER + CHUNK, length, text);
+}
+
+/* assimp takes them up to the first zero. */
+static froe_status load_text(const formats_source *source, formats_sink *sink, formats_text *text) {
+    const froe_status status = load_bytes(source, sink, text);
+    if (!status && text->count) text->count = strlen(text->data);
+    return status;
 }
 
 static bool is_number(const formats_json *value, double number) {
@@ -99,7 +106,7 @@ static size_t faces_of(const gltf_check *c, const formats_json *primitive, const
     return n / 3;
 }
 
-static froe_status check_meshes(gltf_check *c, io_gltf_parts *parts) {
+static froe_status check_meshes(gltf_check *c, io_gltf_found *found) {
     const froe_allocator *alloc = &c->sink->alloc;
     size_t number = 0;
     FORMATS_JSON_EACH(accessor, formats_json_get(c->root, "accessors"))
@@ -112,7 +119,7 @@ static froe_status check_meshes(gltf_check *c, io_gltf_parts *parts) {
                                "Its positions are not three floating-point numbers each, as with the extension "
                                "KHR_mesh_quantization, which is not read.");
             const io_gltf_part part = {number, faces_of(c, primitive, positions)};
-            if (!array_push(alloc, parts, part)) return support_fail_memory(c->sink->diag);
+            if (!array_push(alloc, &found->parts, part)) return support_fail_memory(c->sink->diag);
         }
         number++;
     }
@@ -155,14 +162,14 @@ static froe_status check_nodes(const gltf_check *c) {
     return FROE_OK;
 }
 
-froe_status io_gltf_check(const formats_source *source, formats_sink *sink, io_gltf_parts *parts) {
+froe_status io_gltf_check(const formats_source *source, formats_sink *sink, io_gltf_found *found) {
     formats_text text = {0};
     formats_json_values values = {0};
-    formats_json_error error;
     gltf_check c = {.sink = sink};
     froe_status status = load_text(source, sink, &text);
+    const bool is_there = !status && text.count;
     const froe_status read =
-        status || !text.count ? FROE_E_FORMAT : formats_json_read(&sink->alloc, text.data, text.count, &values, &error);
+        is_there ? formats_json_read(&sink->alloc, text.data, text.count, &values, &found->error) : FROE_E_FORMAT;
     if (read == FROE_E_MEMORY) status = support_fail_memory(sink->diag);
     c.root = values.data;
     const char *version =
@@ -171,7 +178,7 @@ froe_status io_gltf_check(const formats_source *source, formats_sink *sink, io_g
         const size_t scenes = formats_json_size(formats_json_get(c.root, "scenes"));
         sink->report.layers_left = scenes ? scenes - 1 : 0;
         status = check_extensions(&c);
-        if (!status) status = check_meshes(&c, parts);
+        if (!status) status = check_meshes(&c, found);
         if (!status) status = check_nodes(&c);
     }
     array_free(&sink->alloc, &c.accessors);
@@ -180,13 +187,17 @@ froe_status io_gltf_check(const formats_source *source, formats_sink *sink, io_g
     return status;
 }
 
-froe_status io_gltf_is_whole(formats_sink *sink, const struct aiScene *scene, const io_gltf_parts *parts) {
-    for (size_t i = 0; i < parts->count && parts->count == scene->mNumMeshes; i++) {
-        const size_t faces = parts->data[i].faces, read = scene->mMeshes[i]->mNumFaces;
+froe_status io_gltf_is_whole(formats_sink *sink, const struct aiScene *scene, const io_gltf_found *found) {
+    if (found->error.line && !strncmp(io_assimp_format(scene), "glTF2", 5))
+        return support_fail(sink->diag, FROE_E_FORMAT, "%s: line %zu: %s", support_short(sink->path), found->error.line,
+                            found->error.sentence);
+    for (size_t i = 0; i < found->parts.count && found->parts.count == scene->mNumMeshes; i++) {
+        const io_gltf_part part = found->parts.data[i];
+        const size_t faces = part.faces, read = scene->mMeshes[i]->mNumFaces;
         if (read < faces)
             return support_fail(sink->diag, FROE_E_FORMAT,
                                 "%s: mesh %zu: Of %zu points, edges or triangles %zu name vertices that do not exist.",
-                                support_short(sink->path), parts->data[i].mesh, faces, faces - read);
+                                support_short(sink->path), part.mesh, faces, faces - read);
     }
     return FROE_OK;
 }

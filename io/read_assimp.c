@@ -277,6 +277,15 @@ static froe_status import(const formats_source *source, formats_sink *sink, cons
     return status;
 }
 
+const char *io_assimp_format(const struct aiScene *scene) {
+    for (unsigned i = 0; scene->mMetaData && i < scene->mMetaData->mNumProperties; ++i) {
+        const struct aiMetadataEntry *entry = &scene->mMetaData->mValues[i];
+        if (!strcmp(scene->mMetaData->mKeys[i].data, AI_METADATA_SOURCE_FORMAT) && entry->mType == AI_AISTRING)
+            return ((const struct aiString *)entry->mData)->data;
+    }
+    return "";
+}
+
 static froe_status read_scene(const formats_source *source, formats_sink *sink, const struct aiScene *scene,
                               io_nodes *nodes, io_arrange_fn *arrange, void *user) {
     froe_status status;
@@ -284,12 +293,8 @@ static froe_status read_scene(const formats_source *source, formats_sink *sink, 
     for (unsigned i = 0; i < scene->mNumMeshes; ++i) /* instances count once: only the progress bar depends on it */
         w.faces += scene->mMeshes[i]->mNumFaces ? scene->mMeshes[i]->mNumFaces : scene->mMeshes[i]->mNumVertices;
     char format[48];
-    snprintf(format, sizeof format, "%s", source->extension.text);
-    for (unsigned i = 0; scene->mMetaData && i < scene->mMetaData->mNumProperties; ++i) {
-        const struct aiMetadataEntry *entry = &scene->mMetaData->mValues[i];
-        if (strcmp(scene->mMetaData->mKeys[i].data, AI_METADATA_SOURCE_FORMAT) || entry->mType != AI_AISTRING) continue;
-        snprintf(format, sizeof format, "%.40s", ((const struct aiString *)entry->mData)->data);
-    }
+    const char *called = io_assimp_format(scene);
+    snprintf(format, sizeof format, "%.40s", *called ? called : source->extension.text);
     char *suffix = strstr(format, " Importer"); /* "glTF2 Importer" becomes "glTF2 (assimp)" */
     if (suffix) *suffix = '\0';
     formats_report_format(sink, "float32", "%s (assimp)", format);
@@ -315,15 +320,15 @@ static froe_status read_scene(const formats_source *source, formats_sink *sink, 
 
 froe_status io_read_arranged(const formats_source *source, formats_sink *sink, io_nodes *nodes, io_arrange_fn *arrange,
                              void *user) {
-    io_gltf_parts parts = {0};
+    io_gltf_found found = {.error.line = 0};
     froe_status status = formats_sink_open(sink, 3);
     if (!status) status = formats_sink_progress(sink, 0);
     if (!status && (!strncmp(source->head, "glTF", 4) || !strcmp(source->extension.text, "gltf")))
-        status = io_gltf_check(source, sink, &parts);
+        status = io_gltf_check(source, sink, &found);
     const struct aiScene *scene = NULL;
     if (!status) status = import(source, sink, &scene);
-    if (!status) status = io_gltf_is_whole(sink, scene, &parts);
-    array_free(&sink->alloc, &parts);
+    if (!status) status = io_gltf_is_whole(sink, scene, &found);
+    array_free(&sink->alloc, &found.parts);
     if (!status) status = read_scene(source, sink, scene, nodes, arrange, user);
     if (scene) aiReleaseImport(scene);
     return status;

@@ -17,13 +17,45 @@ static const char whole[] =
     "\"buffers\": [{\"byteLength\": 48, \"uri\": \"data:application/octet-stream;base64,"
     "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIAAAABAAMA\"}]}\n";
 
-/* Writes the text with one word changed. */
-static void write_changed(const char *path, const char *word, const char *other) {
-    char text[sizeof whole + 256];
+enum { MOST = sizeof whole + 256 };
+
+/* The text with one word changed, and how long it is. */
+static size_t change(char text[MOST], const char *word, const char *other) {
     const char *at = strstr(whole, word);
     assert_non_null(at);
-    snprintf(text, sizeof text, "%.*s%s%s", (int)(at - whole), whole, other, at + strlen(word));
+    return (size_t)snprintf(text, MOST, "%.*s%s%s", (int)(at - whole), whole, other, at + strlen(word));
+}
+
+static void write_changed(const char *path, const char *word, const char *other) {
+    char text[MOST];
+    change(text, word, other);
     write_text(path, text);
+}
+
+static void put_word(unsigned char *to, size_t value) {
+    for (int i = 0; i < 4; i++) to[i] = (unsigned char)(value >> 8 * i);
+}
+
+/* Writes a text as the first chunk of a .glb, with some of `pad` behind it, and the numbers of the triangle as the
+ * second. */
+static void write_chunks(const char *path, const char *text, size_t length, char pad) {
+    static const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    static const unsigned short indices[6] = {0, 1, 2, 0, 1, 3};
+    static unsigned char glb[MOST + 128];
+    const size_t padded = length / 4 * 4 + 8, numbers = sizeof corners + sizeof indices;
+    assert_true(28 + padded + numbers <= sizeof glb);
+    memcpy(glb, "glTF", 4);
+    put_word(glb + 4, 2);
+    put_word(glb + 8, 28 + padded + numbers);
+    put_word(glb + 12, padded);
+    memcpy(glb + 16, "JSON", 4);
+    memcpy(glb + 20, text, length);
+    memset(glb + 20 + length, pad, padded - length);
+    put_word(glb + 20 + padded, numbers);
+    memcpy(glb + 24 + padded, "BIN", 4);
+    memcpy(glb + 28 + padded, corners, sizeof corners);
+    memcpy(glb + 28 + padded + sizeof corners, indices, sizeof indices);
+    write_bytes(path, glb, 28 + padded + numbers);
 }
 
 static void the_scene_to_be_shown_is_read_and_others_are_counted(void **state) {
@@ -63,6 +95,37 @@ static void what_assimp_passes_over_is_refused(void **state) {
     }
 }
 
+/* assimp takes the text up to its first zero, and names of any bytes. */
+static void texts_that_only_assimp_takes_are_checked_too(void **state) {
+    (void)state;
+    static const char sentence[] = "mesh 0 ('m'): Its positions are not three floating-point";
+    char text[MOST];
+    const size_t size = change(text, "5126", "5123");
+    write_bytes("zero.gltf", text, size + 1);
+    refuse("zero.gltf", FROE_E_UNSUPPORTED, sentence);
+    write_chunks("blanks.glb", text, size, ' ');
+    refuse("blanks.glb", FROE_E_UNSUPPORTED, sentence);
+    write_chunks("zeros.glb", text, size, '\0');
+    refuse("zeros.glb", FROE_E_UNSUPPORTED, sentence);
+    write_chunks("zeros.glb", whole, sizeof whole - 1, '\0');
+    froe_scene *scene = read_scene("zeros.glb", NULL);
+    assert_true(froe_scene_object_count(scene) == 1 && corner(scene, 0, 1)[0] == 5);
+    froe_scene_free(scene);
+    write_changed("latin.gltf", "\"name\": \"m\"", "\"name\": \"caf\xe9\"");
+    refuse("latin.gltf", FROE_E_FORMAT, "latin.gltf: line 5: JSON needs UTF-8 near '");
+}
+
+/* A file of another format under this extension is read as what it is. */
+static void what_is_no_json_and_no_gltf_is_not_refused_for_it(void **state) {
+    (void)state;
+    write_text("off.gltf", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+    froe_scene *scene = read_scene("off.gltf", NULL);
+    assert_int_equal(froe_scene_object_count(scene), 1);
+    froe_scene_free(scene);
+    write_changed("broken.gltf", "\"scene\": 0", "\"scene\" 0");
+    refuse("broken.gltf", FROE_E_FORMAT, "broken.gltf: The file is of no type that can be read.");
+}
+
 static void faces_are_counted_in_every_mode(void **state) {
     (void)state;
     static const size_t objects[] = {3, 1, 3, 2, 1, 1, 1}; /* of three corners */
@@ -86,6 +149,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_scene_to_be_shown_is_read_and_others_are_counted),
         cmocka_unit_test(what_assimp_passes_over_is_refused),
+        cmocka_unit_test(texts_that_only_assimp_takes_are_checked_too),
+        cmocka_unit_test(what_is_no_json_and_no_gltf_is_not_refused_for_it),
         cmocka_unit_test(faces_are_counted_in_every_mode),
         cmocka_unit_test(every_failing_allocation_gives_a_status),
     };
