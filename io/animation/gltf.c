@@ -90,7 +90,7 @@ static froe_status find_text(gltf_file *g) {
             if (g->chunk_size > size - next - CHUNK)
                 return fail_gltf(g, FROE_E_FORMAT, "A chunk of glTF is longer than the file.");
         }
-        text += HEADER + CHUNK, size = length;
+        text += HEADER + CHUNK, size = strnlen(text, length); /* assimp takes it up to a zero */
     }
     enum { AHEAD = 16 }; /* zeros behind the text, as formats_load() has them: numbers are read ahead */
     if (!array_reserve(&g->animation->sink->alloc, &g->json, size + AHEAD))

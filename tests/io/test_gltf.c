@@ -63,6 +63,24 @@ static void every_container_has_the_same_motion(void **state) {
     }
 }
 
+/* Some writers fill the chunk of the text up with zeros in place of blanks. */
+static void zeros_may_end_the_text_in_chunks(void **state) {
+    (void)state;
+    static animated_model m;
+    static char bytes[MOST], within[MOST], other[MOST];
+    froe_diagnostic why;
+    make_model(&m);
+    animated_write_as(&m, "chunks.glb", ANIMATED_CHUNKS, NULL, NULL);
+    assert_int_equal(follow("chunks.glb", within, &why), FROE_OK);
+    const size_t size = slurp("chunks.glb", bytes);
+    size_t end = 20 + (unsigned char)bytes[12] + 256u * (unsigned char)bytes[13];
+    assert_true(bytes[end - 1] == ' ' || bytes[end - 1] == '\n');
+    while (bytes[end - 1] == ' ' || bytes[end - 1] == '\n') bytes[--end] = '\0';
+    write_bytes("zeros.glb", bytes, size);
+    if (follow("zeros.glb", other, &why)) fail_msg("%s", why.message);
+    assert_string_equal(other, within);
+}
+
 /* What may stand instead of a word. */
 static const char *const words[] = {"",
                                     "-1",
@@ -425,6 +443,7 @@ int main(void) {
     limit_memory();
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_container_has_the_same_motion),
+        cmocka_unit_test(zeros_may_end_the_text_in_chunks),
         cmocka_unit_test(keys_have_every_component_type),
         cmocka_unit_test(what_is_wrong_with_an_animation_is_said),
         cmocka_unit_test(what_is_wrong_with_a_buffer_is_said),
