@@ -92,6 +92,12 @@ static bool is_floating(const formats_json *positions) {
            (is_number(formats_json_get(positions, "componentType"), 5126) && type && !strcmp(type, "VEC3"));
 }
 
+/* Is a mode one of those that there are? assimp takes 4 where there is none, or a number with a point. */
+static bool is_mode(const formats_json *mode) {
+    if (!mode || is_number(mode, 4)) return true;
+    return formats_json_is(mode, FORMATS_JSON_NUMBER) && mode->number < 7 && strspn(mode->text, "+-.0123456789Ee") == 1;
+}
+
 /* How many points, edges or triangles a primitive is (3.7.2.1). */
 static size_t faces_of(const gltf_check *c, const formats_json *primitive, const formats_json *positions) {
     const formats_json *indices = accessor_of(c, primitive, "indices");
@@ -118,6 +124,9 @@ static froe_status check_meshes(gltf_check *c, io_gltf_found *found) {
                 return fail_at(c, FROE_E_UNSUPPORTED, "mesh", number, mesh,
                                "Its positions are not three floating-point numbers each, as with the extension "
                                "KHR_mesh_quantization, which is not read.");
+            if (!is_mode(formats_json_get(primitive, "mode")))
+                return fail_at(c, FROE_E_FORMAT, "mesh", number, mesh,
+                               "Its modes are not each one of the digits 0 to 6.");
             const io_gltf_part part = {number, faces_of(c, primitive, positions)};
             if (!array_push(alloc, &found->parts, part)) return support_fail_memory(c->sink->diag);
         }

@@ -86,6 +86,12 @@ static void what_assimp_passes_over_is_refused(void **state) {
         {"3,0,0,1]", "3,0,0]", FROE_E_FORMAT, "changed.gltf: node 0 ('a'): Its matrix is not 16 numbers, of"},
         {"[1, 2, 3]", "[1, 2]", FROE_E_FORMAT, "changed.gltf: node 1 ('b'): Its translation, rotation and scale are"},
         {"[1, 1, 1]", "[1, true, 1]", FROE_E_FORMAT, "changed.gltf: node 1 ('b'): Its translation, rotation and scale"},
+        {"\"mode\": 4", "\"mode\": 9", FROE_E_FORMAT, "changed.gltf: mesh 0 ('m'): Its modes are not each one of the"},
+        {"\"mode\": 4", "\"mode\": -1", FROE_E_FORMAT, "changed.gltf: mesh 0 ('m'): Its modes are not each one of the"},
+        {"\"mode\": 4", "\"mode\": 2.0", FROE_E_FORMAT,
+         "changed.gltf: mesh 0 ('m'): Its modes are not each one of the"},
+        {"\"mode\": 4", "\"mode\": \"4\"", FROE_E_FORMAT,
+         "changed.gltf: mesh 0 ('m'): Its modes are not each one of the"},
         {"\"SCALAR\", \"count\": 3", "\"SCALAR\", \"count\": 6", FROE_E_FORMAT,
          "changed.gltf: mesh 0: Of 2 points, edges or triangles 1 name vertices that do not exist."},
     };
@@ -126,6 +132,24 @@ static void what_is_no_json_and_no_gltf_is_not_refused_for_it(void **state) {
     refuse("broken.gltf", FROE_E_FORMAT, "broken.gltf: The file is of no type that can be read.");
 }
 
+/* By another word, the scene is the same, to the last bit. */
+static void what_does_not_change_the_scene_is_read(void **state) {
+    (void)state;
+    static const char *const changes[][2] = {
+        {"\"mode\": 4", "\"mode\": 4.0"},
+    };
+    write_text("whole.gltf", whole);
+    froe_scene *scene = read_scene("whole.gltf", NULL);
+    const uint64_t hash = scene_hash(scene);
+    froe_scene_free(scene);
+    for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
+        write_changed("same.gltf", changes[i][0], changes[i][1]);
+        scene = read_scene("same.gltf", NULL);
+        assert_true(scene_hash(scene) == hash);
+        froe_scene_free(scene);
+    }
+}
+
 static void faces_are_counted_in_every_mode(void **state) {
     (void)state;
     static const size_t objects[] = {3, 1, 3, 2, 1, 1, 1}; /* of three corners */
@@ -151,6 +175,7 @@ int main(void) {
         cmocka_unit_test(what_assimp_passes_over_is_refused),
         cmocka_unit_test(texts_that_only_assimp_takes_are_checked_too),
         cmocka_unit_test(what_is_no_json_and_no_gltf_is_not_refused_for_it),
+        cmocka_unit_test(what_does_not_change_the_scene_is_read),
         cmocka_unit_test(faces_are_counted_in_every_mode),
         cmocka_unit_test(every_failing_allocation_gives_a_status),
     };
