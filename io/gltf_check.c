@@ -56,9 +56,19 @@ static froe_status fail_at(const gltf_check *c, froe_status status, const char *
 
 /* Those that say nothing of where faces are, or that assimp reads where it can, and refuses otherwise. */
 static bool is_harmless(const char *extension) {
-    static const char *const beginnings[] = {"KHR_materials_", "KHR_texture_",          "EXT_texture_",
-                                             "MSFT_texture_",  "KHR_lights_",           "EXT_lights_",
-                                             "KHR_xmp",        "KHR_mesh_quantization", "KHR_draco_mesh_compression"};
+    static const char *const beginnings[] = {"KHR_materials_",
+                                             "KHR_texture_",
+                                             "EXT_texture_",
+                                             "MSFT_texture_",
+                                             "KHR_lights_",
+                                             "EXT_lights_",
+                                             "KHR_xmp",
+                                             "KHR_mesh_quantization",
+                                             "KHR_draco_mesh_compression",
+                                             "KHR_techniques_webgl",
+                                             "EXT_mesh_features",
+                                             "EXT_structural_metadata",
+                                             "CESIUM_primitive_outline"};
     for (size_t i = 0; i < sizeof beginnings / sizeof *beginnings; i++)
         if (!strncmp(extension, beginnings[i], strlen(beginnings[i]))) return true;
     return false;

@@ -137,6 +137,10 @@ static void what_does_not_change_the_scene_is_read(void **state) {
     (void)state;
     static const char *const changes[][2] = {
         {"\"mode\": 4", "\"mode\": 4.0"},
+        {"KHR_materials_unlit", "KHR_techniques_webgl"},
+        {"KHR_materials_unlit", "EXT_mesh_features"},
+        {"KHR_materials_unlit", "EXT_structural_metadata"},
+        {"KHR_materials_unlit", "CESIUM_primitive_outline"},
     };
     write_text("whole.gltf", whole);
     froe_scene *scene = read_scene("whole.gltf", NULL);
