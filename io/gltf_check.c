@@ -5,6 +5,7 @@
  * faces with wrong indices, which assimp leaves out. Whatever assimp refuses by itself is left to it. */
 #include "assimp_nodes.h"
 #include "formats/input/json.h"
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -153,11 +154,13 @@ static bool is_numbers(const formats_json *value, size_t count) {
     return !value || formats_json_size(value) == count;
 }
 
-/* Is a matrix, whose columns come one after the other, one of turns, scales, shears and a move? */
+/* Is a matrix, whose columns come one after the other, one of turns, scales, shears and a move? Its last number may be
+ * 1 as single precision rounds it: it is not looked at by those who take the others. */
 static bool is_affine(const formats_json *matrix) {
     size_t i = 0;
     FORMATS_JSON_EACH(item, matrix) {
-        if (i % 4 == 3 && !is_number(item, i == 15)) return false;
+        const bool is_right = i == 15 ? fabs(item->number - 1) < 1e-6 : i % 4 != 3 || item->number == 0;
+        if (!formats_json_is(item, FORMATS_JSON_NUMBER) || !is_right) return false;
         i++;
     }
     return is_numbers(matrix, 16);

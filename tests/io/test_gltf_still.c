@@ -83,6 +83,7 @@ static void what_assimp_passes_over_is_refused(void **state) {
         {"\"mesh\": 0", "\"mesh\": 0, \"extensions\": {\"EXT_mesh_gpu_instancing\": {}}", FROE_E_UNSUPPORTED,
          "changed.gltf: node 0 ('a'): It stands in many places by the extension EXT_mesh_gpu_instancing"},
         {"0,0,1,0, 3", "0,0,1,0.5, 3", FROE_E_FORMAT, "changed.gltf: node 0 ('a'): Its matrix is not 16 numbers, of"},
+        {"3,0,0,1]", "3,0,0,0.99999]", FROE_E_FORMAT, "changed.gltf: node 0 ('a'): Its matrix is not 16 numbers, of"},
         {"3,0,0,1]", "3,0,0]", FROE_E_FORMAT, "changed.gltf: node 0 ('a'): Its matrix is not 16 numbers, of"},
         {"[1, 2, 3]", "[1, 2]", FROE_E_FORMAT, "changed.gltf: node 1 ('b'): Its translation, rotation and scale are"},
         {"[1, 1, 1]", "[1, true, 1]", FROE_E_FORMAT, "changed.gltf: node 1 ('b'): Its translation, rotation and scale"},
@@ -141,6 +142,8 @@ static void what_does_not_change_the_scene_is_read(void **state) {
         {"KHR_materials_unlit", "EXT_mesh_features"},
         {"KHR_materials_unlit", "EXT_structural_metadata"},
         {"KHR_materials_unlit", "CESIUM_primitive_outline"},
+        {"3,0,0,1]", "3,0,0,0.99999994]"},
+        {"3,0,0,1]", "3,0,0,1.00000012]"},
     };
     write_text("whole.gltf", whole);
     froe_scene *scene = read_scene("whole.gltf", NULL);
