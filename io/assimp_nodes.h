@@ -21,6 +21,14 @@ typedef froe_status io_arrange_fn(void *user, const formats_source *source, form
 /** As io_read_assimp(), with such a function in between. The list is the caller's; nodes are gone afterwards. */
 froe_status io_read_arranged(const formats_source *source, formats_sink *sink, io_nodes *nodes, io_arrange_fn *arrange,
                              void *user);
+/** Is it glTF, of any version? */
+bool io_is_gltf(const formats_source *source);
+enum { IO_GLB_HEADER = 12, IO_GLB_CHUNK = 8 }; /**< bytes before the chunks of a .glb, and before those of each */
+/** A whole number of 4 bytes in a .glb. */
+size_t io_glb_number(const char *at);
+/** Do `size` bytes that begin as a .glb go on as version 2, by a chunk of JSON? */
+bool io_glb_is_2(const char *bytes, size_t size);
+
 /** A primitive of a mesh of glTF, which assimp makes a mesh of its own: the number of its mesh, and how many points,
  * edges or triangles it has. */
 typedef struct io_gltf_part {

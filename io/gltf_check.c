@@ -15,21 +15,29 @@ typedef struct gltf_check {
     ARRAY(const formats_json *) accessors;
 } gltf_check;
 
-static size_t little_endian(const char *at) {
+bool io_is_gltf(const formats_source *source) {
+    return !strncmp(source->head, "glTF", 4) || !strcmp(source->extension.text, "gltf") ||
+           !strcmp(source->extension.text, "glb");
+}
+
+size_t io_glb_number(const char *at) {
     const unsigned char *b = (const unsigned char *)at;
     return (size_t)b[0] | (size_t)b[1] << 8 | (size_t)b[2] << 16 | (size_t)b[3] << 24;
 }
 
+bool io_glb_is_2(const char *bytes, size_t size) {
+    return size >= IO_GLB_HEADER + IO_GLB_CHUNK && io_glb_number(bytes + 4) == 2 &&
+           !memcmp(bytes + IO_GLB_HEADER + 4, "JSON", 4);
+}
+
 /* The bytes of a .gltf, or of the first chunk of a .glb; none where there are none. */
 static froe_status load_bytes(const formats_source *source, formats_sink *sink, formats_text *text) {
-    enum { HEADER = 12, CHUNK = 8 };
     const char *head = source->head;
     if (strncmp(head, "glTF", 4) != 0) return formats_load_part(source, sink, 0, (size_t)source->size, text);
-    if (source->size < HEADER + CHUNK || little_endian(head + 4) != 2 || memcmp(head + HEADER + 4, "JSON", 4) != 0)
-        return FROE_OK;
-    const size_t length = little_endian(head + HEADER);
-    if (length > source->size - HEADER - CHUNK) return FROE_OK;
-    return formats_load_part(source, sink, HEADER + CHUNK, length, text);
+    if (!io_glb_is_2(head, (size_t)source->size)) return FROE_OK;
+    const size_t length = io_glb_number(head + IO_GLB_HEADER);
+    if (length > source->size - IO_GLB_HEADER - IO_GLB_CHUNK) return FROE_OK;
+    return formats_load_part(source, sink, IO_GLB_HEADER + IO_GLB_CHUNK, length, text);
 }
 
 /* assimp takes them up to the first zero. */

@@ -323,8 +323,7 @@ froe_status io_read_arranged(const formats_source *source, formats_sink *sink, i
     io_gltf_found found = {.error.line = 0};
     froe_status status = formats_sink_open(sink, 3);
     if (!status) status = formats_sink_progress(sink, 0);
-    if (!status && (!strncmp(source->head, "glTF", 4) || !strcmp(source->extension.text, "gltf")))
-        status = io_gltf_check(source, sink, &found);
+    if (!status && io_is_gltf(source)) status = io_gltf_check(source, sink, &found);
     const struct aiScene *scene = NULL;
     if (!status) status = import(source, sink, &scene);
     if (!status) status = io_gltf_is_whole(sink, scene, &found);

@@ -26,8 +26,6 @@ typedef struct io_animation {
  * several and none is asked for. FROE_E_FORMAT, FROE_E_UNSUPPORTED: meshes change their shape. FROE_E_MEMORY. */
 froe_status io_animation_of_assimp(io_animation *animation, const struct aiScene *scene, const io_nodes *nodes);
 froe_status io_animation_of_gltf(io_animation *animation, const io_nodes *nodes);
-/** Is it glTF, of any version? */
-bool io_is_gltf(const formats_source *source);
 
 /** Refuses keys that are none, and makes turns as long as 1, but for those of splines. FROE_E_INPUT: times that do not
  * increase, numbers that are not finite, a quaternion whose length is not 1. */

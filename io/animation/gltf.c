@@ -57,17 +57,7 @@ static const char *text_member(const formats_json *object, const char *name) {
     return text ? text : "";
 }
 
-bool io_is_gltf(const formats_source *source) {
-    return !strncmp(source->head, "glTF", 4) || !strcmp(source->extension.text, "gltf") ||
-           !strcmp(source->extension.text, "glb");
-}
-
 /* ------------------------------------------------------------------------- file -- */
-
-static size_t little_endian(const char *at) {
-    const unsigned char *b = (const unsigned char *)at;
-    return (size_t)b[0] | (size_t)b[1] << 8 | (size_t)b[2] << 16 | (size_t)b[3] << 24;
-}
 
 /* The text of a .gltf, or of the first chunk of a .glb. */
 static froe_status find_text(gltf_file *g) {
@@ -78,19 +68,18 @@ static froe_status find_text(gltf_file *g) {
     const char *text = g->file.data;
     size_t size = g->file.count;
     if (binary) {
-        enum { HEADER = 12, CHUNK = 8 };
-        if (size < HEADER + CHUNK || little_endian(text + 4) != 2 || memcmp(text + HEADER + 4, "JSON", 4) != 0)
+        if (!io_glb_is_2(text, size))
             return fail_gltf(g, FROE_E_UNSUPPORTED,
                              "Animations are read from glTF 2, and the file is another version.");
-        const size_t length = little_endian(text + HEADER), next = HEADER + CHUNK + length;
-        if (length > size - HEADER - CHUNK)
+        const size_t length = io_glb_number(text + IO_GLB_HEADER), next = IO_GLB_HEADER + IO_GLB_CHUNK + length;
+        if (length > size - IO_GLB_HEADER - IO_GLB_CHUNK)
             return fail_gltf(g, FROE_E_FORMAT, "A chunk of glTF is longer than the file.");
-        if (next + CHUNK <= size && !memcmp(text + next + 4, "BIN", 4)) {
-            g->chunk = text + next + CHUNK, g->chunk_size = little_endian(text + next);
-            if (g->chunk_size > size - next - CHUNK)
+        if (next + IO_GLB_CHUNK <= size && !memcmp(text + next + 4, "BIN", 4)) {
+            g->chunk = text + next + IO_GLB_CHUNK, g->chunk_size = io_glb_number(text + next);
+            if (g->chunk_size > size - next - IO_GLB_CHUNK)
                 return fail_gltf(g, FROE_E_FORMAT, "A chunk of glTF is longer than the file.");
         }
-        text += HEADER + CHUNK, size = strnlen(text, length); /* assimp takes it up to a zero */
+        text += IO_GLB_HEADER + IO_GLB_CHUNK, size = strnlen(text, length); /* assimp takes it up to a zero */
     }
     enum { AHEAD = 16 }; /* zeros behind the text, as formats_load() has them: numbers are read ahead */
     if (!array_reserve(&g->animation->sink->alloc, &g->json, size + AHEAD))
@@ -253,7 +242,7 @@ static double component_at(const char *at, size_t type, bool shares) {
     default:
         break;
     }
-    const uint32_t bits = (uint32_t)little_endian(at);
+    const uint32_t bits = (uint32_t)io_glb_number(at);
     memcpy(&single, &bits, sizeof single);
     return single;
 }
