@@ -118,10 +118,10 @@ formats_csv_header formats_csv_read_header(char **at, formats_csv_table *t) {
     return first;
 }
 
-/* Reads the header from the file's first bytes. */
+/* Reads the header from the file's first bytes. Lines may end by returns alone. */
 static formats_csv_header peek_header(const formats_source *source, formats_csv_table *t) {
     char line[sizeof source->head], *at = line;
-    size_t length = strcspn(source->head, "\n");
+    size_t length = strcspn(source->head, strchr(source->head, '\n') ? "\n" : "\r");
     t->columns = 0;
     if (memchr(source->head, '\0', length)) return FORMATS_CSV_OTHER;
     memcpy(line, source->head, length);

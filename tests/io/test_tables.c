@@ -75,6 +75,24 @@ static void other_headers_are_left_to_ogr(void **state) {
     refuse("table-without-geometry.csv", FROE_E_IO, "No such file");
 }
 
+/* As on an old Macintosh. More separators stand in the first bytes than a header may have. */
+static void lines_may_end_by_returns_alone(void **state) {
+    (void)state;
+    enum { ROWS = 1000 };
+    char text[8 * ROWS] = "x,y,z\r", *at = text + strlen(text);
+    for (int i = 0; i < ROWS; i++) at += sprintf(at, "1,2,0\r");
+    froe_scene *s = table(text, "CSV points");
+    assert_int_equal(froe_scene_dim(s), 3);
+    assert_int_equal(froe_scene_object_count(s), ROWS);
+    froe_scene_free(s);
+    froe_read_report report;
+    write_text("returns.csv", "id,WKT\r1,POINT (1 2)\r");
+    s = read_scene("returns.csv", &report);
+    assert_string_equal(report.format, "CSV");
+    assert_true(corner(s, 0, 0)[0] == 1 && corner(s, 0, 0)[1] == 2);
+    froe_scene_free(s);
+}
+
 static void axes_have_several_names(void **state) {
     (void)state;
     static const char *const headers[] = {"lon,lat", "LNG,Lat", "longitude,latitude", "long,lat", "easting,northing"};
@@ -223,6 +241,7 @@ int main(void) {
         cmocka_unit_test(the_header_says_what_the_rows_are),
         cmocka_unit_test(columns_come_in_any_order_with_others_between),
         cmocka_unit_test(other_headers_are_left_to_ogr),
+        cmocka_unit_test(lines_may_end_by_returns_alone),
         cmocka_unit_test(axes_have_several_names),
         cmocka_unit_test(decimal_commas_stand_between_semicolons),
         cmocka_unit_test(rows_of_one_name_are_a_group),
