@@ -113,7 +113,7 @@ formats_csv_header formats_csv_read_header(char **at, formats_csv_table *t) {
         if (first == FORMATS_CSV_OTHER) first = what;
     }
     /* Bounds beside something else, such as x and y of a point, are columns among others. */
-    for (int family = 0; family < SUPPORT_CSV_FAMILIES && first == FORMATS_CSV_OTHER; ++family)
+    for (int family = 0; family < SUPPORT_CSV_FAMILIES && first != FORMATS_CSV_HALVES; ++family)
         if (read_names(t, names, family, true) == FORMATS_CSV_OURS) return find_names(t, names), FORMATS_CSV_OURS;
     return first;
 }

@@ -52,6 +52,7 @@ static void columns_come_in_any_order_with_others_between(void **state) {
     assert_int_equal(froe_scene_object(s, 1).tag, 7);
     froe_scene_free(s);
     froe_scene_free(table("lo_1,lo_2,lo_3,hi_1,hi_2,hi_3\n0,1,2,3,4,5\n", "CSV boxes"));
+    froe_scene_free(table("fid,minx,miny,maxx,maxy,x9\n1,0,0,1,1,7\n", "CSV boxes")); /* x9 is no axis beside them */
     s = table("hi_y\thi_x\tlo_x\tlo_y\n4\t3\t1\t2\n", "CSV boxes");
     assert_true(corner(s, 0, 0)[0] == 1 && corner(s, 0, 0)[1] == 2 && corner(s, 0, 1)[0] == 3 &&
                 corner(s, 0, 1)[1] == 4);
