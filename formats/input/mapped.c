@@ -8,8 +8,18 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <stdint.h>
+#include <string.h>
 #include <sys/mman.h>
 #include <unistd.h>
+
+/* Returns that end lines by themselves are not changed, which would take memory for all of the text. */
+static froe_status refuse_returns(const formats_source *source, const formats_sink *sink, const formats_text *text) {
+    if (strchr(source->head, '\n') || !strchr(source->head, '\r') || memchr(text->data, '\n', text->count))
+        return FROE_OK;
+    return support_fail(sink->diag, FROE_E_FORMAT,
+                        "%s: Its lines end by returns alone, and it must be saved with line feeds.",
+                        support_short(source->path));
+}
 
 froe_status formats_map_text(const formats_source *source, const formats_sink *sink, formats_text *text) {
     static const char mark[] = "\xef\xbb\xbf";
@@ -32,7 +42,7 @@ froe_status formats_map_text(const formats_source *source, const formats_sink *s
     text->capacity = room;
     (void)madvise(map, size, MADV_SEQUENTIAL);
     if (size >= 3 && !memcmp(map, mark, 3)) memset(map, ' ', 3); /* a byte order mark, which is no part of the text */
-    return FROE_OK;
+    return refuse_returns(source, sink, text);
 }
 
 void formats_pass_text(formats_text *text, const char *at) {

@@ -71,7 +71,8 @@ froe_status formats_refuse_utf16(const formats_source *source, const formats_sin
 /** FROE_E_FORMAT for a text with a NUL at some byte. */
 froe_status formats_refuse_zero(const formats_source *source, const formats_sink *sink, size_t byte);
 /** The same text, but mapped, so that it takes memory only where it is read, and a NUL may stand in it: `capacity` is
- * the size of the mapping. What has been read is given back by formats_pass_text(): everything before a place. */
+ * the size of the mapping. What has been read is given back by formats_pass_text(): everything before a place.
+ * FROE_E_FORMAT also for lines that end by returns alone. */
 froe_status formats_map_text(const formats_source *source, const formats_sink *sink, formats_text *text);
 void formats_pass_text(formats_text *text, const char *at);
 void formats_unmap_text(formats_text *text);

@@ -181,8 +181,9 @@ froe_status formats_read_csv(const formats_source *source, formats_sink *sink) {
     formats_text text = {0};
     csv_reader c = {.sink = sink};
     uint64_t row = 0;
-    froe_status status =
-        sink->deliver ? formats_map_text(source, sink, &text) : formats_load(source, sink, false, &text);
+    froe_status status = formats_is_utf16(source) ? formats_refuse_utf16(source, sink)
+                         : sink->deliver          ? formats_map_text(source, sink, &text)
+                                                  : formats_load(source, sink, false, &text);
     char *at = text.data;
     const formats_csv_header what = status ? FORMATS_CSV_OURS : formats_csv_read_header(&at, &c.table);
     if (c.table.open)
