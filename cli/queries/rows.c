@@ -25,10 +25,25 @@ static bool make_room(char **text, size_t *capacity, size_t length) {
     return true;
 }
 
+/* Where the first line has returns and no line feed, it is all of the file, whose lines end by returns alone, as on an
+ * old Macintosh: it is read again with line feeds. False: no memory. */
+static bool end_lines(cli_rows *rows, char **text, size_t *capacity, ssize_t *length) {
+    const size_t size = (size_t)*length;
+    if (ferror(rows->file) || !memchr(*text, '\r', size) || memchr(*text, '\n', size)) return true;
+    FILE *again = fmemopen(NULL, size + 1, "w+");
+    if (!again) return errno = ENOMEM, false;
+    for (char *at = *text; (at = memchr(at, '\r', size - (size_t)(at - *text)));) *at = '\n';
+    if (rows->file != stdin) fclose(rows->file);
+    rows->file = again;
+    if (fwrite(*text, 1, size, again) != size || fseek(again, 0, SEEK_SET)) return errno = ENOMEM, false;
+    *length = getline(text, capacity, again);
+    return *length >= 0;
+}
+
 /* Reads a line with its end. False: there is none, or no memory. */
 static bool next_line(cli_rows *rows, char **text, size_t *capacity, size_t *length) {
-    const ssize_t got = getline(text, capacity, rows->file);
-    if (got < 0) return false;
+    ssize_t got = getline(text, capacity, rows->file);
+    if (got < 0 || (!rows->lines && !end_lines(rows, text, capacity, &got))) return false;
     rows->lines++;
     *length = (size_t)got;
     if (!make_room(text, capacity, *length)) return false;
