@@ -109,14 +109,16 @@ static bool has_heights(OGRGeometryH geometry) {
     return box.MinZ != 0 || box.MaxZ != 0;
 }
 
-/* GDAL says nothing of a text in a table that is no geometry. */
+/* GDAL says nothing of a text in a table that is no geometry. Of several columns of geometry the first is read. */
 static froe_status check_absence(const map *m, OGRFeatureH feature) {
+    OGRGeomFieldDefnH read = OGR_F_GetGeomFieldDefnRef(feature, 0);
+    const char *wanted = read ? OGR_GFld_GetNameRef(read) : "";
+    if (!*wanted) wanted = "WKT"; /* which has no name then */
     for (int i = 0; m->is_table && i < OGR_F_GetFieldCount(feature); ++i) {
-        static const char *const names[] = {"WKT", "geometry", "geom"}; /* see io_read_ogr() */
         const char *name = OGR_Fld_GetNameRef(OGR_F_GetFieldDefnRef(feature, i)), *text = text_of(feature, i);
-        for (size_t k = 0; k < 3 && text[strspn(text, " ")]; k++)
-            if (support_equal_nocase(name, names[k]))
-                return formats_sink_fail(m->sink, FROE_E_FORMAT, "Its geometry '%.40s' cannot be read.", text);
+        const bool absent = !text[strspn(text, " ")] || support_equal_nocase(text, "NULL");
+        if (!absent && support_equal_nocase(name, wanted))
+            return formats_sink_fail(m->sink, FROE_E_FORMAT, "Its geometry '%.40s' cannot be read.", text);
     }
     return FROE_OK;
 }

@@ -94,6 +94,25 @@ static void lines_may_end_by_returns_alone(void **state) {
     froe_scene_free(s);
 }
 
+/* What a broken WKT is, and what only looks like one. */
+static void geometries_that_are_absent_are_left_out(void **state) {
+    (void)state;
+    static const char *const names[] = {"WKT", "geometry", "geom"};
+    char text[80];
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        snprintf(text, sizeof text, "id,%s\n1,POINT (1 2)\n2,PINT (1 2)\n", names[i]);
+        refuse_table(text, FROE_E_FORMAT, "feature 2 of 'bad': Its geometry 'PINT (1 2)' cannot be read.");
+    }
+    froe_read_report report;
+    write_text("two.csv", "id,geometry,WKT\n1,,POINT (1 2)\n2,POINT (3 4),POINT (1 2)\n3,NULL,POINT (5 6)\n");
+    froe_scene *s = read_scene("two.csv", &report);
+    assert_int_equal(report.no_geometry, 2);
+    assert_int_equal(froe_scene_object_count(s), 1);
+    assert_true(corner(s, 0, 0)[0] == 3 && corner(s, 0, 0)[1] == 4);
+    froe_scene_free(s);
+    refuse_table("id,geometry,WKT\n1,PINT (3 4),POINT (1 2)\n", FROE_E_FORMAT, "Its geometry 'PINT (3 4)' cannot");
+}
+
 static void axes_have_several_names(void **state) {
     (void)state;
     static const char *const headers[] = {"lon,lat", "LNG,Lat", "longitude,latitude", "long,lat", "easting,northing"};
@@ -243,6 +262,7 @@ int main(void) {
         cmocka_unit_test(columns_come_in_any_order_with_others_between),
         cmocka_unit_test(other_headers_are_left_to_ogr),
         cmocka_unit_test(lines_may_end_by_returns_alone),
+        cmocka_unit_test(geometries_that_are_absent_are_left_out),
         cmocka_unit_test(axes_have_several_names),
         cmocka_unit_test(decimal_commas_stand_between_semicolons),
         cmocka_unit_test(rows_of_one_name_are_a_group),
