@@ -20,7 +20,7 @@ typedef struct map {
     GDALDatasetH data;
     io_shapes shapes;
     bool container;              /* a folder or an archive */
-    bool is_table;               /* CSV with a column of geometry */
+    bool is_table;               /* CSV, which may be in an archive */
     support_extension extension; /* that counts */
     OGRLayerH layer;             /* the fields below belong to it */
     const char *layer_name;
@@ -256,6 +256,17 @@ static froe_status refuse_virtual(map *m, const char *name) {
                         support_short(m->source->path));
 }
 
+/* Has the table a column of geometry? Of one within a file of another sort GDAL reads the first bytes. */
+static bool has_geometry(const formats_source *source, const char *name) {
+    if (!strcmp(name, source->file)) return formats_csv_has_geometry(source);
+    formats_source inner = {.file = name};
+    VSILFILE *file = VSIFOpenL(name, "rb");
+    const size_t got = file ? VSIFReadL(inner.head, 1, sizeof inner.head - 1, file) : 0;
+    if (file) VSIFCloseL(file);
+    inner.head[formats_drop_mark(inner.head, got)] = '\0';
+    return formats_csv_has_geometry(&inner);
+}
+
 froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
     /* columns with geometry have many names */
     static const char *const wkt[] = {"GEOM_POSSIBLE_NAMES=WKT,geometry,geom", NULL};
@@ -270,7 +281,6 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
              .shapes.outlines.wrap = source->options->wrap,
              .crs.wrap = source->options->wrap};
     m.extension = extension;
-    m.is_table = is_csv && formats_csv_has_geometry(source);
     m.container = source->beyond ? strncmp(name, "/vsi", 4) != 0 : strcmp(name, source->file) != 0;
     sink->unit = "feature";
     froe_status status = formats_sink_open(sink, 2);
@@ -278,15 +288,13 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
     io_gdal_begin(&m.heard);
     status = refuse_virtual(&m, name);
     if (!status) {
-        m.data = GDALOpenEx(name, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL,
-                            !is_csv      ? NULL
-                            : m.is_table ? wkt
-                                         : places,
-                            NULL);
+        const char *const *options = !is_csv ? NULL : has_geometry(source, name) ? wkt : places;
+        m.data = GDALOpenEx(name, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL, options, NULL);
         if (!m.data) status = refuse_content(&m, name);
     }
     if (!status) {
         formats_report_format(sink, "float64", "%s", GDALGetDriverShortName(GDALGetDatasetDriver(m.data)));
+        m.is_table = !strcmp(sink->report.format, "CSV");
         m.shapes.cuts = strstr(sink->report.format, "JSON") != NULL;
         m.crs.promise = io_crs_promise_of(m.data);
         status = add_layers(&m);
