@@ -101,12 +101,12 @@ static froe_status name_feature(map *m, OGRFeatureH feature, GIntBig id, const f
     return formats_feature_group(m->sink, &names, sides);
 }
 
-/* Has a geometry heights other than 0? DXF has heights everywhere. */
+/* Has a geometry heights other than 0? DXF has heights everywhere; NaN is none. */
 static bool has_heights(OGRGeometryH geometry) {
     OGREnvelope3D box = {.MinZ = 0};
-    if (!OGR_GT_HasZ(OGR_G_GetGeometryType(geometry))) return false;
+    if (!OGR_GT_HasZ(OGR_G_GetGeometryType(geometry)) || OGR_G_IsEmpty(geometry)) return false;
     OGR_G_GetEnvelope3D(geometry, &box);
-    return box.MinZ != 0 || box.MaxZ != 0;
+    return box.MinZ < 0 || box.MaxZ > 0;
 }
 
 /* GDAL says nothing of a text in a table that is no geometry. Of several columns of geometry the first is read. */

@@ -236,6 +236,15 @@ static void what_is_mended_or_left_out_is_counted(void **state) {
     assert_int_equal(froe_scene_object(scene, 4).kind, FROE_SEGMENT);
     assert_int_equal(froe_scene_object(scene, 4).form, FROE_POINT);
     froe_scene_free(scene);
+    write_text("odd.geojson", "{\"type\":\"FeatureCollection\",\"features\":["
+                              "{\"type\":\"Feature\",\"properties\":{\"name\":\"without heights\"},\"geometry\":"
+                              "{\"type\":\"LineString\",\"coordinates\":[[0,0,NaN],[1,1,NaN]]}},"
+                              "{\"type\":\"Feature\",\"properties\":{\"name\":\"below\"},\"geometry\":"
+                              "{\"type\":\"Point\",\"coordinates\":[2,2,-1]}}]}");
+    scene = read_scene("odd.geojson", &report);
+    assert_int_equal(froe_scene_object_count(scene), 2);
+    assert_int_equal(report.flattened, 1);
+    froe_scene_free(scene);
 }
 
 static void coordinates_are_taken_exactly(void **state) {
