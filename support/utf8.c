@@ -16,11 +16,18 @@ size_t support_utf8_length(const char *text) {
     return wrong ? 0 : n;
 }
 
+/* Is the character, of Latin-1, one of a text? */
+static bool is_written(unsigned char c) {
+    return (c >= 0x20 && c < 0x7F) || c >= 0xA0 || c == '\t' || c == '\n' || c == '\r';
+}
+
 bool support_is_utf16(const char *bytes, size_t size) {
     const unsigned char *c = (const unsigned char *)bytes;
     if (size < 4) return false;
     const bool marked = (c[0] == 0xFF && c[1] == 0xFE && (c[2] || c[3])) || (c[0] == 0xFE && c[1] == 0xFF);
-    return marked || (!c[0] != !c[1] && !c[2] == !c[0] && !c[3] == !c[1]);
+    if (marked) return true;
+    const int at = !c[0]; /* of the low bytes */
+    return !c[1 - at] && !c[3 - at] && is_written(c[at]) && is_written(c[2 + at]);
 }
 
 bool support_is_utf8(const char *text) {

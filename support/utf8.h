@@ -10,6 +10,6 @@ size_t support_utf8_length(const char *text);
 /** Is all of a text UTF-8? So is NULL. */
 bool support_is_utf8(const char *text);
 /** Does a file that begins with these bytes seem to be text in UTF-16, as programs of Windows save it? It has a byte
- * order mark, or every second byte is 0. */
+ * order mark, or every second byte is 0, and the others are letters and the like. */
 bool support_is_utf16(const char *bytes, size_t size);
 #endif

@@ -49,6 +49,18 @@ static void escape(size_t (*next)(const char **, char[8]), const char *text, cha
     *out = 0;
 }
 
+static void text_in_utf16_is_told_from_numbers(void **state) {
+    (void)state;
+    assert_true(support_is_utf16("x\0,\0", 4));
+    assert_true(support_is_utf16("\0x\0\n", 4));
+    assert_true(support_is_utf16("\xE9\0\t\0", 4));    /* e with an acute accent */
+    assert_true(support_is_utf16("\xFF\xFE\1\2", 4));  /* with a mark, whatever follows */
+    assert_false(support_is_utf16("\1\0\2\0\3\0", 6)); /* numbers of 16 bits */
+    assert_false(support_is_utf16("\0\1\0x", 4));
+    assert_false(support_is_utf16("x\0\x7F\0", 4));
+    assert_false(support_is_utf16("x,y\n", 4));
+}
+
 static void what_is_no_text_is_replaced(void **state) {
     static const struct {
         const char *text, *xml, *json;
@@ -149,6 +161,7 @@ static void collections_name_their_coordinate_system(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(characters_are_those_of_unicode),
+        cmocka_unit_test(text_in_utf16_is_told_from_numbers),
         cmocka_unit_test(what_is_no_text_is_replaced),
         cmocka_unit_test(sentences_are_one_line_of_text),
         cmocka_unit_test(endings_of_names_are_short),
