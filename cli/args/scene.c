@@ -46,8 +46,12 @@ void cli_warn_scene(const cli_common *common, const char *path, const froe_scene
         features, features > 1 ? "s" : "", *name ? name : number);
 }
 
-/* What was read otherwise than the file means it. */
-static void warn(const cli_common *common, const char *name, const froe_read_report *r) {
+static const char *is_or_are(uint64_t count) {
+    return count == 1 ? "is" : "are";
+}
+
+/* What was read otherwise than the file means it; `flat`: it is a map, not a model in space. */
+static void warn(const cli_common *common, const char *name, const froe_read_report *r, bool flat) {
     if (common->quiet) return;
     if (r->no_degrees)
         (void)cli_fail(0, name,
@@ -56,20 +60,26 @@ static void warn(const cli_common *common, const char *name, const froe_read_rep
                        r->format);
     if (r->flattened)
         (void)cli_fail(0, name,
-                       "warning: Of %llu feature%s heights (z) are left out, because maps are flat. Models in space "
-                       "come in other formats, such as OBJ, glTF and STL.",
+                       "warning: The heights (z) of %llu feature%s are left out, because maps are flat. Models in "
+                       "space come in other formats, such as OBJ, glTF and STL.",
                        (unsigned long long)r->flattened, support_plural(r->flattened));
-    if (r->no_geometry || r->skipped)
-        (void)cli_fail(0, name,
-                       "warning: Features without a geometry that can be read, and geometries that are empty or of "
-                       "another sort, are left out: %llu and %llu.",
-                       (unsigned long long)r->no_geometry, (unsigned long long)r->skipped);
+    if (r->no_geometry)
+        (void)cli_fail(0, name, "warning: Left out %s %llu feature%s without a geometry.", is_or_are(r->no_geometry),
+                       (unsigned long long)r->no_geometry, support_plural(r->no_geometry));
+    if (r->skipped && flat)
+        (void)cli_fail(0, name, "warning: Left out %s %llu geometr%s of one point, or of a sort that is not read.",
+                       is_or_are(r->skipped), (unsigned long long)r->skipped,
+                       r->skipped == 1 ? "y that is empty, a line" : "ies that are empty, lines");
+    if (r->skipped && !flat)
+        (void)cli_fail(0, name, "warning: Left out %s %llu %s of too few corners, or of a sort that is not read.",
+                       is_or_are(r->skipped), (unsigned long long)r->skipped,
+                       r->skipped == 1 ? "face, line or curve" : "faces, lines or curves");
     if (r->unread)
         (void)cli_fail(0, name,
                        "warning: Of %llu texture%s %llu %s missing or unreadable, first of all '%s'. Their faces have "
                        "the colours of their materials.",
                        (unsigned long long)r->textures, support_plural(r->textures), (unsigned long long)r->unread,
-                       r->unread == 1 ? "is" : "are", r->unread_name);
+                       is_or_are(r->unread), r->unread_name);
     if (*r->unread_library)
         (void)cli_fail(
             0, name, "warning: The library of materials '%s' is missing or unreadable. Its materials have no colours.",
@@ -116,7 +126,7 @@ int cli_read_scene(const cli_common *common, const cli_scene_args *args, froe_sc
     options.progress = cli_progress_step;
     options.user = &bar;
     code = read_spooled(&spool, &options, scene, report);
-    if (!code) warn(common, spool.name, report);
+    if (!code) warn(common, spool.name, report, froe_scene_dim(*scene) == 2);
     if (!code && !args->wrap) cli_warn_scene(common, spool.name, *scene);
     cli_spool_free(&spool);
     return code;
