@@ -167,6 +167,16 @@ static void test_visitors_of_a_range(void **state) {
     assert_true(all.windows > all.stopped && all.events > 1000);
 }
 
+/* So many segments, whose ends move straight from place to place. */
+static froe_motion *straight_motion(size_t count, const size_t *starts, const double *times, const double *coords) {
+    froe_motion_options w = froe_motion_defaults();
+    froe_moving b = froe_moving_defaults();
+    w.begin = 0, w.end = MOVING_TIME;
+    b.vertex_count = 2 * count, b.count = count;
+    b.starts = starts, b.times = times, b.coords = coords;
+    return batch_motion(&w, &b, NULL);
+}
+
 enum { CORNER = 8, BESIDE = 40 };
 
 /* At t = 32 three ends pass one another at x = 11. What may be there with them reaches to where two of these segments
@@ -195,12 +205,7 @@ static froe_motion *make_two_events_beside_a_border(void) {
         }
         starts[v + 1] = 2 * v + 2;
     }
-    froe_motion_options w = froe_motion_defaults();
-    froe_moving b = froe_moving_defaults();
-    w.begin = 0, w.end = MOVING_TIME;
-    b.vertex_count = (size_t)2 * SEGMENTS, b.count = SEGMENTS;
-    b.starts = starts, b.times = times, b.coords = coords;
-    return batch_motion(&w, &b, NULL);
+    return straight_motion(SEGMENTS, starts, times, coords);
 }
 
 /* Events of one tick are told by where their certificates are, however far what may be there with them reaches. */
@@ -236,12 +241,7 @@ static froe_motion *make_pass_where_a_plan_goes_on(void) {
                                             : 100 + 3 * (double)s + (double)e;
         }
     }
-    froe_motion_options w = froe_motion_defaults();
-    froe_moving b = froe_moving_defaults();
-    w.begin = 0, w.end = MOVING_TIME;
-    b.vertex_count = (size_t)2 * SEGMENTS, b.count = SEGMENTS;
-    b.starts = starts, b.times = times, b.coords = coords;
-    return batch_motion(&w, &b, NULL);
+    return straight_motion(SEGMENTS, starts, times, coords);
 }
 
 /* A segment that was to stay while its plan goes on leaves in all of its ranges, or in none. */

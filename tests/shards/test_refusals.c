@@ -192,6 +192,18 @@ static void shards_are_checked(void **state) {
     froe_shard_records_free(&records);
 }
 
+static const double three[] = {0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5}; /* segments */
+
+/* Their records, with the sample and the plan of two cells that are made of them. */
+static void make_three(froe_shard_records *records, froe_shard_sample **sample, froe_shard_plan **plan) {
+    froe_objects batch = froe_objects_defaults();
+    batch.kind = FROE_SEGMENT, batch.count = 3, batch.coords = three;
+    assert_int_equal(froe_shard_records_add(records, 2, &batch, 0, &why), FROE_OK);
+    assert_int_equal(froe_shard_sample_new(2, NULL, sample), FROE_OK);
+    assert_int_equal(froe_shard_sample_add(*sample, records->bytes, records->count), FROE_OK);
+    assert_int_equal(froe_shard_plan_new(*sample, 2, 0, plan, &why), FROE_OK);
+}
+
 /* Records that are changed on their way: each step that reads them says so, and reads nothing behind them. */
 static void what_is_no_record_is_refused(void **state) {
     (void)state;
@@ -202,19 +214,13 @@ static void what_is_no_record_is_refused(void **state) {
     } changes[] = {{WORDS, 0}, {WORDS, 1}, {WORDS, 2},   {WORDS, 5},   {WORDS, 7}, {WORDS + 3, 255}, {KIND, 0},
                    {KIND, 2},  {KIND, 4},  {KIND, 6},    {KIND, 255},  {DIM, 0},   {DIM, 1},         {DIM, 3},
                    {DIM, 9},   {DIM, 255}, {SOURCED, 1}, {SOURCED, 2}, {UNUSED, 1}};
-    static const double corners[] = {0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5};
     const froe_shards_options good = froe_shards_defaults();
     froe_shard_records records = {0};
     froe_shard_sample *sample;
     froe_shard_plan *plan;
     froe_shard_entry entry;
-    froe_objects batch = froe_objects_defaults();
-    batch.kind = FROE_SEGMENT, batch.count = 3, batch.coords = corners;
-    assert_int_equal(froe_shard_records_add(&records, 2, &batch, 0, &why), FROE_OK);
+    make_three(&records, &sample, &plan);
     assert_int_equal(records.count, ALL);
-    assert_int_equal(froe_shard_sample_new(2, NULL, &sample), FROE_OK);
-    assert_int_equal(froe_shard_sample_add(sample, records.bytes, ALL), FROE_OK);
-    assert_int_equal(froe_shard_plan_new(sample, 2, 0, &plan, &why), FROE_OK);
     assert_int_equal(froe_shard_plan_count(plan), 2);
     for (size_t i = 0; i <= sizeof changes / sizeof *changes; i++) /* and at last one that is cut off */
         for (size_t r = 0; r < 3; r++) {
@@ -243,18 +249,13 @@ static void what_is_no_record_is_refused(void **state) {
 static void what_is_no_object_of_a_shard_is_refused(void **state) {
     (void)state;
     enum { NUMBERS = 16, SIZE = 48 };
-    static const double corners[] = {0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5}, none[] = {NAN, INFINITY, -INFINITY};
+    static const double none[] = {NAN, INFINITY, -INFINITY};
     const froe_shards_options good = froe_shards_defaults();
     froe_shard_records records = {0};
     froe_shard_sample *sample;
     froe_shard_plan *plan;
     froe_shard_entry entry;
-    froe_objects batch = froe_objects_defaults();
-    batch.kind = FROE_SEGMENT, batch.count = 3, batch.coords = corners;
-    assert_int_equal(froe_shard_records_add(&records, 2, &batch, 0, &why), FROE_OK);
-    assert_int_equal(froe_shard_sample_new(2, NULL, &sample), FROE_OK);
-    assert_int_equal(froe_shard_sample_add(sample, records.bytes, records.count), FROE_OK);
-    assert_int_equal(froe_shard_plan_new(sample, 2, 0, &plan, &why), FROE_OK);
+    make_three(&records, &sample, &plan);
     for (size_t i = 0; i < 3; i++) {
         memcpy(records.bytes + NUMBERS, none + i, sizeof *none);
         assert_int_equal(froe_shard_record_size(records.bytes, SIZE), SIZE);
@@ -264,7 +265,8 @@ static void what_is_no_object_of_a_shard_is_refused(void **state) {
     expect(froe_shard_build(&records, plan, 0, NULL, &good, ".", &entry, &why), FROE_E_INPUT, "tag 0: corner 0 of seg");
     froe_shard_records_free(&records);
     /* An object of another cell. */
-    batch.count = 1, batch.coords = corners + 8;
+    froe_objects batch = froe_objects_defaults();
+    batch.kind = FROE_SEGMENT, batch.count = 1, batch.coords = three + 8;
     assert_int_equal(froe_shard_records_add(&records, 2, &batch, 7, &why), FROE_OK);
     expect(froe_shard_build(&records, plan, 0, NULL, &good, ".", &entry, &why), FROE_E_ARG,
            "tag 7: The object does not meet the cell of shard 0.");
@@ -272,7 +274,7 @@ static void what_is_no_object_of_a_shard_is_refused(void **state) {
     /* A group that the scene has not. */
     froe_scene *scene;
     assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
-    batch.group = FROE_NONE - 1, batch.coords = corners;
+    batch.group = FROE_NONE - 1, batch.coords = three;
     assert_int_equal(froe_shard_records_add(&records, 2, &batch, 7, &why), FROE_OK);
     expect(froe_shard_build(&records, plan, 0, scene, &good, ".", &entry, &why), FROE_E_INPUT,
            "tag 7: The scene has no group 4294967294.");
