@@ -67,9 +67,9 @@ static void warn(const cli_common *common, const char *name, const froe_read_rep
         (void)cli_fail(0, name, "warning: Left out %s %llu feature%s without a geometry.", is_or_are(r->no_geometry),
                        (unsigned long long)r->no_geometry, support_plural(r->no_geometry));
     if (r->skipped && flat)
-        (void)cli_fail(0, name, "warning: Left out %s %llu geometr%s of one point, or of a sort that is not read.",
+        (void)cli_fail(0, name, "warning: Left out %s %llu %s of one point, or of a sort that is not read.",
                        is_or_are(r->skipped), (unsigned long long)r->skipped,
-                       r->skipped == 1 ? "y that is empty, a line" : "ies that are empty, lines");
+                       r->skipped == 1 ? "geometry that is empty, a line" : "geometries that are empty, lines");
     if (r->skipped && !flat)
         (void)cli_fail(0, name, "warning: Left out %s %llu %s of too few corners, or of a sort that is not read.",
                        is_or_are(r->skipped), (unsigned long long)r->skipped,
