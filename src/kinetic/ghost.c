@@ -24,7 +24,7 @@ static bool take_contact(void *user, const froe_contact *c) {
     froe_kinetic *k = user;
     const now_state *now = &k->now;
     ghost_contact own = {*c, touch_tick_before(now, c->begin[0]), odd_tick_behind(now, c->end[1])};
-    if (c->since_start) own.from = now->tick;
+    if (own.from < now->tick) own.from = now->tick; /* they meet already */
     if (own.to > now_last_tick(now)) own.to = NOW_NEVER;
     k->ghosts.out_of_memory = !array_push(&k->call.alloc, &k->ghosts.all, own);
     return !k->ghosts.out_of_memory;
@@ -76,7 +76,7 @@ static bool pass_contacts(froe_kinetic *k, const event_watcher *watcher) {
         if (c->to <= k->now.tick) continue;
         concern(k, &c->contact);
         call_push(&k->call, &g->lasting, (uint32_t)g->next);
-        if (watcher && !c->contact.since_start) go_on &= touch_tell(k, watcher, &c->contact);
+        if (watcher) go_on &= touch_tell(k, watcher, &c->contact);
     }
     return go_on;
 }

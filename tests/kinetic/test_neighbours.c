@@ -409,13 +409,13 @@ static uint32_t below(froe_kinetic *k, double z) {
 }
 
 /* Three leaves, the second of which lies across the first, and the third elsewhere. */
-static froe_motion *three_leaves(void) {
+static froe_motion *three_leaves(const double *births) {
     static const double at[9][3] = {{0, 0, 0}, {9, 0, 0},  {0, 9, 0},  {0, 0, -1}, {9, 0, 1},
                                     {0, 9, 1}, {0, 0, -9}, {9, 0, -9}, {0, 9, -9}};
     static const double zeros[9];
     static const size_t starts[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
     froe_moving b = froe_moving_defaults();
-    b.vertex_count = 9, b.count = 3, b.starts = starts, b.times = zeros, b.coords = at[0];
+    b.vertex_count = 9, b.count = 3, b.starts = starts, b.times = zeros, b.coords = at[0], b.births = births;
     return motion_of(&b, 0);
 }
 
@@ -423,7 +423,7 @@ static froe_motion *three_leaves(void) {
 static void ghosts_return_when_what_they_meet_goes(void **state) {
     (void)state;
     for (int way = 0; way < 2; way++) {
-        froe_motion *m = three_leaves();
+        froe_motion *m = three_leaves(NULL);
         froe_kinetic_options o = froe_kinetic_defaults();
         froe_kinetic *k;
         o.ghosts = true;
@@ -442,6 +442,31 @@ static void ghosts_return_when_what_they_meet_goes(void **state) {
         assert_int_equal(froe_kinetic_audit(k, NULL), FROE_OK);
         assert_int_equal(froe_kinetic_advance(k, WINDOW, NULL, NULL, NULL), FROE_OK);
         assert_int_equal(below(k, 5), 1);
+        froe_kinetic_free(k);
+        froe_motion_free(m);
+    }
+}
+
+/* A triangle that is born where another one is: the one with the greater number is left out from then on, and is there
+ * before. */
+static void nothing_is_left_out_for_what_is_not_born(void **state) {
+    enum { BIRTH = 5 };
+    (void)state;
+    for (uint32_t born = 0; born < 2; born++) {
+        const double births[3] = {born ? 0 : BIRTH, born ? BIRTH : 0, 0};
+        froe_motion *m = three_leaves(births);
+        froe_kinetic_options o = froe_kinetic_defaults();
+        froe_kinetic *k;
+        fate f = {0};
+        o.ghosts = true;
+        assert_int_equal(froe_kinetic_new(m, &o, NULL, &k, NULL), FROE_OK);
+        assert_int_equal(below(k, 5), 1 - born);
+        assert_int_equal(froe_kinetic_advance(k, BIRTH - 1, count_touches, &f, NULL), FROE_OK);
+        assert_int_equal(below(k, 5), 1 - born);
+        assert_int_equal(froe_kinetic_advance(k, WINDOW, count_touches, &f, NULL), FROE_OK);
+        assert_int_equal(below(k, 5), 0);
+        assert_int_equal(f.ended, 1);
+        assert_int_equal(froe_kinetic_audit(k, NULL), FROE_OK);
         froe_kinetic_free(k);
         froe_motion_free(m);
     }
@@ -476,6 +501,7 @@ int main(void) {
         cmocka_unit_test(a_partition_ends_when_neighbours_meet),
         cmocka_unit_test(ghosts_are_left_out_while_they_meet_others),
         cmocka_unit_test(ghosts_return_when_what_they_meet_goes),
+        cmocka_unit_test(nothing_is_left_out_for_what_is_not_born),
         cmocka_unit_test(memory_may_run_out_among_ghosts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
