@@ -23,6 +23,7 @@ static int64_t odd_tick_behind(const now_state *now, double time) {
 static bool take_contact(void *user, const froe_contact *c) {
     froe_kinetic *k = user;
     const now_state *now = &k->now;
+    if (c->b >= now->faces.count) return true; /* added to the motion since, and not taken up yet */
     ghost_contact own = {*c, touch_tick_before(now, c->begin[0]), odd_tick_behind(now, c->end[1])};
     if (own.from < now->tick) own.from = now->tick; /* they meet already */
     if (own.to > now_last_tick(now)) own.to = NOW_NEVER;

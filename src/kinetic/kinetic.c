@@ -129,7 +129,8 @@ froe_status kinetic_copy(froe_kinetic *k, froe_kinetic **out, froe_diagnostic *d
         if (ktree_segment_at(&k->tree, s)->alive && k->now.motion->dim == 2) change_enroll(copy, s);
         call_poll(&copy->call);
     }
-    for (size_t o = 0; o < k->now.faces.count; o++) copy->now.faces.data[o].ghost = k->now.faces.data[o].ghost;
+    for (size_t o = 0; o < copy->now.faces.count; o++) /* what has not been taken up takes no part here, too */
+        copy->now.faces.data[o].ghost = o >= k->now.faces.count || k->now.faces.data[o].ghost;
     if (k->now.motion->dim == 3) triangle_enroll_all(copy);
     if (!copy->call.stopped) surgery_restart(copy);
     if (!copy->call.stopped) {
@@ -151,8 +152,7 @@ static uint64_t edges_before(const froe_kinetic *k) {
     return now_is_in_space(&k->now) ? 3 : 0;
 }
 
-/* How many of the motion's objects the partition knows. */
-static uint32_t object_count(const froe_kinetic *k) {
+uint32_t kinetic_object_count(const froe_kinetic *k) {
     return (uint32_t)(now_is_in_space(&k->now) ? k->now.faces.count : k->tree.segments.count);
 }
 
@@ -280,7 +280,7 @@ uint64_t kinetic_event_count(const froe_kinetic *k) {
 
 /* In the plane: two segments change places in the order. Both are taken out, and put in again. */
 static void swap_two(froe_kinetic *k) {
-    const uint64_t n = object_count(k), random = base_hash(k->options.seed, ++k->swaps, UINT32_MAX);
+    const uint64_t n = kinetic_object_count(k), random = base_hash(k->options.seed, ++k->swaps, UINT32_MAX);
     if (n < 2) return;
     const uint32_t s = (uint32_t)(random % n), next = (uint32_t)((random >> 32) % (n - 1)), t = next + (next >= s);
     change_remove(k, s), change_remove(k, t);
@@ -302,7 +302,7 @@ static void end_epoch(froe_kinetic *k) {
     const uint64_t events = kinetic_event_count(k);
     if (!k->options.epoch || events - k->epoch_events < k->options.epoch) return;
     k->epoch++;
-    for (uint32_t o = 0; o < object_count(k); o++) *key_of(k, o) = random_key(k, o) | edges_before(k);
+    for (uint32_t o = 0; o < kinetic_object_count(k); o++) *key_of(k, o) = random_key(k, o) | edges_before(k);
     if (now_is_in_space(&k->now)) triangle_enroll_all(k);
     if (!k->call.stopped) surgery_restart(k);
     k->epoch_events = events;
@@ -349,11 +349,12 @@ froe_status froe_kinetic_advance(froe_kinetic *k, double time, froe_event_fn *vi
 froe_status froe_kinetic_update(froe_kinetic *k, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!k) return support_fail_null(diag, __func__);
-    const uint32_t first = object_count(k);
+    const uint32_t first = kinetic_object_count(k);
     if (now_is_in_space(&k->now) && k->now.motion->bodies.count) return refuse_bodies(diag);
     if (grow_tables(k)) return support_fail_memory(diag);
+    k->touch.known = k->touch.known && first == kinetic_object_count(k); /* contacts with what is new were left out */
     froe_status status = kinetic_begin(k, diag);
-    for (uint32_t o = first; o < object_count(k) && !status; o++) {
+    for (uint32_t o = first; o < kinetic_object_count(k) && !status; o++) {
         const uint32_t s = now_segment_of(&k->now, o);
         *key_of(k, o) = random_key(k, o) | edges_before(k);
         change_schedule(k, s);
@@ -366,7 +367,7 @@ froe_status froe_kinetic_update(froe_kinetic *k, froe_diagnostic *diag) {
 froe_status froe_kinetic_remove(froe_kinetic *k, uint32_t object, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!k) return support_fail_null(diag, __func__);
-    if (object >= object_count(k)) return support_fail(diag, FROE_E_ARG, "There is no object %u.", object);
+    if (object >= kinetic_object_count(k)) return support_fail(diag, FROE_E_ARG, "There is no object %u.", object);
     froe_status status = kinetic_begin(k, diag);
     if (status) return status;
     motion_object *o = k->now.motion->objects.data + object;
@@ -394,7 +395,7 @@ static void find_at_vertex(froe_kinetic *k, uint32_t vertex) {
             call_push(&k->call, &k->events.leaving, e / 2);
         return;
     }
-    for (uint32_t o = 0; o < object_count(k); o++) {
+    for (uint32_t o = 0; o < kinetic_object_count(k); o++) {
         const uint32_t surface = now_segment_of(&k->now, o);
         if (ktree_segment_at(&k->tree, surface)->here && has_vertex(k->now.motion->objects.data + o, vertex))
             call_push(&k->call, &k->events.leaving, surface);
@@ -415,7 +416,7 @@ froe_status froe_kinetic_replan(froe_kinetic *k, uint32_t vertex, size_t count, 
     double life[2] = {now, now}; /* to the end of the last life of a segment at the vertex */
     froe_status status = kinetic_begin(k, diag), settled;
     if (status) return status;
-    for (uint32_t i = 0; i < object_count(k); i++) {
+    for (uint32_t i = 0; i < kinetic_object_count(k); i++) {
         const motion_object *o = k->now.motion->objects.data + i;
         const bool lives = o->first <= o->last && o->last >= k->now.tick;
         if (lives && has_vertex(o, vertex) && o->death > life[1]) life[1] = o->death;

@@ -44,6 +44,8 @@ froe_status kinetic_new_at(froe_motion *motion, const froe_allocator *memory, co
                            int64_t tick, froe_kinetic **out);
 /** Makes the tree and all certificates anew of what is there at the present tick. May stop the call. */
 void kinetic_make_anew(froe_kinetic *k);
+/** How many of the motion's objects it knows: those added since the last froe_kinetic_update() it does not. */
+uint32_t kinetic_object_count(const froe_kinetic *k);
 /** How many events there were so far. */
 uint64_t kinetic_event_count(const froe_kinetic *k);
 /** The same segments in the same order at the same time, made from scratch, as a part of the call under way. */

@@ -22,7 +22,7 @@ typedef struct snapshot_work {
 } snapshot_work;
 
 static bool snapshot_new(froe_kinetic *k, bool places, snapshot_work *p) {
-    const size_t all = k->now.motion->objects.count, dim = (size_t)k->now.motion->dim;
+    const size_t all = kinetic_object_count(k), dim = (size_t)k->now.motion->dim;
     size_t n = 0;
     for (uint32_t o = 0; o < all; o++) n += ktree_segment_at(&k->tree, now_segment_of(&k->now, o))->alive;
     *p = (snapshot_work){.k = k, .count = n, .dim = dim, .first_rounded = FROE_NONE};
@@ -54,7 +54,7 @@ static int by_object_key(void *user, uint32_t a, uint32_t b) {
 static void take_objects(snapshot_work *p) {
     const froe_kinetic *k = p->k;
     uint32_t n = 0;
-    for (uint32_t s = 0; s < k->now.motion->objects.count; s++) {
+    for (uint32_t s = 0; s < kinetic_object_count(k); s++) {
         if (!ktree_segment_at(&k->tree, now_segment_of(&k->now, s))->alive) continue;
         p->objects[n] = s;
         p->tags[n] = k->now.motion->objects.data[s].tag;
@@ -201,7 +201,7 @@ static bool is_same(snapshot_comparison *c, snapshot_twins at) {
 
 static froe_status compare_with_tree(const snapshot_work *p, const froe_tree *tree, bool *alike) {
     const froe_allocator *alloc = &p->k->call.alloc;
-    const size_t all = p->k->now.motion->objects.count, vertices = p->k->tree.vertices.count;
+    const size_t all = kinetic_object_count(p->k), vertices = p->k->tree.vertices.count;
     snapshot_comparison c = {.k = p->k, .tree = tree, .scene = froe_tree_scene(tree)};
     c.index = support_calloc(alloc, all + 1, sizeof *c.index);
     c.originals = support_calloc(alloc, p->count + 1, sizeof *c.originals);

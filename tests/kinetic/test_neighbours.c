@@ -472,6 +472,33 @@ static void nothing_is_left_out_for_what_is_not_born(void **state) {
     }
 }
 
+/* Objects that the motion has got, and the partition has not been told of, take no part. */
+static void what_is_not_known_yet_takes_no_part(void **state) {
+    static const double at[9] = {0, 0, -2, 9, 0, 3, 0, 9, 3}, zeros[3];
+    static const size_t starts[] = {0, 1, 2, 3};
+    froe_motion *m = three_leaves(NULL);
+    froe_kinetic_options o = froe_kinetic_defaults();
+    froe_moving b = froe_moving_defaults();
+    froe_snapshot now;
+    froe_kinetic *k;
+    (void)state;
+    o.ghosts = true;
+    b.vertex_count = 3, b.count = 1, b.starts = starts, b.times = zeros, b.coords = at;
+    assert_int_equal(froe_kinetic_new(m, &o, NULL, &k, NULL), FROE_OK);
+    assert_int_equal(froe_motion_add(m, &b, NULL), FROE_OK);
+    assert_int_equal(froe_kinetic_advance(k, 1, NULL, NULL, NULL), FROE_OK);
+    assert_int_equal(below(k, 5), 0);
+    assert_int_equal(froe_kinetic_audit(k, NULL), FROE_OK);
+    assert_int_equal(froe_kinetic_snapshot(k, NULL, &now, NULL), FROE_OK);
+    assert_int_equal(froe_scene_object_count(froe_tree_scene(now.tree)), 2);
+    froe_tree_free(now.tree);
+    assert_int_equal(froe_kinetic_update(k, NULL), FROE_OK);
+    assert_true(now_is_ghost(&k->now, 1) && now_is_ghost(&k->now, 3));
+    assert_int_equal(froe_kinetic_audit(k, NULL), FROE_OK);
+    froe_kinetic_free(k);
+    froe_motion_free(m);
+}
+
 static froe_status with_ghosts(void *user, const froe_allocator *alloc) {
     froe_kinetic_options o = froe_kinetic_defaults();
     froe_kinetic *k = NULL;
@@ -502,6 +529,7 @@ int main(void) {
         cmocka_unit_test(ghosts_are_left_out_while_they_meet_others),
         cmocka_unit_test(ghosts_return_when_what_they_meet_goes),
         cmocka_unit_test(nothing_is_left_out_for_what_is_not_born),
+        cmocka_unit_test(what_is_not_known_yet_takes_no_part),
         cmocka_unit_test(memory_may_run_out_among_ghosts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
