@@ -66,19 +66,25 @@ static uint64_t random_key(const froe_kinetic *k, uint32_t segment) {
     return base_hash(k->options.seed, k->epoch, segment);
 }
 
-/* Room for everything that the motion has by now. */
+/* How many segments there are at most once all objects of the motion are known. That of questions does not count. */
+static size_t most_segments(const froe_kinetic *k) {
+    const bool space = k->now.motion->dim == 3;
+    const size_t known = k->now.segments.count - 1, objects = space ? k->now.faces.count : known;
+    return known + (space ? 4 : 1) * (k->now.motion->objects.count - objects);
+}
+
+/* Room for everything that the motion has by now. Without memory nothing more of it is known than before. */
 static froe_status grow_tables(froe_kinetic *k) {
     const froe_allocator *alloc = &k->call.alloc;
     const froe_motion *m = k->now.motion;
     ktree *tree = &k->tree;
-    if (now_grow(&k->now)) return FROE_E_MEMORY;
-    const size_t all = k->now.segments.count - 1; /* without that of questions */
-    const size_t segments = all - tree->segments.count, vertices = m->plans.count - tree->vertices.count;
+    const size_t segments = most_segments(k) - tree->segments.count, vertices = m->plans.count - tree->vertices.count;
     if (!array_reserve(alloc, &tree->segments, segments) || !array_reserve(alloc, &k->certs.segments, segments) ||
         !array_reserve(alloc, &k->collinear.first, segments) ||
         !array_reserve(alloc, &k->participants.stamps, segments) || !array_reserve(alloc, &tree->vertices, vertices) ||
-        !array_reserve(alloc, &k->certs.courses, vertices))
+        !array_reserve(alloc, &k->certs.courses, vertices) || now_grow(&k->now))
         return FROE_E_MEMORY;
+    const size_t all = k->now.segments.count - 1;
     const ktree_end end = {KTREE_LEAF, FROE_NONE, 0};
     const cert_segment none = {FROE_NONE, FROE_NONE, {{FROE_NONE, FROE_NONE}, {FROE_NONE, FROE_NONE}}};
     while (tree->vertices.count < m->plans.count) {
@@ -353,10 +359,10 @@ froe_status froe_kinetic_update(froe_kinetic *k, froe_diagnostic *diag) {
     if (now_is_in_space(&k->now) && k->now.motion->bodies.count) return refuse_bodies(diag);
     if (grow_tables(k)) return support_fail_memory(diag);
     k->touch.known = k->touch.known && first == kinetic_object_count(k); /* contacts with what is new were left out */
+    for (uint32_t o = first; o < kinetic_object_count(k); o++) *key_of(k, o) = random_key(k, o) | edges_before(k);
     froe_status status = kinetic_begin(k, diag);
     for (uint32_t o = first; o < kinetic_object_count(k) && !status; o++) {
         const uint32_t s = now_segment_of(&k->now, o);
-        *key_of(k, o) = random_key(k, o) | edges_before(k);
         change_schedule(k, s);
         if (now_is_alive(&k->now, o)) change_insert(k, s);
         status = kinetic_settle(k, diag);

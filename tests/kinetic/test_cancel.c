@@ -174,9 +174,73 @@ static void test_no_event_is_lost_in_silence(void **state) {
     froe_motion_free(m);
 }
 
+enum { SOME = 17 };
+
+/* Objects at rest, in space each at a height of its own. */
+static void add_some(froe_motion *m, int dim, double height) {
+    static const double times[3 * SOME];
+    const size_t each = (size_t)dim;
+    size_t starts[3 * SOME + 1];
+    double coords[9 * SOME];
+    for (size_t i = 0; i <= 3 * SOME; i++) starts[i] = i;
+    for (size_t i = 0; i < each * SOME; i++)
+        for (size_t c = 0; c < each; c++)
+            coords[each * i + c] = c == 2 ? height + (double)(i / each) : (double)(i * (c + 13) * 97 % 1009);
+    froe_moving b = froe_moving_defaults();
+    b.vertex_count = each * SOME, b.count = SOME, b.starts = starts, b.times = times, b.coords = coords;
+    assert_int_equal(froe_motion_add(m, &b, NULL), FROE_OK);
+}
+
+/* Takes up objects while an allocation fails, and again. Returns how many allocations there were. 0: none fails. */
+static size_t take_up(int dim, size_t fail_at, bool for_ever, froe_kinetic **out, froe_motion **motion,
+                      test_memory *memory) {
+    const froe_allocator alloc = test_memory_begin(memory);
+    froe_motion_options w = froe_motion_defaults();
+    froe_kinetic_options o = froe_kinetic_defaults();
+    w.begin = 0, w.end = 1, w.dim = (unsigned)dim;
+    o.unchecked = dim == 3;
+    assert_int_equal(froe_motion_new(&w, NULL, motion, NULL), FROE_OK);
+    add_some(*motion, dim, 0);
+    assert_int_equal(froe_kinetic_new(*motion, &o, &alloc, out, NULL), FROE_OK);
+    add_some(*motion, dim, SOME);
+    const size_t before = memory->calls;
+    memory->fail_at = fail_at ? before + fail_at : 0, memory->fail_on = for_ever;
+    const froe_status status = froe_kinetic_update(*out, NULL);
+    assert_true(status == FROE_OK || (fail_at && status == FROE_E_MEMORY));
+    const size_t calls = memory->calls - before;
+    memory->fail_at = 0;
+    assert_int_equal(froe_kinetic_update(*out, NULL), FROE_OK);
+    return calls;
+}
+
+/* Memory that is refused while objects are taken up: the next call takes up all of them, in the same order. */
+static void test_objects_are_not_lost(void **state) {
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++) {
+        test_memory memory[2];
+        froe_motion *m[2];
+        froe_kinetic *k[2];
+        uint32_t found[2];
+        const size_t calls = take_up(dim, 0, false, k, m, memory);
+        assert_true(calls > 5);
+        for (size_t i = 0; i < 2 * calls; i++) {
+            take_up(dim, 1 + i / 2, i % 2, k + 1, m + 1, memory + 1);
+            assert_int_equal(kinetic_compare(k[0], k[1], false, found), FROE_OK);
+            if (found[0] || found[1]) fail_msg("dimension %d, allocation %d", dim, (int)i / 2);
+            assert_int_equal(froe_kinetic_audit(k[1], NULL), FROE_OK);
+            froe_kinetic_free(k[1]);
+            froe_motion_free(m[1]);
+            test_memory_end(memory + 1);
+        }
+        froe_kinetic_free(k[0]);
+        froe_motion_free(m[0]);
+        test_memory_end(memory);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_a_new_partition),
                                        cmocka_unit_test(test_no_event_is_lost_in_silence),
-                                       cmocka_unit_test(test_all_calls)};
+                                       cmocka_unit_test(test_objects_are_not_lost), cmocka_unit_test(test_all_calls)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
