@@ -380,7 +380,8 @@ froe_status froe_kinetic_remove(froe_kinetic *k, uint32_t object, froe_diagnosti
     const uint32_t segment = now_segment_of(&k->now, object), life = k->certs.segments.data[segment].life;
     if (o->last >= k->now.tick) o->last = k->now.tick - 1;
     if (now_is_in_space(&k->now)) { /* it touches nothing any more */
-        o->death = now_time_of(&k->now, k->now.tick - 1);
+        const double before = now_time_of(&k->now, k->now.tick - 1);
+        if (o->death > before) o->death = before;
         k->touch.known = false;
     }
     if (life != FROE_NONE) cert_set_tick(&k->certs, life, NOW_NEVER);

@@ -409,13 +409,14 @@ static uint32_t below(froe_kinetic *k, double z) {
 }
 
 /* Three leaves, the second of which lies across the first, and the third elsewhere. */
-static froe_motion *three_leaves(const double *births) {
+static froe_motion *three_leaves(const double *births, const double *deaths) {
     static const double at[9][3] = {{0, 0, 0}, {9, 0, 0},  {0, 9, 0},  {0, 0, -1}, {9, 0, 1},
                                     {0, 9, 1}, {0, 0, -9}, {9, 0, -9}, {0, 9, -9}};
     static const double zeros[9];
     static const size_t starts[] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
     froe_moving b = froe_moving_defaults();
-    b.vertex_count = 9, b.count = 3, b.starts = starts, b.times = zeros, b.coords = at[0], b.births = births;
+    b.vertex_count = 9, b.count = 3, b.starts = starts, b.times = zeros, b.coords = at[0], b.births = births,
+    b.deaths = deaths;
     return motion_of(&b, 0);
 }
 
@@ -423,7 +424,7 @@ static froe_motion *three_leaves(const double *births) {
 static void ghosts_return_when_what_they_meet_goes(void **state) {
     (void)state;
     for (int way = 0; way < 2; way++) {
-        froe_motion *m = three_leaves(NULL);
+        froe_motion *m = three_leaves(NULL, NULL);
         froe_kinetic_options o = froe_kinetic_defaults();
         froe_kinetic *k;
         o.ghosts = true;
@@ -454,7 +455,7 @@ static void nothing_is_left_out_for_what_is_not_born(void **state) {
     (void)state;
     for (uint32_t born = 0; born < 2; born++) {
         const double births[3] = {born ? 0 : BIRTH, born ? BIRTH : 0, 0};
-        froe_motion *m = three_leaves(births);
+        froe_motion *m = three_leaves(births, NULL);
         froe_kinetic_options o = froe_kinetic_defaults();
         froe_kinetic *k;
         fate f = {0};
@@ -472,11 +473,36 @@ static void nothing_is_left_out_for_what_is_not_born(void **state) {
     }
 }
 
+/* Taking out what has gone, by itself or by such a call, does not bring it back. */
+static void what_has_gone_is_gone(void **state) {
+    static const double deaths[3] = {2, 8, 8};
+    static found all;
+    froe_motion *m = three_leaves(NULL, deaths);
+    froe_kinetic_options o = froe_kinetic_defaults();
+    froe_kinetic *k;
+    double gone = WINDOW;
+    (void)state;
+    o.ghosts = true;
+    assert_int_equal(froe_kinetic_new(m, &o, NULL, &k, NULL), FROE_OK);
+    for (int i = 1; i < WINDOW; i++) {
+        assert_int_equal(froe_kinetic_advance(k, i, NULL, NULL, NULL), FROE_OK);
+        if (i == 4) assert_int_equal(froe_kinetic_remove(k, 0, NULL), FROE_OK);
+        if (i > 4) assert_int_equal(froe_kinetic_remove(k, 1, NULL), FROE_OK);
+        if (i == 5) gone = froe_motion_object(m, 1).death;
+    }
+    assert_true(froe_motion_object(m, 0).death == 2 && froe_motion_object(m, 1).death == gone);
+    found_neighbours(m, &all);
+    assert_int_equal(all.count, 1);
+    assert_true(all.list[0].end[1] == 2);
+    froe_kinetic_free(k);
+    froe_motion_free(m);
+}
+
 /* Objects that the motion has got, and the partition has not been told of, take no part. */
 static void what_is_not_known_yet_takes_no_part(void **state) {
     static const double at[9] = {0, 0, -2, 9, 0, 3, 0, 9, 3}, zeros[3];
     static const size_t starts[] = {0, 1, 2, 3};
-    froe_motion *m = three_leaves(NULL);
+    froe_motion *m = three_leaves(NULL, NULL);
     froe_kinetic_options o = froe_kinetic_defaults();
     froe_moving b = froe_moving_defaults();
     froe_snapshot now;
@@ -529,6 +555,7 @@ int main(void) {
         cmocka_unit_test(ghosts_are_left_out_while_they_meet_others),
         cmocka_unit_test(ghosts_return_when_what_they_meet_goes),
         cmocka_unit_test(nothing_is_left_out_for_what_is_not_born),
+        cmocka_unit_test(what_has_gone_is_gone),
         cmocka_unit_test(what_is_not_known_yet_takes_no_part),
         cmocka_unit_test(memory_may_run_out_among_ghosts),
     };
