@@ -144,6 +144,6 @@ bool ghost_apply(froe_kinetic *k, const event_watcher *watcher) {
             if (faces[o].ghost == faces[o].leaves || faces[o].ghost != (back == 1)) continue;
             go_on &= back ? come_back(k, watcher, o) : leave(k, watcher, o);
         }
-    if (k->call.stopped) k->touch.known = false; /* to be found again by the next call */
+    if (k->call.stopped) k->touch.known = false, k->touch.again = true;
     return go_on;
 }

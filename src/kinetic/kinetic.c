@@ -53,7 +53,15 @@ froe_status kinetic_settle(froe_kinetic *k, froe_diagnostic *diag) {
 froe_status kinetic_begin(froe_kinetic *k, froe_diagnostic *diag) {
     base_task_init(&k->call.task, k->options.threads, k->options.progress, k->options.user);
     now_catch_up(&k->now);
-    return kinetic_settle(k, diag);
+    const froe_status status = kinetic_settle(k, diag);
+    return status || !k->touch.again ? status : touch_find(k, diag);
+}
+
+/* Ends a change of what there is. */
+static froe_status end_change(froe_kinetic *k, froe_diagnostic *diag) {
+    k->touch.again = k->options.ghosts; /* unless they are found now */
+    const froe_status status = kinetic_settle(k, diag);
+    return status || !k->options.ghosts ? status : touch_find(k, diag);
 }
 
 froe_status kinetic_refuse_space(froe_diagnostic *diag) {
@@ -341,6 +349,7 @@ froe_status froe_kinetic_advance(froe_kinetic *k, double time, froe_event_fn *vi
         if (!status && !k->call.stopped && k->now.tick == ghost_next(k)) go_on &= ghost_apply(k, &watcher);
         const bool short_of_memory = k->call.stopped && !base_cancelled(&k->call.task);
         if (!status) status = kinetic_settle(k, diag);
+        if (!status && k->touch.again) status = touch_find(k, diag);
         if (!status && short_of_memory && visit) status = support_fail_memory(diag); /* some were not told */
         if (!status) end_epoch(k), swap_order(k), status = kinetic_settle(k, diag);
         if (!go_on && !status) return support_fail(diag, FROE_E_CANCELLED, "The visitor stopped the call.");
@@ -357,17 +366,21 @@ froe_status froe_kinetic_update(froe_kinetic *k, froe_diagnostic *diag) {
     if (!k) return support_fail_null(diag, __func__);
     const uint32_t first = kinetic_object_count(k);
     if (now_is_in_space(&k->now) && k->now.motion->bodies.count) return refuse_bodies(diag);
-    if (grow_tables(k)) return support_fail_memory(diag);
-    k->touch.known = k->touch.known && first == kinetic_object_count(k); /* contacts with what is new were left out */
-    for (uint32_t o = first; o < kinetic_object_count(k); o++) *key_of(k, o) = random_key(k, o) | edges_before(k);
     froe_status status = kinetic_begin(k, diag);
+    if (status) return status;
+    if (grow_tables(k)) return support_fail_memory(diag);
+    if (first < kinetic_object_count(k)) { /* contacts with what is new were left out */
+        k->touch.known = false;
+        k->touch.again = k->options.ghosts;
+    }
+    for (uint32_t o = first; o < kinetic_object_count(k); o++) *key_of(k, o) = random_key(k, o) | edges_before(k);
     for (uint32_t o = first; o < kinetic_object_count(k) && !status; o++) {
         const uint32_t s = now_segment_of(&k->now, o);
         change_schedule(k, s);
         if (now_is_alive(&k->now, o)) change_insert(k, s);
         status = kinetic_settle(k, diag);
     }
-    return status || !k->options.ghosts ? status : touch_find(k, diag);
+    return status ? status : end_change(k, diag);
 }
 
 froe_status froe_kinetic_remove(froe_kinetic *k, uint32_t object, froe_diagnostic *diag) {
@@ -386,8 +399,7 @@ froe_status froe_kinetic_remove(froe_kinetic *k, uint32_t object, froe_diagnosti
     }
     if (life != FROE_NONE) cert_set_tick(&k->certs, life, NOW_NEVER);
     change_remove(k, segment);
-    status = kinetic_settle(k, diag);
-    return status || !k->options.ghosts ? status : touch_find(k, diag);
+    return end_change(k, diag);
 }
 
 static bool has_vertex(const motion_object *o, uint32_t vertex) {
@@ -438,8 +450,7 @@ froe_status froe_kinetic_replan(froe_kinetic *k, uint32_t vertex, size_t count, 
         change_insert(k, k->events.leaving.data[i]);
     }
     k->events.leaving.count = 0;
-    settled = kinetic_settle(k, status ? NULL : diag);
-    if (!settled && k->options.ghosts) settled = touch_find(k, status ? NULL : diag);
+    settled = end_change(k, status ? NULL : diag);
     return status ? status : settled;
 }
 

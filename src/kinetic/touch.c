@@ -15,18 +15,28 @@ int64_t touch_tick_before(const now_state *now, double time) {
     return tick & 1 ? tick : tick - 1;
 }
 
+/* Finds all contacts from the present on, and the ghosts of the present. */
+static froe_status find_ghosts(froe_kinetic *k, froe_diagnostic *diag) {
+    touch_state *t = &k->touch;
+    t->known = false;
+    froe_status status = ghost_find(k, diag);
+    if (!status) {
+        *t = (touch_state){.known = true, .edition = k->now.motion->edition, .last = NOW_NEVER};
+        ghost_apply(k, NULL);
+        status = kinetic_settle(k, diag);
+        if (!status && !t->known) status = support_fail_memory(diag);
+    }
+    t->again = status == FROE_E_MEMORY || status == FROE_E_CANCELLED;
+    return status;
+}
+
 froe_status touch_find(froe_kinetic *k, froe_diagnostic *diag) {
     touch_state *t = &k->touch;
     const froe_motion *m = k->now.motion;
     if (!now_is_in_space(&k->now) || k->options.unchecked) return FROE_OK;
+    t->again = false;
     if (t->known && t->edition == m->edition) return FROE_OK;
-    if (k->options.ghosts) {
-        const froe_status found = ghost_find(k, diag);
-        if (found) return found;
-        *t = (touch_state){.known = true, .edition = m->edition, .last = NOW_NEVER};
-        ghost_apply(k, NULL);
-        return kinetic_settle(k, diag);
-    }
+    if (k->options.ghosts) return find_ghosts(k, diag);
     froe_contact_options o = froe_contact_defaults();
     o.from = now_time_of(&k->now, k->now.tick), o.first = o.neighbours = true, o.threads = 1;
     o.progress = k->options.progress, o.user = k->options.user;

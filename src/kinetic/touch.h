@@ -10,6 +10,7 @@ typedef struct touch_state {
     uint64_t edition;   /**< of the motion */
     int64_t last;       /**< the last odd tick before the first contact, at least -1; NOW_NEVER: there is none */
     froe_contact first; /**< or the one that is told */
+    bool again;         /**< ghosts may not be those of the present, as memory ran out or the call was cancelled */
     bool reporting;     /**< a visitor is in the callback of that contact */
 } touch_state;
 

@@ -547,6 +547,51 @@ static void memory_may_run_out_among_ghosts(void **state) {
     froe_motion_free(m);
 }
 
+/* A leaf that leans and rises through two others, from 2.4 to 4 and from 2.8 to 4.4. */
+static froe_motion *rising_leaf(void) {
+    static const double at[12][3] = {{0, 0, -5}, {0, 0, 5}, {9, 0, -3}, {9, 0, 7},   {0, 9, -3},  {0, 9, 7},
+                                     {0, 0, 0},  {9, 0, 0}, {0, 9, 0},  {0, 0, 0.5}, {9, 0, 0.5}, {0, 9, 0.5}};
+    static const double times[12] = {0, WINDOW, 0, WINDOW, 0, WINDOW};
+    static const size_t starts[] = {0, 2, 4, 6, 7, 8, 9, 10, 11, 12};
+    froe_moving b = froe_moving_defaults();
+    b.vertex_count = 9, b.count = 3, b.starts = starts, b.times = times, b.coords = at[0];
+    return motion_of(&b, 0);
+}
+
+/* Memory is refused while triangles leave and return: they are right after the call, or else after the next one. */
+static void ghosts_are_right_after_memory_was_refused(void **state) {
+    static found all;
+    froe_motion *m = rising_leaf();
+    size_t calls = 1;
+    fate f = {0};
+    (void)state;
+    found_neighbours(m, &all);
+    for (size_t i = 0; i < 4 * calls; i++) {
+        test_memory memory;
+        const froe_allocator alloc = test_memory_begin(&memory);
+        froe_kinetic_options o = froe_kinetic_defaults();
+        froe_kinetic *k;
+        o.ghosts = true;
+        assert_int_equal(froe_kinetic_new(m, &o, &alloc, &k, NULL), FROE_OK);
+        assert_int_equal(froe_kinetic_advance(k, 1, NULL, NULL, NULL), FROE_OK);
+        const size_t before = memory.calls;
+        memory.fail_at = i < 4 ? 0 : before + i / 4, memory.fail_on = i / 2 % 2;
+        const froe_status status = froe_kinetic_advance(k, 3.5, i % 2 ? count_touches : NULL, &f, NULL);
+        assert_true(status == FROE_OK || (i >= 4 && status == FROE_E_MEMORY));
+        if (i < 4) calls = memory.calls - before + 1;
+        memory.fail_at = 0;
+        assert_int_equal(froe_kinetic_audit(k, NULL), FROE_OK);
+        check_ghosts(k, m, &all, &f);
+        if (status) assert_int_equal(froe_kinetic_advance(k, 3.5, NULL, NULL, NULL), FROE_OK);
+        assert_true(now_is_ghost(&k->now, 1) && now_is_ghost(&k->now, 2));
+        assert_int_equal(froe_kinetic_audit(k, NULL), FROE_OK);
+        froe_kinetic_free(k);
+        test_memory_end(&memory);
+    }
+    assert_true(calls > 2);
+    froe_motion_free(m);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(neighbours_meet_when_linear_programs_say_so),
@@ -558,6 +603,7 @@ int main(void) {
         cmocka_unit_test(what_has_gone_is_gone),
         cmocka_unit_test(what_is_not_known_yet_takes_no_part),
         cmocka_unit_test(memory_may_run_out_among_ghosts),
+        cmocka_unit_test(ghosts_are_right_after_memory_was_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
