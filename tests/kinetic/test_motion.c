@@ -498,7 +498,9 @@ static void bad_windows_are_refused(void **state) {
     assert_int_equal(window_status(0, 1, -1), FROE_E_OPTIONS);
     assert_int_equal(window_status(0, 1, 2), FROE_E_OPTIONS);
     assert_int_equal(window_status(0, 1, 0x1p-60), FROE_E_OPTIONS);
-    assert_int_equal(window_status(0, 1, 0x1p-51), FROE_OK);
+    assert_int_equal(window_status(0, 1, 0x1p-52), FROE_OK);
+    assert_int_equal(window_status(0, 1.5, 0x1p-51), FROE_OK);
+    assert_int_equal(window_status(0, 1.5, 0x1p-52), FROE_E_OPTIONS);
 }
 
 static void lives_are_clipped_to_the_window(void **state) {

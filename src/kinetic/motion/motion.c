@@ -74,11 +74,11 @@ static froe_status set_window(froe_motion *m, const froe_motion_options *o, froe
                             o->end);
     if (o->tick < 0 || !isfinite(o->tick) || (o->tick > 0 && frexp(o->tick, &power) != 0.5))
         return support_fail(diag, FROE_E_OPTIONS, "A tick of %g is not a power of 2.", o->tick);
-    frexp(length, &top); /* length < 2^top */
+    const double share = frexp(length, &top); /* 2^(top - 1) <= length < 2^top */
     m->power = o->tick > 0 ? power - 1 : usual_power(top);
     m->begin = o->begin + 0.0;
     m->end = o->end + 0.0;
-    if (top - m->power > MOST_TICK_BITS)
+    if (top - m->power > MOST_TICK_BITS + (share == 0.5))
         return support_fail(diag, FROE_E_OPTIONS, "The window has more than 2^52 ticks of %g.", o->tick);
     m->last_tick = motion_tick_before(m, m->end);
     if (m->last_tick < 1) return support_fail(diag, FROE_E_OPTIONS, "A tick of %g is longer than the window.", o->tick);
