@@ -282,6 +282,8 @@ double froe_kinetic_time(const froe_kinetic *k) {
 double froe_kinetic_next(const froe_kinetic *k) {
     BASE_FLOATS_OWN;
     int64_t tick = cert_next_tick(&k->certs);
+    const int64_t touch = touch_next(k);
+    if (touch < tick) tick = touch;
     volatile const double time = tick > now_last_tick(&k->now) ? (double)INFINITY : now_time_of(&k->now, tick);
     return time;
 }

@@ -48,6 +48,16 @@ froe_status touch_find(froe_kinetic *k, froe_diagnostic *diag) {
     return FROE_OK;
 }
 
+int64_t touch_next(const froe_kinetic *k) {
+    const touch_state *t = &k->touch;
+    const int64_t soon = k->now.tick + 2;
+    if (!now_is_in_space(&k->now) || k->options.unchecked) return NOW_NEVER;
+    if (!t->known || t->edition != k->now.motion->edition) return soon;
+    if (k->options.ghosts) return ghost_next(k);
+    if (t->last == NOW_NEVER) return NOW_NEVER;
+    return t->last >= k->now.tick ? t->last + 2 : soon;
+}
+
 bool touch_tell(froe_kinetic *k, const event_watcher *watcher, const froe_contact *c) {
     bool go_on = true;
     k->touch.first = *c;

@@ -17,6 +17,8 @@ typedef struct touch_state {
 /** Finds the first contact from the present on, or all if ghosts are wanted, if plans have changed since. Then ghosts
  * are those of the present. The failures of froe_motion_contacts(). */
 froe_status touch_find(froe_kinetic *k, froe_diagnostic *diag);
+/** The next tick by which triangles meet, leave or return, or may do so as plans have changed; NOW_NEVER: none do. */
+int64_t touch_next(const froe_kinetic *k);
 /** The last odd tick at which a time has not come yet. */
 int64_t touch_tick_before(const now_state *now, double time);
 /** Calls a visitor for a contact. False: it asked to stop. */

@@ -367,6 +367,13 @@ static bool count_touches(void *user, const froe_event *event) {
     return true;
 }
 
+static bool count_events(void *user, const froe_event *event) {
+    fate *f = user;
+    (void)event;
+    f->lasted++;
+    return true;
+}
+
 static void ghosts_are_left_out_while_they_meet_others(void **state) {
     static const double ticks[] = {0, 0, 0x1p-10, 0x1p-3};
     static scene s;
@@ -558,6 +565,32 @@ static froe_motion *rising_leaf(void) {
     return motion_of(&b, 0);
 }
 
+/* Nothing is told before froe_kinetic_next() has it: neither that triangles leave and return, nor that they meet. */
+static void what_comes_next_may_be_a_contact(void **state) {
+    (void)state;
+    for (int ghosts = 0; ghosts < 2; ghosts++) {
+        froe_motion *m = rising_leaf();
+        froe_kinetic_options o = froe_kinetic_defaults();
+        froe_kinetic *k;
+        fate f = {0};
+        o.ghosts = ghosts;
+        assert_int_equal(froe_kinetic_new(m, &o, NULL, &k, NULL), FROE_OK);
+        froe_status status = FROE_OK;
+        int steps = 0;
+        for (double next; !status && (next = froe_kinetic_next(k)) < WINDOW; steps++) {
+            if (next - 0.25 > froe_kinetic_time(k))
+                assert_int_equal(froe_kinetic_advance(k, next - 0.25, count_events, &f, NULL), FROE_OK);
+            assert_int_equal(f.lasted, 0);
+            status = froe_kinetic_advance(k, next, count_touches, &f, NULL);
+        }
+        assert_int_equal(status, ghosts ? FROE_OK : FROE_E_INPUT);
+        assert_int_equal(f.ended, ghosts ? 2 : 1);
+        assert_true(steps >= (ghosts ? 4 : 1));
+        froe_kinetic_free(k);
+        froe_motion_free(m);
+    }
+}
+
 /* Memory is refused while triangles leave and return: they are right after the call, or else after the next one. */
 static void ghosts_are_right_after_memory_was_refused(void **state) {
     static found all;
@@ -603,6 +636,7 @@ int main(void) {
         cmocka_unit_test(what_has_gone_is_gone),
         cmocka_unit_test(what_is_not_known_yet_takes_no_part),
         cmocka_unit_test(memory_may_run_out_among_ghosts),
+        cmocka_unit_test(what_comes_next_may_be_a_contact),
         cmocka_unit_test(ghosts_are_right_after_memory_was_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
