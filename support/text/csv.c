@@ -56,14 +56,25 @@ static char *unquote(char *to, const char *from, char **rest) {
     return to;
 }
 
+/* Does nothing but blanks stand between the closing quotation mark and the end of the field? */
+static bool ends_field(const char *closing, char separator) {
+    const char *at = closing + 1;
+    while (*at != separator && is_blank(*at)) ++at;
+    return !*at || *at == separator || *at == '\n';
+}
+
 support_csv_field support_csv_next(char **at, char separator) {
     char *from = *at, *to, *least;
     while (*from == ' ') ++from;
     support_csv_field field = {.text = from, .quoted = *from == '"'};
     to = least = from;
     if (field.quoted) {
-        field.open = !*end_of_quotes(from);
-        to = least = unquote(to, from, &from);
+        const char *closing = end_of_quotes(from);
+        field.open = !*closing;
+        if (field.open || ends_field(closing, separator))
+            to = least = unquote(to, from, &from);
+        else
+            to = least = from = (char *)closing + 1;
     }
     const size_t moved = (size_t)(from - to);
     while (*from && *from != separator && *from != '\n') ++from;

@@ -14,7 +14,8 @@
 enum { SUPPORT_CSV_COLUMNS = 512 }; /**< more are read by no reader */
 
 typedef struct support_csv_field {
-    char *text;  /**< without the blanks around it, or as it stands between its quotation marks */
+    char *text;  /**< without the blanks around it, or as it stands between its quotation marks; with them where it
+                      goes on behind them, so that it is no number */
     bool quoted; /**< it was in quotation marks */
     bool open;   /**< and the text ends before they are closed */
     bool last;   /**< of its record */

@@ -43,7 +43,9 @@ static void fields_lose_blanks_and_quotation_marks(void **state) {
     assert_fields(" a ,b\t, \" c \" ,\"\",d\r\nnext", ',', (const char *const[]){"a", "b", " c ", "", "d", NULL});
     assert_fields("a;b,c;\"d;e\"", ';', (const char *const[]){"a", "b,c", "d;e", NULL});
     assert_fields("a\t\t b\t", '\t', (const char *const[]){"a", "", "b", "", NULL});
-    assert_fields("\"a\"b,5\" pipe,\"x\"\"y", ',', (const char *const[]){"ab", "5\" pipe", "x\"y", NULL});
+    assert_fields("\"a\"b,5\" pipe,\"x\"\"y", ',', (const char *const[]){"\"a\"b", "5\" pipe", "x\"y", NULL});
+    assert_fields("\"1\"5,\"1\" 5 , \"1\" \t,\"a,\nb\"c\n", ',',
+                  (const char *const[]){"\"1\"5", "\"1\" 5", "1", "\"a,\nb\"c", NULL});
     assert_fields("", ',', (const char *const[]){"", NULL});
 }
 
