@@ -256,9 +256,17 @@ static froe_status refuse_virtual(map *m, const char *name) {
                         support_short(m->source->path));
 }
 
+/* Is it a table, perhaps the one file of an archive? */
+static bool is_table(const char *name, support_extension extension) {
+    char **files = strncmp(name, "/vsizip/", 8) ? NULL : VSIReadDirRecursive(name);
+    if (CSLCount(files) == 1) extension = support_path_extension(files[0]);
+    CSLDestroy(files);
+    return !strcmp(extension.text, "csv") || !strcmp(extension.text, "tsv");
+}
+
 /* Has the table a column of geometry? Of one within a file of another sort GDAL reads the first bytes. */
 static bool has_geometry(const formats_source *source, const char *name) {
-    if (!strcmp(name, source->file)) return formats_csv_has_geometry(source);
+    if (!source->beyond && !strcmp(name, source->file)) return formats_csv_has_geometry(source);
     formats_source inner = {.file = name};
     VSILFILE *file = VSIFOpenL(name, "rb");
     const size_t got = file ? VSIFReadL(inner.head, 1, sizeof inner.head - 1, file) : 0;
@@ -274,7 +282,6 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
                                          "Y_POSSIBLE_NAMES=y,lat,latitude,northing", NULL};
     support_extension extension;
     const char *name = gdal_name(source, &extension);
-    const bool is_csv = !strcmp(extension.text, "csv") || !strcmp(extension.text, "tsv");
     map m = {.source = source,
              .sink = sink,
              .heard = {.path = source->file, .online = source->beyond},
@@ -288,7 +295,7 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
     io_gdal_begin(&m.heard);
     status = refuse_virtual(&m, name);
     if (!status) {
-        const char *const *options = !is_csv ? NULL : has_geometry(source, name) ? wkt : places;
+        const char *const *options = !is_table(name, extension) ? NULL : has_geometry(source, name) ? wkt : places;
         m.data = GDALOpenEx(name, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL, options, NULL);
         if (!m.data) status = refuse_content(&m, name);
     }
