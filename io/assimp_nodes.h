@@ -45,6 +45,10 @@ typedef struct io_gltf_found {
 froe_status io_gltf_check(const formats_source *source, formats_sink *sink, io_gltf_found *found);
 /** After it: FROE_E_FORMAT where assimp has left out faces, or has read a text that could not be looked through. */
 froe_status io_gltf_is_whole(formats_sink *sink, const struct aiScene *scene, const io_gltf_found *found);
+/** Is it STL, by its extension? */
+bool io_is_stl(const formats_source *source);
+/** Before the import: FROE_E_FORMAT where an STL file is cut off, or has another length than its header says. */
+froe_status io_stl_check(const formats_source *source, formats_sink *sink);
 /** What assimp calls the format of a scene; "": nothing. */
 const char *io_assimp_format(const struct aiScene *scene);
 /** out = a b, of 3 x 4 matrices; out is another. */
