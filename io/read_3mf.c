@@ -9,6 +9,7 @@
  * an explicit stack. */
 #include "formats/input/colour.h"
 #include "formats/input/paint.h"
+#include "heard.h"
 #include "readers.h"
 #include "support/decimal/decimal.h"
 #include <cpl_string.h>
@@ -61,6 +62,7 @@ typedef struct archive {
     const formats_source *source;
     formats_sink *sink;
     froe_status status;
+    io_heard heard;
     XML_Parser parser;    /* of the current part */
     uint32_t part;        /* its number */
     ARRAY(size_t) parts;  /* their names, in `text`; part 0 is the root */
@@ -270,7 +272,9 @@ static void parse_part(archive *a, uint32_t part, XML_StartElementHandler begin)
     for (bool last = !in; !last && !a->status;) {
         const size_t got = VSIFReadL(chunk, 1, sizeof chunk, in);
         last = got < sizeof chunk;
-        if (XML_Parse(a->parser, chunk, (int)got, last) == XML_STATUS_ERROR && !a->status) {
+        if (a->heard.failed)
+            fail(a, "The part is damaged in the archive."); /* what is read of it may be XML all the same */
+        else if (XML_Parse(a->parser, chunk, (int)got, last) == XML_STATUS_ERROR && !a->status) {
             if (XML_GetErrorCode(a->parser) == XML_ERROR_NO_MEMORY) check(a, false);
             fail(a, "The part is not well-formed XML.");
         }
@@ -410,12 +414,14 @@ static froe_status load_parts(archive *a) {
 }
 
 froe_status io_read_3mf(const formats_source *source, formats_sink *sink) {
-    archive a = {.source = source, .sink = sink};
+    archive a = {.source = source, .sink = sink, .heard = {.path = source->file}};
     const froe_allocator *alloc = &sink->alloc;
     formats_report_format(sink, "float64", "3MF");
     sink->unit = "triangle";
     sink->report.layers = 1;
+    io_gdal_begin(&a.heard);
     froe_status status = load_parts(&a);
+    io_gdal_end(&a.heard);
     if (!status) status = place_objects(&a);
     if (!status) status = formats_sink_end_feature(sink);
     sink->inside = NULL;
