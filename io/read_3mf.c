@@ -312,12 +312,13 @@ static colour *find_colour(archive *a, const object *o, uint32_t list, int64_t i
 
 /* The group of the triangle: one for each object and material, or for each mixture of colours at corners. */
 static froe_status enter_group(archive *a, const object *o, const triangle *t, uint32_t *plain) {
-    const bool own = t->properties && t->index[0] != NO_INDEX;
+    const bool own = t->index[0] != NO_INDEX; /* else the list and the index are the object's */
+    const uint32_t list = own && t->properties ? t->properties : o->properties;
     uint32_t shades[3];
     colour *c = NULL;
     bool mixed = false, all = true;
     for (int k = 0; k < 3 && !a->sink->boxes; k++) {
-        colour *at = find_colour(a, o, own ? t->properties : o->properties, own ? t->index[k] : o->index);
+        colour *at = find_colour(a, o, list, own ? t->index[k] : o->index);
         shades[k] = at ? at->value : 0;
         mixed = mixed || (k && shades[k] != shades[0]);
         all = all && at;
