@@ -58,16 +58,21 @@ typedef struct colour {
     uint32_t group;
 } colour;
 
+typedef struct name_space {
+    size_t prefix, name; /* in `text` */
+} name_space;
+
 typedef struct archive {
     const formats_source *source;
     formats_sink *sink;
     froe_status status;
     io_heard heard;
-    XML_Parser parser;    /* of the current part */
-    uint32_t part;        /* its number */
-    ARRAY(size_t) parts;  /* their names, in `text`; part 0 is the root */
-    ARRAY(char) text;     /* names, each with a NUL; at 0 the empty one */
-    ARRAY(double) points; /* 3 a vertex */
+    XML_Parser parser;        /* of the current part */
+    uint32_t part;            /* its number */
+    ARRAY(size_t) parts;      /* their names, in `text`; part 0 is the root */
+    ARRAY(name_space) spaces; /* of the current part */
+    ARRAY(char) text;         /* names, each with a NUL; at 0 the empty one */
+    ARRAY(double) points;     /* 3 a vertex */
     ARRAY(triangle) triangles;
     ARRAY(object) objects; /* as defined; when all are, by resource, as are the lists */
     ARRAY(placement) components, items;
@@ -169,6 +174,44 @@ static uint32_t colour_of(archive *a, const char *given) { /* #RRGGBB or #RRGGBB
 
 /* -------------------------------------------------------------- elements -- */
 
+static void XMLCALL declare_space(void *user, const char *prefix, const char *name) {
+    archive *a = user;
+    if (a->inside) return; /* prefixes are looked up at the beginning alone */
+    const name_space space = {keep_text(a, prefix), keep_text(a, name)};
+    if (!a->status) check(a, array_push(&a->sink->alloc, &a->spaces, space));
+}
+
+/* Those that are read, and those that say nothing of where faces are. */
+static bool is_harmless(const char *extension) {
+    static const char *const known[] = {"core/2015/02", "production/2015/06", "material/2015/02",
+                                        "trianglesets/2021/07"};
+    static const char about[] = "http://schemas.microsoft.com/3dmanufacturing/";
+    if (strncmp(extension, about, strlen(about)) != 0) return false;
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        if (!strcmp(extension + strlen(about), known[i])) return true;
+    return false;
+}
+
+/* What the file requires is a list of prefixes (3.4.1 of the specification). */
+static void check_required(archive *a, const char **attributes) {
+    const char *words = attribute(attributes, "requiredextensions");
+    for (size_t length; words && *words && !a->status; words += length) {
+        words += strspn(words, " \t\r\n");
+        length = strcspn(words, " \t\r\n");
+        const char *name = NULL;
+        for (size_t i = 0; i < a->spaces.count; i++) {
+            const char *prefix = a->text.data + a->spaces.data[i].prefix;
+            if (strlen(prefix) == length && !strncmp(prefix, words, length))
+                name = a->text.data + a->spaces.data[i].name;
+        }
+        if (!length || (name && is_harmless(name))) continue;
+        a->status = support_fail(
+            a->sink->diag, FROE_E_UNSUPPORTED, "%s: The file requires the extension '%.*s' of 3MF, which is not read.",
+            support_short(a->source->path), name ? 80 : (int)(length < 80 ? length : 80), name ? name : words);
+        XML_StopParser(a->parser, XML_FALSE);
+    }
+}
+
 static void define_object(archive *a, const char **attributes) {
     const object o = {.self = {a->part, identifier(a, attributes, "id")},
                       .name = keep_text(a, attribute(attributes, "name")),
@@ -222,6 +265,8 @@ static void XMLCALL begin_element(void *user, const char *name, const char **att
     archive *a = user;
     name = local(name);
     if (a->status) return;
+    if (!strcmp(name, "model")) check_required(a, attributes);
+    if (!strcmp(name, "beamlattice") && a->inside) fail(a, "A lattice of beams is not read.");
     if (!strcmp(name, "vertex") && a->inside) add_vertex(a, attributes);
     if (!strcmp(name, "triangle") && a->inside) add_triangle(a, attributes);
     if (!strcmp(name, "object")) define_object(a, attributes);
@@ -259,6 +304,7 @@ static void parse_part(archive *a, uint32_t part, XML_StartElementHandler begin)
     char chunk[1 << 15];
     const char *name = a->text.data + a->parts.data[part];
     a->part = part;
+    a->spaces.count = 0;
     a->parser = XML_ParserCreateNS(NULL, '|');
     if (!a->parser) a->status = support_fail_memory(a->sink->diag);
     VSILFILE *in = a->status ? NULL : VSIFOpenL(CPLSPrintf("/vsizip/{%s}/%s", a->source->file, name), "rb");
@@ -268,6 +314,7 @@ static void parse_part(archive *a, uint32_t part, XML_StartElementHandler begin)
     if (in) {
         XML_SetUserData(a->parser, a);
         XML_SetElementHandler(a->parser, begin, end_element);
+        XML_SetStartNamespaceDeclHandler(a->parser, declare_space);
     }
     for (bool last = !in; !last && !a->status;) {
         const size_t got = VSIFReadL(chunk, 1, sizeof chunk, in);
@@ -427,6 +474,7 @@ froe_status io_read_3mf(const formats_source *source, formats_sink *sink) {
     if (!status) status = formats_sink_end_feature(sink);
     sink->inside = NULL;
     array_free(alloc, &a.parts);
+    array_free(alloc, &a.spaces);
     array_free(alloc, &a.text);
     array_free(alloc, &a.points);
     array_free(alloc, &a.triangles);
