@@ -261,6 +261,15 @@ static void add_colour(archive *a, const char **attributes, const char *name) {
     check(a, array_push(&a->sink->alloc, &a->colours, c));
 }
 
+/* Images are not read. */
+static void note_texture(archive *a, const char **attributes) {
+    froe_read_report *r = &a->sink->report;
+    const char *path = attribute(attributes, "path");
+    if (a->sink->boxes) return;
+    r->textures++;
+    if (!r->unread++) snprintf(r->unread_name, sizeof r->unread_name, "%.63s", path ? path : "");
+}
+
 static void XMLCALL begin_element(void *user, const char *name, const char **attributes) {
     archive *a = user;
     name = local(name);
@@ -272,6 +281,7 @@ static void XMLCALL begin_element(void *user, const char *name, const char **att
     if (!strcmp(name, "object")) define_object(a, attributes);
     if (!strcmp(name, "component") && a->inside) add_place(a, attributes, true);
     if (!strcmp(name, "item") && !a->part) add_place(a, attributes, false);
+    if (!strcmp(name, "texture2d")) note_texture(a, attributes);
     if (!strcmp(name, "base")) add_colour(a, attributes, "displaycolor");
     if (!strcmp(name, "color")) add_colour(a, attributes, "color");
     if (!strcmp(name, "basematerials") || !strcmp(name, "colorgroup")) {
