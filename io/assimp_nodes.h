@@ -49,6 +49,11 @@ froe_status io_gltf_is_whole(formats_sink *sink, const struct aiScene *scene, co
 bool io_is_stl(const formats_source *source);
 /** Before the import: FROE_E_FORMAT where an STL file is cut off, or has another length than its header says. */
 froe_status io_stl_check(const formats_source *source, formats_sink *sink);
+/** Is it COLLADA, by its extension? */
+bool io_is_collada(const formats_source *source);
+/** Before the import: FROE_E_UNSUPPORTED or FROE_E_FORMAT where a COLLADA file has what assimp passes over in silence.
+ * Geometries that are no meshes are counted in the report. */
+froe_status io_collada_check(const formats_source *source, formats_sink *sink);
 /** What assimp calls the format of a scene; "": nothing. */
 const char *io_assimp_format(const struct aiScene *scene);
 /** out = a b, of 3 x 4 matrices; out is another. */

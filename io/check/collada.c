@@ -1,0 +1,159 @@
+/* collada.c: what a COLLADA file (version 1.4.1) may say that assimp passes over, so that the model would be another.
+ *
+ *     instance_node, instance_geometry, instance_controller: what they name must be in the file
+ *     trifans      assimp takes a fan of triangles for a polygon
+ *     p            assimp takes a negative index for 0
+ *     geometry     what is neither mesh nor instanced is counted: splines, and hulls of other meshes
+ *
+ * Whatever assimp refuses by itself is left to it, and so is a text that is no XML. */
+#include "assimp_nodes.h"
+#include <expat.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct reference {
+    size_t name; /* in `text` */
+    const char *element;
+    unsigned long line;
+} reference;
+
+typedef struct collada_check {
+    const formats_source *source;
+    formats_sink *sink;
+    froe_status status;
+    XML_Parser parser;
+    ARRAY(char) text;       /* names, each with a NUL */
+    ARRAY(size_t) ids;      /* where those of geometries, controllers and nodes begin */
+    ARRAY(reference) named; /* what must be among them */
+    size_t depth, geometry; /* of the element, from 1; of the geometry that it is in, or 0 */
+    bool indices;           /* in an element p */
+    bool scenes;            /* in the library of scenes, or behind it */
+} collada_check;
+
+bool io_is_collada(const formats_source *source) {
+    return !strcmp(source->extension.text, "dae");
+}
+
+static void stop(collada_check *c, froe_status status) {
+    c->status = status;
+    XML_StopParser(c->parser, XML_FALSE);
+}
+
+static void fail(collada_check *c, froe_status status, const char *sentence) {
+    stop(c, support_fail(c->sink->diag, status, "%s: line %lu: %s", support_short(c->source->path),
+                         (unsigned long)XML_GetCurrentLineNumber(c->parser), sentence));
+}
+
+static const char *attribute(const char **attributes, const char *name) {
+    for (; *attributes; attributes += 2)
+        if (!strcmp(attributes[0], name)) return attributes[1];
+    return NULL;
+}
+
+/* Keeps a name; *at is where. */
+static bool keep(collada_check *c, const char *name, size_t *at) {
+    *at = c->text.count;
+    if (array_append(&c->sink->alloc, &c->text, name, strlen(name) + 1)) return true;
+    stop(c, support_fail_memory(c->sink->diag));
+    return false;
+}
+
+static void define(collada_check *c, const char *name) {
+    size_t at;
+    if (!name || c->status || !keep(c, name, &at)) return;
+    if (!array_push(&c->sink->alloc, &c->ids, at)) stop(c, support_fail_memory(c->sink->diag));
+}
+
+static void refer(collada_check *c, const char *element, const char *name) {
+    reference r = {.element = element, .line = XML_GetCurrentLineNumber(c->parser)};
+    if (!keep(c, name ? name : "", &r.name)) return;
+    if (!array_push(&c->sink->alloc, &c->named, r)) stop(c, support_fail_memory(c->sink->diag));
+}
+
+static void XMLCALL begin_element(void *user, const char *name, const char **attributes) {
+    static const char *const defined[] = {"geometry", "controller", "node"};
+    static const char *const others[] = {"spline", "convex_mesh", "brep"}; /* than a mesh */
+    static const char *const naming[] = {"instance_geometry", "instance_controller", "instance_node"};
+    collada_check *c = user;
+    if (c->status) return;
+    c->depth++;
+    for (size_t i = 0; i < sizeof defined / sizeof *defined; i++)
+        if (!strcmp(name, defined[i])) define(c, attribute(attributes, "id"));
+    if (!strcmp(name, "library_visual_scenes")) c->scenes = true;
+    if (!strcmp(name, "node") && c->scenes)
+        define(c, attribute(attributes, "name")); /* by which assimp finds it, too */
+    for (size_t i = 0; i < sizeof naming / sizeof *naming && !c->status; i++)
+        if (!strcmp(name, naming[i])) refer(c, naming[i], attribute(attributes, "url"));
+    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
+        c->sink->report.skipped += c->geometry && c->depth == c->geometry + 1 && !strcmp(name, others[i]);
+    if (!strcmp(name, "geometry")) c->geometry = c->depth;
+    c->indices = !strcmp(name, "p");
+    if (!c->status && !strcmp(name, "trifans"))
+        fail(c, FROE_E_UNSUPPORTED, "Fans of triangles (trifans) are not read.");
+}
+
+static void XMLCALL end_element(void *user, const char *name) {
+    (void)name;
+    collada_check *c = user;
+    if (c->geometry == c->depth) c->geometry = 0;
+    c->depth--;
+    c->indices = false;
+}
+
+static void XMLCALL read_text(void *user, const char *text, int length) {
+    collada_check *c = user;
+    if (c->indices && !c->status && memchr(text, '-', (size_t)length)) fail(c, FROE_E_FORMAT, "An index is negative.");
+}
+
+static int order_names(const void *x, const void *y) {
+    return strcmp(*(const char *const *)x, *(const char *const *)y);
+}
+
+/* Is everything there that is named? */
+static froe_status check_names(collada_check *c) {
+    ARRAY(const char *) ids = {0};
+    if (!array_reserve(&c->sink->alloc, &ids, c->ids.count)) return support_fail_memory(c->sink->diag);
+    for (size_t i = 0; i < c->ids.count; i++) ids.data[i] = c->text.data + c->ids.data[i];
+    if (c->ids.count) qsort(ids.data, c->ids.count, sizeof *ids.data, order_names);
+    for (size_t i = 0; i < c->named.count && !c->status; i++) {
+        const reference r = c->named.data[i];
+        const char *name = c->text.data + r.name, *id = name + 1;
+        if (*name == '#' && c->ids.count && bsearch(&id, ids.data, c->ids.count, sizeof *ids.data, order_names))
+            continue;
+        c->status =
+            support_fail(c->sink->diag, FROE_E_FORMAT, "%s: line %lu: '%.80s', which %s names, is not in this file.",
+                         support_short(c->source->path), r.line, name, r.element);
+    }
+    array_free(&c->sink->alloc, &ids);
+    return c->status;
+}
+
+static froe_status parse(collada_check *c) {
+    enum { CHUNK = 1 << 20 };
+    formats_text text = {0};
+    c->status = formats_load_part(c->source, c->sink, 0, (size_t)c->source->size, &text);
+    bool whole = !c->status;
+    for (size_t at = 0; at < text.count && whole && !c->status; at += CHUNK) {
+        const size_t size = text.count - at < CHUNK ? text.count - at : CHUNK;
+        whole = XML_Parse(c->parser, text.data + at, (int)size, at + size == text.count) != XML_STATUS_ERROR;
+        if (!whole && XML_GetErrorCode(c->parser) == XML_ERROR_NO_MEMORY)
+            c->status = support_fail_memory(c->sink->diag);
+        if (!c->status) c->status = formats_sink_progress(c->sink, 0);
+    }
+    array_free(&c->sink->alloc, &text);
+    return c->status || !whole ? c->status : check_names(c);
+}
+
+froe_status io_collada_check(const formats_source *source, formats_sink *sink) {
+    collada_check c = {.source = source, .sink = sink, .parser = XML_ParserCreate(NULL)};
+    if (!c.parser) return support_fail_memory(sink->diag);
+    XML_SetUserData(c.parser, &c);
+    XML_SetElementHandler(c.parser, begin_element, end_element);
+    XML_SetCharacterDataHandler(c.parser, read_text);
+    const froe_status status = parse(&c);
+    XML_ParserFree(c.parser);
+    array_free(&sink->alloc, &c.text);
+    array_free(&sink->alloc, &c.ids);
+    array_free(&sink->alloc, &c.named);
+    return status;
+}
