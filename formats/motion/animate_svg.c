@@ -3,17 +3,20 @@
  * take, with the axes; below runs a time line with the contacts. Where nothing moves, as in print or where the reader
  * wants less motion, it is the picture of the beginning. */
 #include "formats/motion/animate.h"
+#include "support/decimal/decimal.h"
 #include "support/nice.h"
 #include <math.h>
 #include <stdio.h>
 
-enum { CHORDS = 8 };                                /* of a parabola */
-enum { LEFT = 64, RIM = 14, AXIS = 40, LINE = 36 }; /* margins: numbers, edges, numbers below, the time line */
+enum { CHORDS = 8 }; /* of a parabola */
+/* margins: numbers, edges, numbers below, the time line; how wide a digit is at most */
+enum { LEFT = 64, RIM = 14, AXIS = 40, LINE = 36, DIGIT = 7 };
 
 typedef struct layout {
     formats_writer *w;
     const formats_animation *a;
     double width, height; /* of the picture above the time line */
+    double left;          /* margin: LEFT, or more where numbers are long */
     double scale, x0, y0; /* x0 + scale x, y0 - scale y */
 } layout;
 
@@ -33,17 +36,54 @@ static double share_of(const formats_animation *a, double time) {
     return (time - a->begin) / (a->end - a->begin);
 }
 
-static layout lay_out(formats_writer *w, const formats_animation *a) {
-    layout s = {.w = w, .a = a, .width = a->options.width, .scale = 1};
-    const double room = 0.5 * (s.width - LEFT - RIM),
+/* Lines of the grid across one axis. */
+typedef struct grid_lines {
+    double origin, each; /* the place of x is origin + each x */
+    double first, last;  /* multiples of the step */
+    double step;
+} grid_lines;
+
+static grid_lines find_grid(const layout *s, int axis) {
+    grid_lines g = {axis ? s->y0 : s->x0, axis ? -s->scale : s->scale, 1, 0, 1};
+    const double first = axis ? s->height - AXIS : s->left, last = axis ? RIM : s->width - RIM;
+    const double from = (first - g.origin) / g.each, to = (last - g.origin) / g.each;
+    const double step = support_nice_above((to - from) * (axis ? 60 : 90) / (fabs(last - first) + 1));
+    if (!(step > 0) || !isfinite(to) || !isfinite(from) || to / step > 0x1p52) return g;
+    g.first = ceil(from / step), g.step = step, g.last = g.first;
+    while ((g.last + 1) * step <= to) g.last++;
+    if (g.first * step > to) g.last = g.first - 1;
+    return g;
+}
+
+/* A multiple of the step has as many digits as its number, and one more. Returns the length. */
+static size_t format_tick(char text[SUPPORT_DECIMAL_ROOM], const grid_lines *g, double i) {
+    return support_decimal_format(text, i == 0 ? 0 : i * g->step, fabs(i) < 1e14 ? 15 : 17);
+}
+
+static layout lay_out_beside(formats_writer *w, const formats_animation *a, double left) {
+    layout s = {.w = w, .a = a, .width = a->options.width, .left = left, .scale = 1};
+    const double room = 0.5 * (s.width - left - RIM),
                  most = 0.6 * s.width; /* halves: whole extents may be no doubles */
     const double across = 0.5 * a->hi[0] - 0.5 * a->lo[0], up = 0.5 * a->hi[1] - 0.5 * a->lo[1];
     const double scale = fmin(across > 0 ? room / across : HUGE_VAL, up > 0 ? most / up : HUGE_VAL);
     if (isfinite(scale)) s.scale = scale; /* else no extent, or hardly any */
     s.height = ceil(2 * fmin(fmax(up * s.scale, 20), most)) + RIM + AXIS;
-    s.x0 = LEFT + room - s.scale * (0.5 * a->lo[0] + 0.5 * a->hi[0]);
+    s.x0 = left + room - s.scale * (0.5 * a->lo[0] + 0.5 * a->hi[0]);
     s.y0 = RIM + 0.5 * (s.height - RIM - AXIS) + s.scale * (0.5 * a->lo[1] + 0.5 * a->hi[1]);
     return s;
+}
+
+/* With room for the longest number beside the picture. */
+static layout lay_out(formats_writer *w, const formats_animation *a) {
+    const layout s = lay_out_beside(w, a, LEFT);
+    const grid_lines g = find_grid(&s, 1);
+    char text[SUPPORT_DECIMAL_ROOM];
+    size_t longest = 0;
+    for (double i = g.first; i <= g.last; i++) {
+        const size_t length = format_tick(text, &g, i);
+        if (length > longest) longest = length;
+    }
+    return lay_out_beside(w, a, fmax(LEFT, (double)(8 + DIGIT * longest)));
 }
 
 static void put_spot(const layout *s, const char *format, const double *at) {
@@ -167,25 +207,22 @@ static void put_label(formats_writer *w, double x, double y, const char *anchor)
     formats_put(w, "\">");
 }
 
-/* Lines of the grid across one axis, with their numbers. */
+/* Lines of the grid across one axis, with their numbers. One at the right end stands left of it where it is long. */
 static void put_axis(const layout *s, int axis) {
-    const double origin = axis ? s->y0 : s->x0, each = axis ? -s->scale : s->scale;
-    const double first = axis ? s->height - AXIS : LEFT, last = axis ? RIM : s->width - RIM;
-    const double from = (first - origin) / each, to = (last - origin) / each;
-    const double step = support_nice_above((to - from) * (axis ? 60 : 90) / (fabs(last - first) + 1));
-    if (!(step > 0) || !isfinite(to) || !isfinite(from) || to / step > 0x1p52) return;
-    for (double i = ceil(from / step); i * step <= to; i++) {
-        const double at = origin + each * i * step;
+    const grid_lines g = find_grid(s, axis);
+    char text[SUPPORT_DECIMAL_ROOM];
+    for (double i = g.first; i <= g.last; i++) {
+        const double at = g.origin + g.each * i * g.step, half = 0.5 * DIGIT * (double)format_tick(text, &g, i);
         if (axis) {
-            put_format(s->w, "<path class=\"grid\" d=\"M%.0f %.1f", LEFT, at);
+            put_format(s->w, "<path class=\"grid\" d=\"M%.0f %.1f", s->left, at);
             put_format(s->w, "H%.0f\"/>", s->width - RIM, 0);
-            put_label(s->w, LEFT - 6, at + 4, "end");
+            put_label(s->w, s->left - 6, at + 4, "end");
         } else {
             put_format(s->w, "<path class=\"grid\" d=\"M%.1f %.0f", at, RIM);
             put_format(s->w, "V%.0f\"/>", s->height - AXIS, 0);
-            put_label(s->w, at, s->height - AXIS + 16, "middle");
+            put_label(s->w, fmin(at, s->width - half), s->height - AXIS + 16, "middle");
         }
-        formats_put_number(s->w, i * step);
+        formats_put(s->w, text);
         formats_put(s->w, "</text>\n");
     }
 }
@@ -225,19 +262,19 @@ static void put_time(const layout *s, double time) {
 
 static void put_time_line(const layout *s) {
     const formats_animation *a = s->a;
-    const double wide = s->width - LEFT - RIM, top = s->height + 2;
-    put_format(s->w, "<path class=\"grid\" stroke-width=\"12\" d=\"M%.0f %.0f", LEFT, top + 6);
+    const double wide = s->width - s->left - RIM, top = s->height + 2;
+    put_format(s->w, "<path class=\"grid\" stroke-width=\"12\" d=\"M%.0f %.0f", s->left, top + 6);
     put_format(s->w, "H%.0f\"/>\n", s->width - RIM, 0);
     for (size_t i = 0; i < a->count; i++) {
         const double from = share_of(a, a->contacts[i].begin[0]), to = share_of(a, a->contacts[i].end[1]);
-        put_format(s->w, "<rect class=\"mark\" x=\"%.1f\" y=\"%.0f", LEFT + from * wide - 1.5, top);
+        put_format(s->w, "<rect class=\"mark\" x=\"%.1f\" y=\"%.0f", s->left + from * wide - 1.5, top);
         put_format(s->w, "\" width=\"%.1f\" height=\"12\"/>\n", fmax((to - from) * wide, 3), 0);
     }
-    put_format(s->w, "<rect class=\"now\" x=\"%.1f\" y=\"%.0f\" width=\"2\" height=\"16\">", LEFT - 1, top - 2);
-    put_format(s->w, "<animate attributeName=\"x\" values=\"%.1f;%.1f", LEFT - 1, LEFT + wide - 1);
+    put_format(s->w, "<rect class=\"now\" x=\"%.1f\" y=\"%.0f\" width=\"2\" height=\"16\">", s->left - 1, top - 2);
+    put_format(s->w, "<animate attributeName=\"x\" values=\"%.1f;%.1f", s->left - 1, s->left + wide - 1);
     put_loop(s->w, a);
     formats_put(s->w, "</rect>\n");
-    put_label(s->w, LEFT, top + 26, "start");
+    put_label(s->w, s->left, top + 26, "start");
     put_time(s, a->begin);
     formats_put(s->w, "</text>\n");
     put_label(s->w, s->width - RIM, top + 26, "end");
@@ -251,8 +288,9 @@ froe_status formats_animate_svg(formats_writer *w, const formats_animation *a, f
     formats_put(w, "<svg xmlns=\"http://www.w3.org/2000/svg\" role=\"img\" ");
     put_format(w, "width=\"%.0f\" height=\"%.0f\" ", s.width, s.height + LINE);
     put_format(w, "viewBox=\"0 0 %.0f %.0f\">\n<title>", s.width, s.height + LINE);
-    formats_put_whole(w, froe_motion_object_count(a->motion));
-    formats_put(w, " moving segments; those in contact are orange</title>\n");
+    const size_t count = froe_motion_object_count(a->motion);
+    formats_put_whole(w, count);
+    formats_put(w, count == 1 ? " moving segment; those" : " moving segments; those in contact are orange</title>\n");
     put_style(w);
     formats_put(w, "<rect class=\"sheet\" width=\"100%\" height=\"100%\"/>\n");
     put_axis(&s, 0);

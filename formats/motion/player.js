@@ -11,7 +11,8 @@ const contacts = joined(motion.contacts.sort((a, b) => a[2] - b[2])), rows = [];
 
 /* -- numbers ---------------------------------------------------------------- */
 
-const day = 86400000, plain = value => String(+value.toPrecision(10));
+const day = 86400000;
+const plain = value => String(Number.isSafeInteger(value) ? value : +value.toPrecision(15));
 const name = object => motion.objects[object][4] || (solid ? 'triangle ' : 'segment ') + object;
 
 /* In space, contacts of the same two parts that follow one another without a gap are one. Those that last all the time,
@@ -294,7 +295,8 @@ list();
 picture.parentElement.style.maxWidth = motion.width + 'px';
 $('first').textContent = time(motion.begin, true);
 $('final').textContent = time(motion.end, true);
-$('among').textContent = 'of ' + motion.objects.length + (solid ? ' moving triangles' : ' moving segments') +
+$('among').textContent = 'of ' + motion.objects.length + (solid ? ' moving triangle' : ' moving segment') +
+  (motion.objects.length === 1 ? '' : 's') +
   (lasting ? '; ' + lasting + (lasting > 1 ? ' pairs touch' : ' pair touches') + ' all the time' : '') +
   (motion.clock ? '. Times are hours, minutes and seconds, UTC.' : '. Times are numbers of the file.');
 new ResizeObserver(lay).observe(picture.parentElement);
