@@ -147,6 +147,8 @@ static int draw(film_run *r) {
                                                 : draw_frames(r, (size_t)frames, write, &diag);
     cli_progress_end(&bar);
     if (status) return fail_to_draw(args, status, &diag);
+    if (args->animate && !r->film.paths)
+        (void)cli_fail(0, args->output.name, "note: Nothing is drawn in any of the pictures.");
     return cli_report(&args->common, NULL, report_film(r));
 }
 
