@@ -2,12 +2,16 @@
  *
  *     instance_node, instance_geometry, instance_controller: what they name must be in the file
  *     trifans      assimp takes a fan of triangles for a polygon
+ *     rotate       assimp stretches the model where the axis has another length than 1
+ *     matrix       assimp leaves out what the last row says
  *     p            assimp takes a negative index for 0
  *     geometry     what is neither mesh nor instanced is counted: splines, and hulls of other meshes
  *
  * Whatever assimp refuses by itself is left to it, and so is a text that is no XML. */
 #include "assimp_nodes.h"
+#include "support/decimal/decimal.h"
 #include <expat.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -23,10 +27,12 @@ typedef struct collada_check {
     froe_status status;
     XML_Parser parser;
     ARRAY(char) text;       /* names, each with a NUL */
+    ARRAY(char) numbers;    /* what stands in an element rotate or matrix */
     ARRAY(size_t) ids;      /* where those of geometries, controllers and nodes begin */
     ARRAY(reference) named; /* what must be among them */
     size_t depth, geometry; /* of the element, from 1; of the geometry that it is in, or 0 */
     bool indices;           /* in an element p */
+    bool turns, matrix;     /* in an element rotate; in a matrix */
     bool scenes;            /* in the library of scenes, or behind it */
 } collada_check;
 
@@ -88,8 +94,23 @@ static void XMLCALL begin_element(void *user, const char *name, const char **att
         c->sink->report.skipped += c->geometry && c->depth == c->geometry + 1 && !strcmp(name, others[i]);
     if (!strcmp(name, "geometry")) c->geometry = c->depth;
     c->indices = !strcmp(name, "p");
+    c->turns = !strcmp(name, "rotate");
+    c->matrix = !strcmp(name, "matrix");
+    c->numbers.count = 0;
     if (!c->status && !strcmp(name, "trifans"))
         fail(c, FROE_E_UNSUPPORTED, "Fans of triangles (trifans) are not read.");
+}
+
+/* An axis may have been rounded to three digits. The last number of a matrix may be 1 as single precision rounds it. */
+static void check_numbers(collada_check *c) {
+    double at[16] = {0};
+    char *from = c->numbers.data, *end;
+    for (size_t i = 0; i < sizeof at / sizeof *at; i++, from = end) at[i] = support_decimal(from, &end);
+    const double length = at[0] * at[0] + at[1] * at[1] + at[2] * at[2];
+    if (c->turns && at[3] != 0 && !(fabs(length - 1) < 2e-3))
+        fail(c, FROE_E_FORMAT, "The axis of a rotation has not the length 1.");
+    if (c->matrix && !(at[12] == 0 && at[13] == 0 && at[14] == 0 && fabs(at[15] - 1) < 1e-6))
+        fail(c, FROE_E_FORMAT, "The last row of a matrix is not 0, 0, 0 and 1.");
 }
 
 static void XMLCALL end_element(void *user, const char *name) {
@@ -97,12 +118,20 @@ static void XMLCALL end_element(void *user, const char *name) {
     collada_check *c = user;
     if (c->geometry == c->depth) c->geometry = 0;
     c->depth--;
-    c->indices = false;
+    if ((c->turns || c->matrix) && !c->status) {
+        if (array_push(&c->sink->alloc, &c->numbers, '\0'))
+            check_numbers(c);
+        else
+            stop(c, support_fail_memory(c->sink->diag));
+    }
+    c->indices = c->turns = c->matrix = false;
 }
 
 static void XMLCALL read_text(void *user, const char *text, int length) {
     collada_check *c = user;
     if (c->indices && !c->status && memchr(text, '-', (size_t)length)) fail(c, FROE_E_FORMAT, "An index is negative.");
+    if ((c->turns || c->matrix) && !c->status && !array_append(&c->sink->alloc, &c->numbers, text, (size_t)length))
+        stop(c, support_fail_memory(c->sink->diag));
 }
 
 static int order_names(const void *x, const void *y) {
@@ -153,6 +182,7 @@ froe_status io_collada_check(const formats_source *source, formats_sink *sink) {
     const froe_status status = parse(&c);
     XML_ParserFree(c.parser);
     array_free(&sink->alloc, &c.text);
+    array_free(&sink->alloc, &c.numbers);
     array_free(&sink->alloc, &c.ids);
     array_free(&sink->alloc, &c.named);
     return status;
