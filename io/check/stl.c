@@ -1,5 +1,5 @@
-/* stl.c: is an STL file whole? assimp reads a text that was cut off as far as it goes. Of a binary file whose length is
- * another one than its header says, it tells only that the type is unknown.
+/* stl.c: is an STL file whole? assimp reads a text that was cut off as far as it goes, and of a facet the first three
+ * vertices. Of a binary file whose length is another one than its header says, it tells only that the type is unknown.
  *
  *     80 bytes: anything   4 bytes: the number of triangles   50 bytes: a triangle   50 bytes: a triangle   ... */
 #include "assimp_nodes.h"
@@ -12,23 +12,51 @@ bool io_is_stl(const formats_source *source) {
     return !strcmp(source->extension.text, "stl");
 }
 
-/* Does the last line of the text begin with "endsolid"? A name of any length may follow it. */
-static froe_status check_text(const formats_source *source, formats_sink *sink) {
-    enum { LAST = 4096 };
-    static const char word[] = "endsolid", blanks[] = " \t\r\n";
-    const size_t size = (size_t)source->size, last = size < LAST ? size : LAST;
-    formats_text text = {0};
-    const froe_status status = formats_load_part(source, sink, size - last, last, &text);
+static const char blanks[] = " \t\r\n";
+
+static bool is_word(const char *at, size_t length, const char *word) {
+    return length == strlen(word) && !strncasecmp(at, word, length);
+}
+
+/* The line, from 1, of the first vertex behind the third of a facet, which assimp leaves out; 0: there is none. */
+static size_t find_fourth(const char *text) {
+    size_t line = 1, vertices = 0, length;
+    bool inside = false; /* a facet: names of solids may be any words */
+    for (const char *at = text; *at; at += length) {
+        for (; *at && strchr(blanks, *at); at++) line += *at == '\n';
+        length = strcspn(at, blanks);
+        if (is_word(at, length, "facet")) inside = true, vertices = 0;
+        if (is_word(at, length, "endfacet")) inside = false;
+        if (inside && is_word(at, length, "vertex") && ++vertices > 3) return line;
+    }
+    return 0;
+}
+
+/* Does the last line of the text begin with "endsolid"? A name may follow it. */
+static bool is_whole(const char *text) {
+    static const char word[] = "endsolid";
     bool whole = false;
-    for (const char *at = status ? NULL : text.data; at; at = strpbrk(at, "\r\n")) {
+    for (const char *at = text; at; at = strpbrk(at, "\r\n")) {
         at += strspn(at, blanks);
         if (*at) whole = !strncasecmp(at, word, strlen(word));
     }
+    return whole;
+}
+
+static froe_status check_text(const formats_source *source, formats_sink *sink) {
+    const char *name = support_short(source->path);
+    formats_text text = {0};
+    froe_status status = formats_load_part(source, sink, 0, (size_t)source->size, &text);
+    const size_t line = status ? 0 : find_fourth(text.data);
+    if (line)
+        status =
+            support_fail(sink->diag, FROE_E_FORMAT, "%s: line %zu: The facet has more than 3 vertices.", name, line);
+    if (!status && !is_whole(text.data))
+        status =
+            support_fail(sink->diag, FROE_E_FORMAT,
+                         "%s: The text does not end with a line 'endsolid', so that triangles may be missing.", name);
     array_free(&sink->alloc, &text);
-    if (status || whole) return status;
-    return support_fail(sink->diag, FROE_E_FORMAT,
-                        "%s: The text does not end with a line 'endsolid', so that triangles may be missing.",
-                        support_short(source->path));
+    return status;
 }
 
 froe_status io_stl_check(const formats_source *source, formats_sink *sink) {
