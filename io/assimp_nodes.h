@@ -2,7 +2,6 @@
  * of their meshes are read. It speaks for read_assimp.c. */
 #ifndef FROE_IO_ASSIMP_NODES_H
 #define FROE_IO_ASSIMP_NODES_H
-#include "formats/input/json.h"
 #include "readers.h"
 #include <assimp/scene.h>
 
@@ -21,39 +20,6 @@ typedef froe_status io_arrange_fn(void *user, const formats_source *source, form
 /** As io_read_assimp(), with such a function in between. The list is the caller's; nodes are gone afterwards. */
 froe_status io_read_arranged(const formats_source *source, formats_sink *sink, io_nodes *nodes, io_arrange_fn *arrange,
                              void *user);
-/** Is it glTF, of any version? */
-bool io_is_gltf(const formats_source *source);
-enum { IO_GLB_HEADER = 12, IO_GLB_CHUNK = 8 }; /**< bytes before the chunks of a .glb, and before those of each */
-/** A whole number of 4 bytes in a .glb. */
-size_t io_glb_number(const char *at);
-/** Do `size` bytes that begin as a .glb go on as version 2, by a chunk of JSON? */
-bool io_glb_is_2(const char *bytes, size_t size);
-
-/** A primitive of a mesh of glTF, which assimp makes a mesh of its own: the number of its mesh, and how many points,
- * edges or triangles it has. */
-typedef struct io_gltf_part {
-    size_t mesh, faces;
-} io_gltf_part;
-/** What is found before the import and looked at after it. */
-typedef struct io_gltf_found {
-    ARRAY(io_gltf_part) parts;
-    formats_json_error error; /**< of a text that is no JSON; line 0: there is none */
-} io_gltf_found;
-
-/** Before the import: FROE_E_UNSUPPORTED or FROE_E_FORMAT where a glTF file says something about the places of faces
- * that assimp passes over in silence. The parts are the caller's. */
-froe_status io_gltf_check(const formats_source *source, formats_sink *sink, io_gltf_found *found);
-/** After it: FROE_E_FORMAT where assimp has left out faces, or has read a text that could not be looked through. */
-froe_status io_gltf_is_whole(formats_sink *sink, const struct aiScene *scene, const io_gltf_found *found);
-/** Is it STL, by its extension? */
-bool io_is_stl(const formats_source *source);
-/** Before the import: FROE_E_FORMAT where an STL file is cut off, or has another length than its header says. */
-froe_status io_stl_check(const formats_source *source, formats_sink *sink);
-/** Is it COLLADA, by its extension? */
-bool io_is_collada(const formats_source *source);
-/** Before the import: FROE_E_UNSUPPORTED or FROE_E_FORMAT where a COLLADA file has what assimp passes over in silence.
- * Geometries that are no meshes are counted in the report. */
-froe_status io_collada_check(const formats_source *source, formats_sink *sink);
 /** What assimp calls the format of a scene; "": nothing. */
 const char *io_assimp_format(const struct aiScene *scene);
 /** out = a b, of 3 x 4 matrices; out is another. */

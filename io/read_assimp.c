@@ -4,6 +4,7 @@
  * multiplied out in double. Nodes are listed with an explicit stack. */
 #include "assimp_nodes.h"
 #include "assimp_paint.h"
+#include "check/check.h"
 #include "readers.h"
 #include <assimp/cimport.h>
 #include <assimp/commonMetaData.h>

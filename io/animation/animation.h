@@ -5,6 +5,7 @@
 #define FROE_IO_ANIMATION_H
 #include "animation/track.h"
 #include "assimp_nodes.h"
+#include "check/check.h"
 
 /** A node and its three properties. One without keys is as it is at rest. */
 typedef struct io_channel {

@@ -8,7 +8,7 @@
  *     geometry     what is neither mesh nor instanced is counted: splines, and hulls of other meshes
  *
  * Whatever assimp refuses by itself is left to it, and so is a text that is no XML. */
-#include "assimp_nodes.h"
+#include "check/check.h"
 #include "support/decimal/decimal.h"
 #include <expat.h>
 #include <math.h>

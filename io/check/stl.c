@@ -2,7 +2,7 @@
  * vertices. Of a binary file whose length is another one than its header says, it tells only that the type is unknown.
  *
  *     80 bytes: anything   4 bytes: the number of triangles   50 bytes: a triangle   50 bytes: a triangle   ... */
-#include "assimp_nodes.h"
+#include "check/check.h"
 #include <string.h>
 #include <strings.h>
 

@@ -1,9 +1,10 @@
-/* gltf_check.c: what a glTF file (version 2.0) may say that assimp passes over, so that the model would be another one.
+/* gltf.c: what a glTF file (version 2.0) may say that assimp passes over, so that the model would be another one.
  *
  * Those are extensions that it requires (3.12), positions that are no floating-point numbers (KHR_mesh_quantization),
  * nodes that stand for many (EXT_mesh_gpu_instancing), transformations of another shape than there are (3.5.3), and
  * faces with wrong indices, which assimp leaves out. Whatever assimp refuses by itself is left to it. */
 #include "assimp_nodes.h"
+#include "check/check.h"
 #include "formats/input/json.h"
 #include <math.h>
 #include <stdio.h>
