@@ -7,7 +7,6 @@
  * So answers come out in the order of the questions, and each rank holds those of one part. A bad question or row ends
  * the run: what stands in front of it is answered. */
 #include "ask.h"
-#include "cli/exit.h"
 #include "output.h"
 #include "rows.h"
 #include "support/array.h"
@@ -224,8 +223,7 @@ static froe_status refuse_groups(const step *s, froe_diagnostic *diag) {
                         support_short(s->asking->folder));
 }
 
-/* Collective: rank 0 says why, and all have its exit code. */
-static int fail(const mpi_ranks *ranks, cli_stage stage, const froe_diagnostic *why) {
+int mpi_fail(const mpi_ranks *ranks, cli_stage stage, const froe_diagnostic *why) {
     int code = ranks->rank ? 0 : cli_fail_status(stage, NULL, why->status, why);
     MPI_Bcast(&code, 1, MPI_INT, 0, ranks->comm);
     return code;
@@ -258,12 +256,12 @@ int mpi_ask(const mpi_ranks *given, const mpi_asking *asking) {
     ranks.waited = &s.wait;
     s.ranks = &ranks;
     froe_status status = froe_mpi_open(ranks.comm, asking->folder, &s.folder, &diag);
-    if (status) return fail(&ranks, CLI_READING, &diag);
+    if (status) return mpi_fail(&ranks, CLI_READING, &diag);
     s.dim = froe_shards_about(froe_mpi_shards(s.folder)).dim;
     status = refuse_groups(&s, &diag);
     int code = status ? 0 : check_header(&s);
     if (!status && !code) status = go_all(&s, &code, &diag);
-    if (status) code = fail(&ranks, s.stage, &diag);
+    if (status) code = mpi_fail(&ranks, s.stage, &diag);
     mpi_count(given, &s.together, began);
     if (!code) print_costs(&s);
     array_free(&s.alloc, &s.numbers);

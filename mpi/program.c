@@ -42,34 +42,26 @@ typedef struct job {
     mpi_query query;
 } job;
 
-enum { USE = 2, INPUT = 3, RESOURCES = 4 }; /* as in cli/exit.h */
-
-/* Collective: rank 0 says why. */
-static int fail(const mpi_ranks *ranks, const froe_diagnostic *why) {
-    if (!ranks->rank) fprintf(stderr, "froe-mpi: %s\n", why->message);
-    switch (why->status) {
-    case FROE_E_ARG:
-    case FROE_E_OPTIONS:
-        return USE;
-    case FROE_E_MEMORY:
-    case FROE_E_LIMIT:
-    case FROE_E_BUDGET:
-        return RESOURCES;
-    default:
-        return INPUT;
-    }
-}
-
 /* ------------------------------------------------------------------- build -- */
 
 typedef struct build_job {
     froe_mpi_builder *builder;
+    bool refused; /* objects that were read */
     froe_diagnostic *diag;
 } build_job;
 
 static bool add_rows(void *user, const froe_objects *batch, uint64_t first) {
-    const build_job *b = user;
-    return !froe_mpi_add(b->builder, batch, first, b->diag);
+    build_job *b = user;
+    b->refused = froe_mpi_add(b->builder, batch, first, b->diag) != FROE_OK;
+    return !b->refused;
+}
+
+/* Collective. What the first rank was doing that has failed while rows were read; where none has, what comes then. */
+static cli_stage stage_of_rows(const mpi_ranks *ranks, bool failed, bool reading) {
+    const int mine = failed ? 2 * ranks->rank + reading : 2 * ranks->count;
+    int first;
+    MPI_Allreduce(&mine, &first, 1, MPI_INT, MPI_MIN, ranks->comm);
+    return first % 2 ? CLI_READING : CLI_WRITING;
 }
 
 static int build(const mpi_ranks *ranks, const job *j) {
@@ -78,15 +70,18 @@ static int build(const mpi_ranks *ranks, const job *j) {
     froe_shards_report report;
     froe_mpi_costs costs;
     int dim = 2;
+    bool unwritten;
     froe_mpi_cost together = {0};
     const froe_mpi_cost began = mpi_now(ranks);
-    froe_status status = mpi_rows_dim(ranks, j->operand, &dim, &diag);
-    if (!status) status = froe_mpi_begin(ranks->comm, j->output, dim, &j->shards, &b.builder, &diag);
-    if (status) return fail(ranks, &diag);
-    if (mpi_rows_read(ranks, j->operand, froe_mpi_draft(b.builder), add_rows, &b, &diag))
-        froe_mpi_fail(b.builder, &diag);
+    froe_status status = mpi_rows_dim(ranks, j->operand, &dim, &unwritten, &diag);
+    if (status) return mpi_fail(ranks, unwritten ? CLI_WRITING : CLI_READING, &diag);
+    status = froe_mpi_begin(ranks->comm, j->output, dim, &j->shards, &b.builder, &diag);
+    if (status) return mpi_fail(ranks, CLI_WRITING, &diag);
+    status = mpi_rows_read(ranks, j->operand, froe_mpi_draft(b.builder), add_rows, &b, &unwritten, &diag);
+    if (status) froe_mpi_fail(b.builder, &diag);
+    const cli_stage stage = stage_of_rows(ranks, status != FROE_OK, !b.refused && !unwritten);
     status = froe_mpi_finish(b.builder, &report, &costs, &diag);
-    if (status) return fail(ranks, &diag);
+    if (status) return mpi_fail(ranks, stage, &diag);
     mpi_count(ranks, &together, began);
     together = mpi_slowest(ranks, together);
     if (ranks->rank) return 0;
@@ -240,7 +235,7 @@ static int run(const mpi_ranks *ranks, int argc, char **argv) {
     const mpi_asking asking = {.folder = j.operand, .input = j.queries, .output = j.output, .query = j.query};
     if (good) return mpi_ask(ranks, &asking);
     if (!ranks->rank) fputs(help, asked ? stdout : stderr);
-    return asked ? 0 : USE;
+    return asked ? 0 : CLI_USE;
 }
 
 /* What cli/exit.c asks of the command line of froe: there is no --limit-time here. */

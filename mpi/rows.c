@@ -23,6 +23,7 @@ typedef struct row_file {
     char *header; /* with its line end, and none in front of it */
     size_t header_room;
     off_t begin, end; /* of this rank's rows */
+    bool unwritten;   /* it is the copy of a part that failed */
     froe_diagnostic *diag;
 } row_file;
 
@@ -87,8 +88,9 @@ typedef struct part_file {
     uint64_t rows;
 } part_file;
 
-static froe_status fail_part(const row_file *f, const part_file *part) {
-    return support_fail_file(f->diag, "written", part->name, errno);
+static froe_status fail_part(row_file *f, const part_file *part, const char *done) {
+    f->unwritten = true;
+    return support_fail_file(f->diag, done, part->name, errno);
 }
 
 /* Reads what lies between two places, counts its rows, and copies it to a part, if there is one. */
@@ -102,7 +104,7 @@ static froe_status pass_lines(row_file *f, off_t begin, off_t end, const part_fi
         const size_t count = fread(block, 1, most, f->file);
         if (!count) return fail_file(f, "read");
         if (memchr(block, '"', count)) return fail_quoted(f);
-        if (to && fwrite(block, 1, count, to->file) != count) return fail_part(f, to);
+        if (to && fwrite(block, 1, count, to->file) != count) return fail_part(f, to, "written");
         *rows += count_rows(block, count, &blank);
         left -= (off_t)count;
     }
@@ -131,13 +133,13 @@ static froe_status read_names(const row_file *f, bool *tagged) {
                  : FROE_OK;
 }
 
-static froe_status begin_part(const row_file *f, const char *folder, part_file *part) {
+static froe_status begin_part(row_file *f, const char *folder, part_file *part) {
     static const char ending[] = ".csv";
     *part = (part_file){.file = NULL};
     snprintf(part->name, sizeof part->name, "%.*s/.froe-XXXXXX%s", PATH_MAX, folder, ending);
     const int handle = mkstemps(part->name, (int)strlen(ending));
     part->file = handle < 0 ? NULL : fdopen(handle, "wb");
-    return part->file ? FROE_OK : support_fail_file(f->diag, "made", part->name, errno);
+    return part->file ? FROE_OK : fail_part(f, part, "made");
 }
 
 /* Copies lines between two places behind the header, and lets fn have their objects. */
@@ -150,9 +152,9 @@ static froe_status read_part(row_file *f, off_t begin, off_t end, const char *fo
     o.name = told;
     froe_status status = begin_part(f, folder, &part);
     if (status) return status;
-    if (fputs(f->header, part.file) < 0) status = fail_part(f, &part);
+    if (fputs(f->header, part.file) < 0) status = fail_part(f, &part, "written");
     if (!status) status = pass_lines(f, begin, end, &part, &part.rows);
-    if (fclose(part.file) && !status) status = fail_part(f, &part);
+    if (fclose(part.file) && !status) status = fail_part(f, &part, "written");
     if (!status && part.rows) status = froe_read_batches(part.name, &o, fn, user, NULL, f->diag);
     unlink(part.name);
     *rows = part.rows;
@@ -190,7 +192,7 @@ static froe_status take_dim(void *user, int dim, const froe_objects *batch, froe
     return FROE_OK;
 }
 
-static froe_status find_dim(const char *path, int *dim, froe_diagnostic *diag) {
+static froe_status find_dim(const char *path, int *dim, bool *unwritten, froe_diagnostic *diag) {
     row_file f = {.path = path, .diag = diag};
     const char *folder = getenv("TMPDIR");
     bool tagged;
@@ -206,11 +208,14 @@ static froe_status find_dim(const char *path, int *dim, froe_diagnostic *diag) {
     if (!status && !*dim) status = support_fail(diag, FROE_E_INPUT, "%s: There are no objects.", support_short(path));
     if (f.file) fclose(f.file);
     free(f.header);
+    *unwritten = f.unwritten;
     return status;
 }
 
-froe_status mpi_rows_dim(const mpi_ranks *ranks, const char *path, int *dim, froe_diagnostic *diag) {
-    const froe_status status = mpi_agree(ranks, ranks->rank ? FROE_OK : find_dim(path, dim, diag), diag);
+froe_status mpi_rows_dim(const mpi_ranks *ranks, const char *path, int *dim, bool *unwritten, froe_diagnostic *diag) {
+    *unwritten = false;
+    const froe_status mine = ranks->rank ? FROE_OK : find_dim(path, dim, unwritten, diag);
+    const froe_status status = mpi_agree(ranks, mine, diag);
     MPI_Bcast(dim, 1, MPI_INT, 0, ranks->comm);
     return status;
 }
@@ -235,7 +240,7 @@ static froe_status hand_over(void *user, int dim, const froe_objects *given, fro
 }
 
 froe_status mpi_rows_read(const mpi_ranks *ranks, const char *path, const char *folder, mpi_rows_fn *fn, void *user,
-                          froe_diagnostic *diag) {
+                          bool *unwritten, froe_diagnostic *diag) {
     row_file f = {.path = path, .diag = diag};
     receiver r = {.fn = fn, .user = user};
     uint64_t rows = 0, first = 0;
@@ -250,5 +255,6 @@ froe_status mpi_rows_read(const mpi_ranks *ranks, const char *path, const char *
     }
     if (f.file) fclose(f.file);
     free(f.header);
+    *unwritten = f.unwritten;
     return status;
 }

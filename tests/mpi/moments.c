@@ -36,9 +36,9 @@ static void meet_moment(const char *function, unsigned number) {
     }
 
 MOMENT(froe_status, mpi_rows_read,
-       (const mpi_ranks *ranks, const char *path, const char *folder, mpi_rows_fn *fn, void *user,
+       (const mpi_ranks *ranks, const char *path, const char *folder, mpi_rows_fn *fn, void *user, bool *unwritten,
         froe_diagnostic *diag),
-       (ranks, path, folder, fn, user, diag))
+       (ranks, path, folder, fn, user, unwritten, diag))
 MOMENT(froe_status, froe_shard_records_add,
        (froe_shard_records * records, int dim, const froe_objects *batch, uint64_t first, froe_diagnostic *diag),
        (records, dim, batch, first, diag))
