@@ -7,9 +7,12 @@
 #include <cpl_conv.h>
 #include <cpl_string.h>
 #include <cpl_vsi.h>
+#include <errno.h>
+#include <fcntl.h>
 #include <gdal.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 /* -------------------------------------------------------------- features -- */
 
@@ -67,6 +70,8 @@ static froe_status refuse_content(map *m, const char *name) {
         return support_fail(m->sink->diag, FROE_E_FORMAT,
                             "%.60s: No single map is in it, but: %s. One of them is named %.60s/NAME.",
                             support_short(m->source->path), names.text, name);
+    if (m->container && m->source->beyond && faccessat(AT_FDCWD, name, R_OK | X_OK, AT_EACCESS) && errno == EACCES)
+        return support_fail_file(m->sink->diag, "read", m->source->path, EACCES);
     if (m->container && m->source->beyond)
         return map_fail(m, FROE_E_FORMAT, "It is a directory, and no map that can be read as a whole is in it.");
     if (formats_is_utf16(m->source)) return formats_refuse_utf16(m->source, m->sink);

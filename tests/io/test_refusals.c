@@ -24,6 +24,23 @@ static void missing_files_and_folders_are_refused(void **state) {
     unlink("secret.csv");
 }
 
+/* A folder of shards in which nothing can be looked up is none that the program could know. */
+static void folders_that_must_not_be_read_say_so(void **state) {
+    (void)state;
+    static const unsigned modes[] = {0000, 0444, 0333};
+    const bool root = geteuid() == 0; /* who reads everything */
+    assert_int_equal(mkdir("secret.froes", 0777), 0);
+    write_text("secret.froes/froe.shards", "froe shards 1\n");
+    for (size_t i = 0; i < sizeof modes / sizeof *modes; i++) {
+        assert_int_equal(chmod("secret.froes", modes[i]), 0);
+        if (root) assert_int_equal(seteuid(65534), 0);
+        refuse("secret.froes", FROE_E_IO, "secret.froes: The file cannot be read: Permission denied.");
+        if (root) assert_int_equal(seteuid(0), 0);
+    }
+    assert_int_equal(chmod("secret.froes", 0700), 0);
+    unlink("secret.froes/froe.shards"), rmdir("secret.froes");
+}
+
 static void files_of_the_wrong_type_are_refused(void **state) {
     (void)state;
     static const char *const endings[] = {"geojson", "json", "shp", "gpkg", "fgb", "dxf",  "osm", "csv", "txt", "xyz",
@@ -402,6 +419,7 @@ static void many_threads_read_at_once(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(missing_files_and_folders_are_refused),
+        cmocka_unit_test(folders_that_must_not_be_read_say_so),
         cmocka_unit_test(files_of_the_wrong_type_are_refused),
         cmocka_unit_test(text_in_utf16_is_named),
         cmocka_unit_test(broken_json_is_refused),

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "support/refusals.h" /* last: others have variables called `why` */
@@ -730,6 +731,27 @@ static void questions_are_checked(void **state) {
     froe_shards_close(s), froe_shards_close(NULL);
 }
 
+/* Its files are opened by their names, so that the folder need not be listed. */
+static void a_folder_that_cannot_be_listed_is_asked(void **state) {
+    (void)state;
+    one_object *list = lattice_objects(2, FROE_SEGMENT, 60, 5, 4);
+    froe_shards *s = NULL;
+    froe_shards_options o = froe_shards_defaults();
+    o.shards = 3;
+    const bool root = geteuid() == 0; /* who lists everything */
+    assert_int_equal(build_folder("closed.froes", 2, list, 60, &o, NULL, NULL), FROE_OK);
+    assert_int_equal(chmod("closed.froes", 0711), 0);
+    if (root) assert_int_equal(seteuid(65534), 0);
+    const bool is = froe_is_shards("closed.froes");
+    const froe_status opened = froe_shards_open("closed.froes", NULL, &s, NULL);
+    const froe_status checked = opened ? opened : froe_shards_check(s, NULL, NULL);
+    if (root) assert_int_equal(seteuid(0), 0);
+    assert_true(is);
+    assert_int_equal(checked, FROE_OK);
+    froe_shards_close(s);
+    free(list);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(batches_are_checked),
@@ -746,6 +768,7 @@ int main(void) {
         cmocka_unit_test(a_batch_that_failed_is_in_no_folder),
         cmocka_unit_test(buckets_on_a_full_disk_are_told),
         cmocka_unit_test(empty_shards_are_asked_nothing),
+        cmocka_unit_test(a_folder_that_cannot_be_listed_is_asked),
         cmocka_unit_test(scenes_become_folders_or_nothing),
         cmocka_unit_test(no_questions_need_no_room),
         cmocka_unit_test(triangles_need_no_starts),
