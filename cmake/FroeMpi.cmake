@@ -39,7 +39,7 @@ if(FROE_TESTS)
   target_link_libraries(froe_mpi_alone PRIVATE ${mpi_core})
   froe_mpi_program(froe_mpi_moments froe-mpi-moments tests/mpi/moments.c)
   foreach(call mpi_rows_read froe_shard_records_add froe_shard_plan_new froe_shard_build froe_shard_draft_sync froe_shard_draft_place
-          froe_shards_boxes pwrite flock)
+          froe_shards_boxes froe_mpi_begin pwrite flock)
     target_link_options(froe_mpi_moments PRIVATE -Wl,--wrap=${call})
   endforeach()
   file(GLOB transcripts CONFIGURE_DEPENDS tests/mpi/*.test)

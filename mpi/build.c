@@ -73,6 +73,17 @@ static froe_status begin_draft(froe_mpi_builder *b, const char *path) {
     return FROE_OK;
 }
 
+/* Collective. A rank without objects may give another dimension by mistake; what the others send would be no records
+ * to it. */
+static froe_status compare_dims(froe_mpi_builder *b) {
+    const int mine[2] = {b->dim, -b->dim};
+    int least[2];
+    MPI_Allreduce(mine, least, 2, MPI_INT, MPI_MIN, b->ranks.comm);
+    if (least[0] == -least[1]) return FROE_OK;
+    return support_fail(&b->diag, FROE_E_ARG, "The dimensions %d and %d are given by processes that build one folder.",
+                        least[0], -least[1]);
+}
+
 froe_status froe_mpi_begin(MPI_Comm comm, const char *path, int dim, const froe_shards_options *options,
                            froe_mpi_builder **out, froe_diagnostic *diag) {
     const mpi_ranks ranks = mpi_ranks_of(comm);
@@ -96,7 +107,7 @@ froe_status froe_mpi_begin(MPI_Comm comm, const char *path, int dim, const froe_
         status = support_fail(&b->diag, FROE_E_ARG, "The dimension %d is not within 2 and %d.", dim, FROE_MAX_DIM);
     if (!status && froe_shard_sample_new(dim, NULL, &b->sample)) status = support_fail_memory(&b->diag);
     if (!status) status = froe_shard_buckets_new(b->folder, 1, NULL, &b->spool, &b->diag);
-    status = mpi_agree(&b->ranks, status, &b->diag);
+    if (!(status = mpi_agree(&b->ranks, status, &b->diag))) status = compare_dims(b);
     if (status) return end_builder(b, status, diag);
     *out = b;
     return FROE_OK;

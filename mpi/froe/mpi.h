@@ -41,7 +41,7 @@ typedef struct froe_mpi_costs {
 typedef struct froe_mpi_builder froe_mpi_builder;
 
 /** Collective. Begins the folder `path`, as froe_shards_begin() does. Of options, threads count for each rank; progress
- * and alloc are ignored. */
+ * and alloc are ignored. FROE_E_ARG: not all ranks give the same dimension. */
 froe_status froe_mpi_begin(MPI_Comm comm, const char *path, int dim, const froe_shards_options *options,
                            froe_mpi_builder **out, froe_diagnostic *diag);
 /** The folder in which the new one grows; lives as long as the builder. Files of the names .froe-* may be put there,

@@ -2,6 +2,7 @@
  *
  *     FROE_MOMENT="RANK FUNCTION NUMBER COMMAND"   before a rank calls a function for the NUMBER-th time, it runs a
  *                                                  command of the shell, whose parent process, $PPID, is the rank
+ *     FROE_DIMENSION="RANK DIMENSION"              a rank begins a folder of another dimension than the others
  *     FROE_NO_LOCKS=1                              flock() fails, as where the file system has no locks
  *
  * The linker leads calls of the functions below here (--wrap, cmake/FroeMpi.cmake). */
@@ -58,6 +59,19 @@ MOMENT(froe_status, froe_shards_boxes,
         froe_diagnostic *diag),
        (shards, boxes, count, options, out, diag))
 MOMENT(ssize_t, pwrite, (int file, const void *bytes, size_t count, off_t place), (file, bytes, count, place))
+
+froe_status __real_froe_mpi_begin(MPI_Comm comm, const char *path, int dim, const froe_shards_options *options,
+                                  froe_mpi_builder **out, froe_diagnostic *diag);
+froe_status __wrap_froe_mpi_begin(MPI_Comm comm, const char *path, int dim, const froe_shards_options *options,
+                                  froe_mpi_builder **out, froe_diagnostic *diag);
+froe_status __wrap_froe_mpi_begin(MPI_Comm comm, const char *path, int dim, const froe_shards_options *options,
+                                  froe_mpi_builder **out, froe_diagnostic *diag) {
+    const char *words = getenv("FROE_DIMENSION");
+    int rank, of, other;
+    MPI_Comm_rank(comm, &rank);
+    if (words && sscanf(words, "%d %d", &of, &other) == 2 && rank == of) dim = other;
+    return __real_froe_mpi_begin(comm, path, dim, options, out, diag);
+}
 
 int __real_flock(int file, int how);
 int __wrap_flock(int file, int how);
