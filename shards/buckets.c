@@ -150,13 +150,15 @@ static froe_status read_block(const froe_shard_buckets *b, uint32_t number, unsi
     return FROE_OK;
 }
 
-/* Hands over the whole records that `held` begins with, and moves what is left to the front. */
-static froe_status hand_over(froe_shard_records *held, froe_shard_records_fn *fn, void *user) {
+/* Hands over the whole records that `held` begins with, and moves what is left to the front. *none: that begins no
+ * record. */
+static froe_status hand_over(froe_shard_records *held, froe_shard_records_fn *fn, void *user, bool *none) {
     size_t whole = 0;
     for (size_t size; (size = froe_shard_record_size(held->bytes + whole, held->count - whole)) != 0;) whole += size;
     const froe_status status = whole ? support_callback(fn(user, held->bytes, whole)) : FROE_OK;
     held->count -= whole;
     memmove(held->bytes, held->bytes + whole, held->count);
+    *none = shards_record_is_none(held->bytes, held->count);
     return status;
 }
 
@@ -168,17 +170,18 @@ froe_status froe_shard_buckets_take(froe_shard_buckets *b, uint32_t number, froe
     shard_bucket *from = &b->buckets[number];
     froe_shard_records held = {.alloc = b->alloc};
     froe_status status = FROE_OK;
-    for (size_t i = 0; i < from->blocks.count && !status; i++) {
+    bool none = false; /* what comes next is no record */
+    for (size_t i = 0; i < from->blocks.count && !status && !none; i++) {
         status = shards_records_reserve(&held, b->block)
                      ? read_block(b, from->blocks.data[i], held.bytes + held.count, diag)
                      : support_fail_memory(diag);
         if (status) break;
         held.count += b->block;
-        status = hand_over(&held, fn, user);
+        status = hand_over(&held, fn, user, &none);
     }
-    if (!status && from->filled) {
+    if (!status && !none && from->filled) {
         status = froe_shard_records_append(&held, from->open, from->filled, diag);
-        if (!status) status = hand_over(&held, fn, user);
+        if (!status) status = hand_over(&held, fn, user, &none);
     }
     if (!status && held.count)
         status = support_fail(diag, FROE_E_FORMAT, "%s: Bucket %u holds bytes that are no records.",

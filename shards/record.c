@@ -5,6 +5,8 @@
 #include <float.h>
 #include <math.h>
 
+enum { MOST_BYTES = INT32_MAX }; /* of a record */
+
 /* ------------------------------------------------------------------ reading -- */
 
 /* Has a kind so many corners? */
@@ -23,22 +25,27 @@ static bool may_have_corners(froe_kind kind, size_t corners) {
     }
 }
 
-/* Do the head and the source, which are there, say what reading relies on? */
-static bool is_record(const shards_record *record) {
+/* Does the head say what reading relies on? */
+static bool is_head(const shards_record *record) {
     const size_t fixed = (sizeof *record + (record->sourced ? sizeof(shards_source) : 0)) / 8;
     const size_t numbers = record->words - fixed - (record->kind == FROE_BALL), dim = record->dim;
     if (record->kind >= FROE_KIND_COUNT || dim < 2 || dim > FROE_MAX_DIM || record->sourced > 1 || record->unused)
         return false;
     if (record->words <= fixed + (record->kind == FROE_BALL) || numbers % dim) return false;
-    return may_have_corners((froe_kind)record->kind, numbers / dim) &&
-           shards_record_read(record).source.group <= FROE_NONE;
+    return record->words <= MOST_BYTES / 8 && may_have_corners((froe_kind)record->kind, numbers / dim);
 }
 
 size_t froe_shard_record_size(const void *bytes, size_t left) {
     if (left < sizeof(shards_record)) return 0;
     const shards_record *record = shards_record_at(bytes, 0);
     const size_t size = shards_record_bytes(record);
-    return size <= left && is_record(record) ? size : 0;
+    return size <= left && is_head(record) && shards_record_read(record).source.group <= FROE_NONE ? size : 0;
+}
+
+bool shards_record_is_none(const void *bytes, size_t left) {
+    if (left < sizeof(shards_record)) return false;
+    const shards_record *record = shards_record_at(bytes, 0);
+    return !is_head(record) || (shards_record_bytes(record) <= left && !froe_shard_record_size(bytes, left));
 }
 
 /* A ball that reaches beyond the largest double is refused, so that no box has to. */
@@ -159,7 +166,7 @@ froe_status shards_records_put(froe_shard_records *records, int dim, const froe_
         const size_t numbers = corners_in_batch(batch, i) * (size_t)dim + (batch->kind == FROE_BALL);
         const size_t size = fixed + 8 * numbers;
         froe_status status = FROE_OK;
-        if (size > INT32_MAX)
+        if (size > MOST_BYTES)
             status = support_fail_at(diag, FROE_E_LIMIT, (uint32_t)i, FROE_NONE, FROE_NONE,
                                      "Object %zu takes more than 2^31 bytes.", i);
         else if (!shards_records_reserve(records, size))

@@ -58,6 +58,8 @@ static inline const shards_record *shards_record_at(const void *bytes, size_t at
 static inline size_t shards_record_bytes(const shards_record *record) {
     return 8 * (size_t)record->words;
 }
+/** Is what begins here, of which `left` bytes are there, certain to be no record, whatever comes behind it? */
+bool shards_record_is_none(const void *bytes, size_t left);
 /** Room for so many bytes more. False: no memory. */
 static inline bool shards_records_reserve(froe_shard_records *records, size_t extra) {
     return records->capacity - records->count >= extra ||

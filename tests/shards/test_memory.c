@@ -193,6 +193,35 @@ static void any_allocation_of_buckets_may_fail(void **state) {
     assert_true(test_memory_each(fill_bucket, NULL) > 5);
 }
 
+/* A spool may be larger than memory: what is behind a record that is none stays on the disk. */
+static void a_bucket_is_left_at_what_is_no_record(void **state) {
+    (void)state;
+    enum { SIZE = 48, RECORDS = 200000, MOST = 1 << 20, KIND = 4, LENGTH = 3 };
+    static const double segments[] = {0, 0, 1, 1, 2, 2, 3, 3};
+    static const int bad[] = {KIND, LENGTH}; /* bytes of the second record */
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        test_memory m;
+        const froe_allocator alloc = test_memory_begin(&m);
+        froe_shard_records records = {0};
+        froe_shard_buckets *buckets;
+        froe_diagnostic why;
+        size_t taken = 0;
+        froe_objects batch = froe_objects_defaults();
+        batch.kind = FROE_SEGMENT, batch.count = 2, batch.coords = segments;
+        assert_int_equal(froe_shard_records_add(&records, 2, &batch, 0, NULL), FROE_OK);
+        records.bytes[SIZE + bad[i]] = 255;
+        assert_int_equal(froe_shard_buckets_new(".", 1, &alloc, &buckets, NULL), FROE_OK);
+        for (int r = 0; r < RECORDS; r += 2)
+            assert_int_equal(froe_shard_buckets_add(buckets, 0, records.bytes, records.count, NULL), FROE_OK);
+        assert_int_equal(froe_shard_buckets_take(buckets, 0, count_bytes, &taken, &why), FROE_E_FORMAT);
+        assert_string_equal(why.message, ".: Bucket 0 holds bytes that are no records.");
+        assert_int_equal(taken, SIZE);
+        assert_true(m.peak < MOST);
+        froe_shard_buckets_free(buckets), froe_shard_records_free(&records);
+        test_memory_end(&m);
+    }
+}
+
 /* The text of a manifest, into room for so many bytes, which does not grow. False: there is not enough. */
 static bool print_into(const froe_shard_plan *plan, const froe_shard_entry *entries, size_t room, const char *whole) {
     test_memory m;
@@ -274,6 +303,7 @@ int main(void) {
         cmocka_unit_test(any_allocation_of_any_question_may_fail),
         cmocka_unit_test(any_allocation_of_any_build_may_fail),
         cmocka_unit_test(any_allocation_of_buckets_may_fail),
+        cmocka_unit_test(a_bucket_is_left_at_what_is_no_record),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
