@@ -284,9 +284,9 @@ typedef struct froe_kinetic_options {
     bool unchecked; /**< in space: the first contact of triangles is not looked for. Where triangles meet the partition
                          is not what it should be from then on. false (default): it ends before that */
     unsigned threads; /**< of froe_kinetic_advance(), which changes neither the partition nor the events, nor their
-                         order. 0: one per processor; default: 1. With more than one, events are found `ahead`. It is
-                         one in space, with `epoch`, `swap` or `augmented`, with few segments, and as long as segments
-                         lie in one line */
+                         order, and of the tree of froe_kinetic_snapshot(). 0: one per processor; default: 1. With more
+                         than one, events are found `ahead`. Time goes on by one thread in space, with `epoch`, `swap`
+                         or `augmented`, with few segments, and as long as segments lie in one line */
     bool ghosts; /**< in space: of two triangles that meet, the one with the greater number is left out from just before
                       that until it meets none any more that is there; what is told is `touch` of both, `disappear` and
                       `appear`. So scenes that meet from the start are followed, too. false (default): the partition

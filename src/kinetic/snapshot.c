@@ -97,6 +97,7 @@ static froe_status build_snapshot_tree(const snapshot_work *p, int up, froe_tree
     o.leaf = 0;
     if (p->dim == 3) o.settings = "edges=given";
     o.order = p->order, o.order_count = p->count;
+    o.threads = batch.threads = p->k->options.threads;
     o.progress = p->k->options.progress, o.user = p->k->options.user;
     status = froe_scene_add(scene, &batch, diag);
     if (!status && p->dim == 3 && froe_scene_set_up(scene, up))

@@ -1,9 +1,12 @@
 /* test_snapshot.c: the present as an ordinary tree: where its vertices are exactly, against whole numbers (GMP) of the
  * plans as they are written; what is rounded, refused, and whether it made a difference. */
+#include <pthread.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdatomic.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 
 #include <cmocka.h>
 
@@ -208,9 +211,55 @@ static void equal_segments_are_alike(void **state) {
             }
 }
 
+/* An allocator that counts the calls of other threads than the one that made it. */
+typedef struct thread_log {
+    pthread_t caller;
+    atomic_size_t elsewhere;
+} thread_log;
+
+static void *logged_memory(void *user, void *ptr, size_t old_size, size_t new_size) {
+    thread_log *log = user;
+    (void)old_size;
+    if (!pthread_equal(pthread_self(), log->caller)) atomic_fetch_add(&log->elsewhere, 1);
+    if (new_size) return realloc(ptr, new_size);
+    free(ptr);
+    return NULL;
+}
+
+/* So many segments that the tree of a snapshot can be built by several threads. */
+static void snapshots_take_as_many_threads_as_partitions(void **state) {
+    (void)state;
+    enum { COUNT = 6000 };
+    static double coords[4 * COUNT];
+    static const double times[2 * COUNT];
+    static size_t starts[2 * COUNT + 1];
+    for (size_t i = 0; i <= 2 * COUNT; i++) starts[i] = i;
+    for (size_t i = 0; i < COUNT; i++) {
+        double *at = coords + 4 * i;
+        at[0] = at[2] = (double)(i % 80), at[1] = at[3] = (double)(i / 80);
+        at[2] += 0.5, at[3] += 0.25;
+    }
+    froe_moving b = froe_moving_defaults();
+    b.vertex_count = 2 * COUNT, b.count = COUNT, b.starts = starts, b.times = times, b.coords = coords;
+    froe_motion *m = motion_of(&b, NULL);
+    thread_log log = {.caller = pthread_self()};
+    const froe_allocator alloc = {logged_memory, &log};
+    froe_kinetic_options o = froe_kinetic_defaults();
+    froe_kinetic *k = NULL;
+    froe_snapshot s = {0};
+    assert_int_equal(o.threads, 1);
+    assert_int_equal(froe_kinetic_new(m, &o, &alloc, &k, NULL), FROE_OK);
+    assert_int_equal(froe_kinetic_snapshot(k, NULL, &s, NULL), FROE_OK);
+    assert_int_equal(log.elsewhere, 0);
+    assert_true(s.alike);
+    froe_tree_free(s.tree), froe_places_free(s.places);
+    froe_kinetic_free(k);
+    froe_motion_free(m);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(snapshots_know_where_they_are),
-                                       cmocka_unit_test(equal_segments_are_alike),
-                                       cmocka_unit_test(every_allocation_may_fail)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(snapshots_know_where_they_are), cmocka_unit_test(equal_segments_are_alike),
+        cmocka_unit_test(snapshots_take_as_many_threads_as_partitions), cmocka_unit_test(every_allocation_may_fail)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -302,8 +302,8 @@ class Motion:
 
         :param seed: of random choices; the same seed gives the same partition on every machine
         :param augmented: a segment that turns upright costs nothing, however many it crosses
-        :param threads: how many may work at once while time goes on, which changes nothing but the time it takes; 0:
-            one for each processor
+        :param threads: how many may work at once while time goes on, and on the tree of a snapshot, which changes
+            nothing but the time it takes; 0: one for each processor
         :param ghosts: in space: of two triangles that meet, the one with the greater number is left out meanwhile;
             without it, time ends before the first contact
         :param progress: is called with the share done; False from it ends the call
