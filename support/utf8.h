@@ -12,4 +12,6 @@ bool support_is_utf8(const char *text);
 /** Does a file that begins with these bytes seem to be text in UTF-16, as programs of Windows save it? It has a byte
  * order mark, or every second byte is 0, and the others are letters and the like. */
 bool support_is_utf16(const char *bytes, size_t size);
+/** What is said of such a file. */
+static const char support_utf16_sentence[] = "The text is in UTF-16, and must be saved in UTF-8.";
 #endif

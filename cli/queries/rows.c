@@ -166,7 +166,7 @@ static int read_header(cli_rows *rows, const cli_column *columns, int dim) {
     rows->numbers = header_text(columns, dim, expected, sizeof expected);
     const bool there = next_record(rows);
     if (!there && stopped(rows)) return fail_reading(rows);
-    if (rows->wide) return cli_fail(CLI_INPUT, rows->path, "The text is in UTF-16, and must be saved in UTF-8.");
+    if (rows->wide) return cli_fail(CLI_INPUT, rows->path, "%s", support_utf16_sentence);
     if (there) {
         rows->header = rows->text;
         rows->text = NULL;

@@ -118,8 +118,7 @@ bool formats_is_utf16(const formats_source *source) {
 }
 
 froe_status formats_refuse_utf16(const formats_source *source, const formats_sink *sink) {
-    return support_fail(sink->diag, FROE_E_FORMAT, "%s: The text is in UTF-16, and must be saved in UTF-8.",
-                        support_short(source->path));
+    return support_fail(sink->diag, FROE_E_FORMAT, "%s: %s", support_short(source->path), support_utf16_sentence);
 }
 
 froe_status formats_refuse_zero(const formats_source *source, const formats_sink *sink, size_t byte) {
