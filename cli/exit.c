@@ -55,6 +55,7 @@ int cli_fail_cancelled(const char *file) {
 int cli_fail_file(int code, const char *file, const char *done) {
     const int error = errno;
     if (error == ENOMEM) return cli_fail(CLI_RESOURCES, file, "Out of memory.");
+    if (error == EINTR && cli_interrupted()) return cli_fail_cancelled(file);
     return cli_fail(code, file, "The file cannot be %s: %s.", done, support_errno(error).text);
 }
 

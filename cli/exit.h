@@ -26,7 +26,8 @@ int cli_fail(int code, const char *file, const char *sentence, ...) __attribute_
 int cli_fail_memory(void);
 /** CLI_CANCELLED, or CLI_RESOURCES when the time of --limit-time has passed; file may be NULL. */
 int cli_fail_cancelled(const char *file);
-/** The same for a file that cannot be read or written (`done`), with the reason in errno. */
+/** `code`, for a file that cannot be read or written (`done`), with the reason in errno; as above where that is memory
+ * or a signal. */
 int cli_fail_file(int code, const char *file, const char *done);
 /** CLI_USE, for an option of numbers that got `given` of them instead of `needed`. */
 int cli_fail_count(const char *option, size_t given, size_t needed);

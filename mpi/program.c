@@ -238,9 +238,14 @@ static int run(const mpi_ranks *ranks, int argc, char **argv) {
     return asked ? 0 : CLI_USE;
 }
 
-/* What cli/exit.c asks of the command line of froe: there is no --limit-time here. */
+/* What the sources of cli/ ask of the command line of froe: there is no --limit-time here, and MPI has the signals. */
 bool cli_late(void);
+bool cli_interrupted(void);
 bool cli_late(void) {
+    return false;
+}
+
+bool cli_interrupted(void) {
     return false;
 }
 

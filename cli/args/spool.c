@@ -21,7 +21,6 @@ static int copy_input(FILE *in, const char *name, const char *copy) {
         if (fwrite(buffer, 1, got, out) != got) code = cli_fail_file(CLI_RESOURCES, copy, "written");
         if (!code && cli_interrupted()) code = cli_fail_cancelled(name);
     }
-    if (!code && ferror(in) && cli_interrupted()) code = cli_fail_cancelled(name); /* it interrupted the reading */
     if (!code && ferror(in)) code = cli_fail_file(CLI_INPUT, name, "read");
     if (fclose(out) && !code) code = cli_fail_file(CLI_RESOURCES, copy, "written");
     return code;

@@ -1,6 +1,7 @@
 /* rows.c: headers, records and numbers. */
 #include "queries/rows.h"
 #include "exit.h"
+#include "progress.h"
 #include "support/decimal/decimal.h"
 #include "support/fail.h"
 #include "support/path.h"
@@ -29,7 +30,7 @@ static bool make_room(char **text, size_t *capacity, size_t length) {
  * old Macintosh: it is read again with line feeds. False: no memory. */
 static bool end_lines(cli_rows *rows, char **text, size_t *capacity, ssize_t *length) {
     const size_t size = (size_t)*length;
-    if (ferror(rows->file) || !memchr(*text, '\r', size) || memchr(*text, '\n', size)) return true;
+    if (!memchr(*text, '\r', size) || memchr(*text, '\n', size)) return true;
     FILE *again = fmemopen(NULL, size + 1, "w+");
     if (!again) return errno = ENOMEM, false;
     for (char *at = *text; (at = memchr(at, '\r', size - (size_t)(at - *text)));) *at = '\n';
@@ -40,10 +41,10 @@ static bool end_lines(cli_rows *rows, char **text, size_t *capacity, ssize_t *le
     return *length >= 0;
 }
 
-/* Reads a line with its end. False: there is none, or no memory. */
+/* Reads a line with its end. False: there is none, not all of one, or no memory. */
 static bool next_line(cli_rows *rows, char **text, size_t *capacity, size_t *length) {
     ssize_t got = getline(text, capacity, rows->file);
-    if (got < 0 || (!rows->lines && !end_lines(rows, text, capacity, &got))) return false;
+    if (got < 0 || ferror(rows->file) || (!rows->lines && !end_lines(rows, text, capacity, &got))) return false;
     rows->lines++;
     *length = (size_t)got;
     if (!make_room(text, capacity, *length)) return false;
@@ -85,6 +86,7 @@ static bool next_record(cli_rows *rows) {
 
 static int fail_reading(const cli_rows *rows) {
     const unsigned long long line = rows->line;
+    if (errno == EINTR && cli_interrupted()) return cli_fail_cancelled(rows->path);
     if (errno == ENOMEM) return cli_fail(CLI_RESOURCES, rows->path, "line %llu: Out of memory.", line);
     return cli_fail(CLI_INPUT, rows->path, "line %llu: The file cannot be read: %s.", line, support_errno(errno).text);
 }
