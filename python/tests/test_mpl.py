@@ -124,3 +124,13 @@ def test_solids_of_the_plane_are_drawn_by_their_borders():
     assert axes.get_xlim() == (0, 8) and axes.get_ylim() == (0, 8)
     froe.mpl.draw(axes, froe.Scene(2).build())
     pyplot.close(figure)
+
+
+def test_as_many_colours_as_triangles():
+    axes = pyplot.figure().add_subplot(projection="3d")
+    for colours in (COLOURS[:2], COLOURS + ["red"], []):
+        with pytest.raises(ValueError, match=rf"^There are {len(colours)} colours for 3 triangles\.$"):
+            froe.mpl.draw3d(axes, CIRCLE, color=colours)
+    for colours in (COLOURS, COLOURS[:1], "red", []):
+        froe.mpl.draw3d(axes, CIRCLE if len(colours) else np.empty((0, 3, 3)), color=colours)
+    pyplot.close("all")

@@ -23,6 +23,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _outlines
+from ._words import counted
 
 if TYPE_CHECKING:
     from froe.tree import Tree
@@ -89,6 +90,7 @@ def draw3d(ax: Any, triangles: npt.ArrayLike | Tree, *, color: Any = "0.8", shad
     :param style: goes to ``Poly3DCollection``
     :returns: the collection; its ``tree`` is the tree
     :raises ArrayError: the array has another shape or type
+    :raises ValueError: there are more or fewer colours than triangles, and not one for all
     :cost: that of building a tree, once, and O(pieces) whenever the axes are drawn
     """
     from froe.scene import triangles as scene_of
@@ -118,6 +120,8 @@ def _faces() -> Any:
             self.pieces = tree.pieces()
             polygons = [self.pieces[i] for i in range(len(self.pieces))]
             colors = to_rgba_array(color)
+            if len(colors) not in (1, len(tree.scene)):
+                raise ValueError(f"There are {len(colors)} colours for {counted(len(tree.scene), 'triangle')}.")
             colors = np.array(colors[self.pieces.objects if len(colors) > 1 else [0] * len(polygons)])
             if shade:
                 colors[:, :3] *= _brightness(polygons)[:, None]
