@@ -82,6 +82,17 @@ def test_heights_that_only_some_places_have_are_left_out():
         froe.from_geojson({"type": "LineString", "coordinates": [[0, 0], [1], [2, 2]]})
 
 
+def test_whole_numbers_that_are_no_doubles_are_no_places():
+    """As arrays with them are refused: 2^53 + 1 would become its neighbour."""
+    for number in (2**53 + 1, -(2**53) - 1, 2**60 + 1, 2**63 - 1):
+        for place in ([number, 0], [0.5, number], [0, number, 7], [0, np.int64(number)]):
+            with pytest.raises(ValueError, match=f"Object 0 .*{number}, which float64 cannot hold"):
+                froe.from_geojson({"type": "LineString", "coordinates": [[1, 1], place]})
+    for number in (2**53, 2**60, float(2**53) + 2):
+        point = {"type": "Point", "coordinates": [number, 0.5, 2**53 + 1]}
+        assert froe.from_geojson(point).bounds[0, 0] == number
+
+
 def test_tables_of_geopandas():
     table = geopandas.GeoDataFrame({"name": ["A", "B"]}, geometry=[box(0, 0, 1, 1), box(1, 0, 2, 1)], index=[7, 9])
     for one in (table, table.geometry):

@@ -14,6 +14,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from froe._arrays import EXACT
+
 if TYPE_CHECKING:
     from froe.scene import Scene
 
@@ -182,6 +184,14 @@ def _joined(corners: Floats, chain: Integers) -> tuple[Floats, Integers]:
     return np.concatenate([corners[:-1], corners[1:]], axis=1)[same], chain[:-1][same]
 
 
+def _refuse_rounded(coordinates: Any) -> None:
+    """Whole numbers that are no doubles: numpy rounds them without a word."""
+    for corner in coordinates:
+        for number in corner[:2]:
+            if isinstance(number, (int, np.integer)) and int(number) != int(float(number)):
+                raise ValueError(f"it has the number {number}, which float64 cannot hold")
+
+
 class _Chains:
     """Corners of chains as they come, one chain after the other."""
 
@@ -199,7 +209,10 @@ class _Chains:
                 raise ValueError(f"its coordinates are of the type {corners.dtype}")
             if corners.ndim != 2 or corners.shape[1] < 2:
                 raise ValueError(f"its coordinates have the shape {corners.shape}, and (n, 2) or (n, 3) is needed")
-            self.corners.append(corners[:, :2].astype(np.float64))
+            places = corners[:, :2].astype(np.float64)
+            if (np.abs(places) >= EXACT).any():
+                _refuse_rounded(coordinates)
+            self.corners.append(places)
             self.owners.append(owner)
 
     def arrays(self) -> tuple[Floats, Integers, Integers]:

@@ -28,7 +28,7 @@ def from_geojson(source: Any, names: str | None = None) -> Scene:
     :param source: a path, a mapping, or an object with ``__geo_interface__``
     :param names: the property that names the groups
     :returns: a scene; that of a file without the member ``crs`` has the coordinate system WGS 84
-    :raises ValueError: it is not GeoJSON
+    :raises ValueError: it is not GeoJSON, or a coordinate is a whole number that float64 does not have
     :cost: O(size of it), in a loop over the features; ``froe.read`` reads large files many times as fast
     """
     from froe.scene_parts import Crs
