@@ -4,6 +4,7 @@ import pickle
 import warnings
 
 import numpy as np
+import pandas
 import pytest
 
 import froe
@@ -134,6 +135,31 @@ def test_large_whole_numbers_that_are_doubles(number):
 def at_odd_address(array):
     """The same at an address that no item of more than one byte should have."""
     return np.frombuffer(b"x" + array.tobytes(), array.dtype, array.size, 1).reshape(array.shape)
+
+
+def test_columns_of_pandas_whose_items_may_be_missing(tree):
+    whole, half = pandas.Series([1, 2], dtype="Int64"), pandas.Series([1.5, 2], dtype="Float64")
+    table = pandas.DataFrame({"x": whole, "y": half})
+    assert froe.points(table).arrays().coords.tolist() == [[1, 1.5], [2, 2]]
+    assert froe.points(table[["x", "x"]]).arrays().coords.tolist() == [[1, 1], [2, 2]]
+    assert np.array_equal(tree.nearest(table)[1], tree.nearest([[1, 1.5], [2, 2]])[1])
+    scene = froe.Scene(2)
+    scene.add_points(table, tags=whole, groups=None)
+    scene.add_points([[0, 0], [1, 1]], tags=pandas.array(np.array([2**64 - 1, 7], np.uint64), dtype="UInt64"))
+    assert scene.arrays().tags.tolist() == [1, 2, 2**64 - 1, 7]
+    for row, column in ((0, "x"), (1, "y")):
+        lost = table.copy()
+        lost.loc[row, column] = pandas.NA
+        with pytest.raises(ArrayError, match=rf"points has no value at \({row}, {row}\)\."):
+            froe.points(lost)
+    with pytest.raises(ArrayError, match=r"tags has no value at \(1,\)\."):
+        scene.add_points([[0, 0], [1, 1]], tags=pandas.Series([1, None], dtype="Int64"))
+    large = pandas.DataFrame({"x": pandas.Series([2**53 + 1], dtype="Int64"), "y": half[:1]})
+    with pytest.raises(ArrayError, match="9007199254740993"):
+        froe.points(large)
+    for other in (table.astype("string"), table.assign(y=[True, False]), table.assign(y=pandas.array([True, False]))):
+        with pytest.raises(ArrayError, match="must be an array of float64"):
+            froe.points(other)
 
 
 def test_arrays_at_odd_addresses(tree):

@@ -24,9 +24,25 @@ def plain(values: npt.ArrayLike, name: str) -> npt.NDArray[Any]:
     if any(isinstance(part, np.ma.MaskedArray) and np.asarray(part.mask).any() for part in parts):
         raise ArrayError(f"{name} has masked items, which have no value.")
     try:
-        return np.asarray(values)
+        array: npt.NDArray[Any] = np.asarray(values)
     except ValueError as error:
         raise ArrayError(f"{name} cannot become an array: {error}.") from None
+    return _of_columns(values, array, name) if array.dtype.kind == "O" and hasattr(values, "isna") else array
+
+
+def _of_columns(values: Any, array: npt.NDArray[Any], name: str) -> npt.NDArray[Any]:
+    """The numbers of a column of pandas or of several, whose items may be missing, as in ``Int64`` and ``Float64``:
+    numpy makes objects of them."""
+    columns = [values] if array.ndim == 1 else [values.iloc[:, i] for i in range(array.shape[1])]
+    types = [getattr(column.dtype, "numpy_dtype", column.dtype) for column in columns]
+    if any(kind.kind not in "fiu" for kind in types):
+        return array
+    missing = np.argwhere(np.asarray(values.isna()))
+    if len(missing):
+        raise ArrayError(f"{name} has no value at {tuple(int(i) for i in missing[0])}.")
+    numbers = [column.to_numpy(kind) for column, kind in zip(columns, types, strict=True)]
+    made: npt.NDArray[Any] = np.stack(numbers, axis=-1) if array.ndim > 1 else numbers[0]
+    return made
 
 
 def doubles(values: npt.ArrayLike, name: str) -> Doubles:
