@@ -339,6 +339,15 @@ def test_pickles(tmp_path):
     assert np.array_equal(pickle.loads(pickle.dumps(opened)).query(ranges).ids, tree.query(ranges).ids)
 
 
+@pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy, pickle.dumps])
+def test_what_has_no_copy_says_so(copied):
+    said = r"^A Scene cannot be copied or pickled; trees can, and files keep it: write\(\)\.$"
+    with pytest.raises(TypeError, match=said):
+        copied(froe.segments(short_segments(10)))
+    with pytest.raises(TypeError, match=r"^A Motion cannot be copied or pickled; files keep it: write\(\)\.$"):
+        copied(froe.Motion(0, 1))
+
+
 @pytest.mark.parametrize("copied", [copy.copy, copy.deepcopy])
 def test_a_copy_is_of_the_tree_and_not_of_what_its_file_has_become(tmp_path, copied):
     froe.segments(short_segments(1000)).build().save(tmp_path / "a.froe")

@@ -7,6 +7,7 @@ from __future__ import annotations
 import math
 import os
 from dataclasses import dataclass
+from typing import NoReturn
 
 import numpy as np
 import numpy.typing as npt
@@ -118,6 +119,9 @@ class Motion:
         motion = cls.__new__(cls)
         motion._core = core
         return motion
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("A Motion cannot be copied or pickled; files keep it: write().")
 
     @property
     def dim(self) -> int:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Sequence
-from typing import Any, Literal
+from typing import Any, Literal, NoReturn
 
 import numpy as np
 import numpy.typing as npt
@@ -62,6 +62,9 @@ class Scene:
         scene._core = core
         scene.read_report = report
         return scene
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("A Scene cannot be copied or pickled; trees can, and files keep it: write().")
 
     @property
     def dim(self) -> int:
