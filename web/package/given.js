@@ -58,12 +58,13 @@ export function given(options, standard = null) {
     return all;
 }
 
-/** An array whose memory is still its own: what was moved to a worker is empty. */
+/** An array whose memory is still its own: one whose memory was moved to a worker, or ends before the array does, has no
+ * numbers, and methods of arrays refuse it. */
 export function held(array, name) {
     try {
-        if (array.byteLength === 0) new Uint8Array(array.buffer);
+        if (array.byteLength === 0) array.keys();
     } catch {
-        throw new TypeError(`The memory of ${name} has been moved to somewhere else.`);
+        throw new TypeError(`The memory of ${name} has been moved to somewhere else, or has shrunk.`);
     }
     return array;
 }

@@ -24,7 +24,7 @@ test("there are no answers to questions that were not asked", () => {
 });
 
 test("an array that was moved away is not an empty one", () => {
-    const gone = (name) => ({ name: "TypeError", message: `The memory of ${name} has been moved to somewhere else.` });
+    const gone = (name) => ({ name: "TypeError", message: `The memory of ${name} has been moved to somewhere else, or has shrunk.` });
     assert.throws(() => froe.segments(moved(new Float64Array(4))), gone("coords"));
     assert.throws(() => froe.segments(moved(new Float32Array(4))), gone("coords"));
     assert.throws(() => cross().query(moved(new Float64Array(4))), gone("boxes"));
@@ -32,6 +32,13 @@ test("an array that was moved away is not an empty one", () => {
     assert.throws(() => froe.read("a.csv", moved(bytes("x,y\n1,2\n"))), gone("the file 'a.csv'"));
     assert.equal(froe.segments(new Float64Array(new SharedArrayBuffer(32))).objectCount, 1);
     assert.equal(froe.segments(new Float64Array(0)).objectCount, 0);
+    const buffer = new ArrayBuffer(64, { maxByteLength: 64 }), behind = new Float64Array(buffer, 32, 4), all = new Float64Array(buffer);
+    buffer.resize(32);
+    assert.throws(() => froe.segments(behind), gone("coords"));
+    assert.equal(froe.segments(all).objectCount, 1);
+    const memory = new WebAssembly.Memory({ initial: 1 }), old = new Float64Array(memory.buffer, 0, 4);
+    memory.grow(1);
+    assert.throws(() => froe.segments(old), gone("coords"));
 });
 
 test("a progress function cannot use the module in the midst of a call", async () => {
