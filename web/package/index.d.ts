@@ -460,7 +460,7 @@ declare class Questions extends Resource {
     nearestPoint(object: number, point: Numbers): Float64Array;
     /** The first segment of the plane above each point (below: direction -1); NONE where there is none. */
     above(points: Numbers, direction?: 1 | -1): Uint32Array;
-    /** The first object that each ray meets; NONE where there is none. */
+    /** The first object that each ray meets, and t; NONE and Infinity where there is none. */
     ray(origins: Numbers, directions: Numbers, options?: { tMax?: number }): { objects: Uint32Array; t: Float64Array };
     /** Every object that each ray meets, by t, with t as values. */
     rayAll(origins: Numbers, directions: Numbers, options?: { tMax?: number }): Answers;

@@ -1,5 +1,6 @@
 /* questions.js: what is asked of a tree */
 import { answersOf } from "./answers.js";
+import { NONE } from "./core.js";
 import { arraysOf, counted, given, number, shown, typed, whole, word } from "./given.js";
 import { ALSO, AT, CORE, HANDLE, Handle, Resource } from "./resource.js";
 
@@ -123,13 +124,14 @@ export class Questions extends Resource {
         if (direction !== 1 && direction !== -1) throw new RangeError(`direction is 1 or -1, and not ${shown(direction)}.`);
         return this.#numbers("froe_batch_vertical", 2, { points }, direction);
     }
-    /** The first object that each ray meets: { objects, t }; 0xffffffff where there is none. */
+    /** The first object that each ray meets: { objects, t }; 0xffffffff and Infinity where there is none. */
     ray(origins, directions, options) {
         const tMax = most(options);
         return this.#batch(this.dim, { origins, directions }, (at, count, arena) => {
             const core = this[CORE], out = arena.room(HIT * count);
             core.call("froe_batch_ray", this.#context, ...at, count, tMax, core.batch, out);
-            return { objects: core.column(Uint32Array, out, count, HIT, 0), t: core.column(Float64Array, out, count, HIT, 8) };
+            const objects = core.column(Uint32Array, out, count, HIT, 0);
+            return { objects, t: core.column(Float64Array, out, count, HIT, 8).map((t, i) => (objects[i] === NONE ? Infinity : t)) };
         });
     }
     /** Every object that each ray meets, by t, with t as values. */

@@ -17,7 +17,7 @@ for (const [kind, froe] of kinds) {
         assert.deepEqual([...tree.range({ shape: "ball", points: [0, 0], radius: 1 })].sort(), [0, 1]);
         assert.deepEqual([...tree.range({ shape: "ball", points: [2, 2], radius: Math.SQRT2 * (1 - 1e-15) })], []);
         assert.deepEqual(tree.pairs(), { a: Uint32Array.of(0), b: Uint32Array.of(1), kinds: ["cross"] });
-        assert.deepEqual(tree.ray([0.5, -1, 9, 9], [0, 1, 1, 0]), { objects: Uint32Array.of(0, NONE), t: Float64Array.of(1.5, 0) });
+        assert.deepEqual(tree.ray([0.5, -1, 9, 9], [0, 1, 1, 0]), { objects: Uint32Array.of(0, NONE), t: Float64Array.of(1.5, Infinity) });
         assert.deepEqual([...tree.above([0.25, 0, 5.5, 0, 9, 9])], [0, 2, NONE]);
         const near = tree.nearest([3, 3], { k: 2 });
         assert.deepEqual([[...near.ids], [...near.values]], [[0, 2], [Math.sqrt(8), Math.sqrt(8)]]);
