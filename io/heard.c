@@ -6,9 +6,21 @@
 #include <stdio.h>
 #include <string.h>
 
+/* The reader of DXF tells of entities that it does not read in notes for developers alone, once for each sort.
+ * Viewports are windows of a sheet, in which there is nothing of their own. */
+static void hear_note(io_heard *h, const char *text) {
+    char name[32], one[sizeof name + 4], all[sizeof h->left.text + 4];
+    const char *found = strstr(text, "gnoring ");
+    if (!found || !(found = strchr(found, '\'')) || sscanf(found, "'%31[A-Z0-9_]'", name) != 1) return;
+    snprintf(one, sizeof one, ", %s,", name);
+    snprintf(all, sizeof all, ", %s,", h->left.text);
+    if (strcmp(name, "VIEWPORT") != 0 && !strstr(all, one)) io_names_put(&h->left, name);
+}
+
 static void CPL_STDCALL hear(CPLErr class, CPLErrorNum number, const char *text) {
     (void)number;
     io_heard *h = CPLGetErrorHandlerUserData();
+    if (class == CE_Debug) hear_note(h, text);
     bool about_axes = !strncmp(text, "PROJ", 4); /* froe takes coordinates as they are */
     if (class < CE_Failure || h->failed || about_axes) return;
     h->failed = true;
@@ -26,12 +38,14 @@ void io_gdal_begin(io_heard *heard) {
     CPLPushErrorHandlerEx(hear, heard);
     /* Notes are a file beside a map, NAME.gz.properties, that tells how large it is when unpacked. */
     io_setting_begin(&heard->notes, "CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO");
+    io_setting_begin(&heard->debug, "CPL_DEBUG", "DXF");
     pthread_once(&once, register_drivers);
     if (!heard->online) io_offline_begin(&heard->offline);
 }
 
 void io_gdal_end(io_heard *heard) {
     if (!heard->online) io_offline_end(&heard->offline);
+    io_setting_end(&heard->debug);
     io_setting_end(&heard->notes);
     CPLPopErrorHandler();
     CPLErrorReset();

@@ -6,14 +6,22 @@
 #include "offline.h"
 #include "setting.h"
 
-/** The first failure of which GDAL has told. */
+/** Names for a message, as many as fit. */
+typedef struct io_names {
+    char text[128];
+    size_t used, count;
+} io_names;
+void io_names_put(io_names *names, const char *name);
+
+/** The first failure of which GDAL has told, and what it leaves out. */
 typedef struct io_heard {
     const char *path; /**< set by the owner: what froe names itself, and no message needs to */
     bool online;      /**< set by the owner: the path may lead to the network, by the user's wish */
     bool failed;
     char text[160]; /**< "" where it names the path */
+    io_names left;  /**< sorts of entities of a DXF that it passes over */
     io_offline offline;
-    io_setting notes;
+    io_setting notes, debug;
 } io_heard;
 
 /** Registers the drivers, once, and listens until io_gdal_end(), offline unless `online`. Until then GDAL writes no
@@ -24,12 +32,5 @@ void io_gdal_end(io_heard *heard);
 /** A failure about `path`: what was heard, or else the sentence. */
 froe_status io_gdal_fail(const io_heard *heard, froe_diagnostic *diag, froe_status status, const char *path,
                          const char *sentence);
-
-/** Names for a message, as many as fit. */
-typedef struct io_names {
-    char text[128];
-    size_t used, count;
-} io_names;
-void io_names_put(io_names *names, const char *name);
 
 #endif

@@ -314,6 +314,7 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
     io_crs_free(&m.crs);
     if (m.data) GDALClose(m.data);
     io_gdal_end(&m.heard);
+    snprintf(sink->report.sorts_left, sizeof sink->report.sorts_left, "%.47s", m.heard.left.text);
     io_shapes_free(&sink->alloc, &m.shapes);
     array_free(&sink->alloc, &m.texts);
     return status;

@@ -66,6 +66,9 @@ static void warn(const cli_common *common, const char *name, const froe_read_rep
     if (r->no_geometry)
         (void)cli_fail(0, name, "warning: Left out %s %llu feature%s without a geometry.", is_or_are(r->no_geometry),
                        (unsigned long long)r->no_geometry, support_plural(r->no_geometry));
+    if (*r->sorts_left)
+        (void)cli_fail(0, name, "warning: Left out is everything of these sorts, which are not read: %s.",
+                       r->sorts_left);
     if (r->skipped && flat)
         (void)cli_fail(0, name, "warning: Left out %s %llu %s of one point, or of a sort that is not read.",
                        is_or_are(r->skipped), (unsigned long long)r->skipped,

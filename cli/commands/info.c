@@ -49,12 +49,13 @@ static json_t *near_json(const froe_near *n) {
 
 static json_t *reader_json(const froe_read_report *r) {
     json_t *left = r->layers_left ? json_integer((json_int_t)r->layers_left) : NULL;
-    return json_pack("{s:s, s:s, s:I, s:o*, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:f}", "format", r->format,
+    return json_pack("{s:s, s:s, s:I, s:o*, s:I, s:I, s:I, s:I, s:I, s:I, s:I, s:s*, s:I, s:f}", "format", r->format,
                      "precision", r->precision, "layers", (json_int_t)r->layers, "layers_left", left, "features",
                      (json_int_t)r->features, "linearised", (json_int_t)r->linearised, "flattened",
                      (json_int_t)r->flattened, "triangulated", (json_int_t)r->triangulated, "closed",
                      (json_int_t)r->closed, "skipped", (json_int_t)r->skipped, "no_geometry",
-                     (json_int_t)r->no_geometry, "wrapped", (json_int_t)r->wrapped, "seconds", r->seconds);
+                     (json_int_t)r->no_geometry, "sorts_left", *r->sorts_left ? r->sorts_left : NULL, "wrapped",
+                     (json_int_t)r->wrapped, "seconds", r->seconds);
 }
 
 /* Takes `more`: how the scene was read, or the tree that it was saved with. */

@@ -158,11 +158,13 @@ static froe_status fill_scene(const formats_readers *readers, const formats_sour
                                        : "antimeridian to be cut at");
     froe_status status = reader(source, sink);
     if (!status) status = formats_sink_end_feature(sink);
+    const char *left = sink->report.sorts_left;
     if (!status && !sink->total)
         status = support_fail(sink->diag, FROE_E_INPUT,
-                              "%s: The file holds no objects (%llu feature%s without geometry, %llu skipped).", name,
-                              (unsigned long long)sink->report.no_geometry, support_plural(sink->report.no_geometry),
-                              (unsigned long long)sink->report.skipped);
+                              "%s: The file holds no objects (%llu feature%s without geometry, %llu skipped%s%s).",
+                              name, (unsigned long long)sink->report.no_geometry,
+                              support_plural(sink->report.no_geometry), (unsigned long long)sink->report.skipped,
+                              *left ? ", and others of sorts that are not read: " : "", left);
     if (!status) status = formats_sink_progress(sink, 1);
     return status ? status : formats_sink_take(sink, out);
 }

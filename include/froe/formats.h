@@ -73,10 +73,12 @@ typedef struct froe_read_report {
     /** OBJ: the first library of materials (MTL) that is not there, not at or below the folder of the file, or
      * unreadable; "": none, or with `boxes`, where nothing is coloured. */
     char unread_library[64];
-    bool no_degrees; /**< the format promises longitudes and latitudes in degrees, and the coordinates cannot be
+    bool no_degrees;     /**< the format promises longitudes and latitudes in degrees, and the coordinates cannot be
                                 any (beyond 180 or 90): the scene has no coordinate system */
-    double seconds;  /**< from call to return, by the wall clock */
-    uint64_t reserved[8];
+    double seconds;      /**< from call to return, by the wall clock */
+    char sorts_left[48]; /**< sorts of entities of a DXF that GDAL passes over, as "MESH, 3DSOLID", as many as fit;
+                            nobody counts how many entities these are; "": none */
+    uint64_t reserved[2];
 } froe_read_report;
 
 /** Reads a scene from one of the formats that need no other library. The content of the file decides which reader is
