@@ -269,7 +269,7 @@ static bool is_table(const char *name, support_extension extension) {
     return !strcmp(extension.text, "csv") || !strcmp(extension.text, "tsv");
 }
 
-/* Has the table a column of geometry? Of one within a file of another sort GDAL reads the first bytes. */
+/* Has the table a column of geometry? Its first bytes tell. GDAL reads them where it is compressed or in an archive. */
 static bool has_geometry(const formats_source *source, const char *name) {
     if (!source->beyond && !strcmp(name, source->file)) return formats_csv_has_geometry(source);
     formats_source inner = {.file = name};

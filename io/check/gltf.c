@@ -164,7 +164,7 @@ static bool is_numbers(const formats_json *value, size_t count) {
 }
 
 /* Is a matrix, whose columns come one after the other, one of turns, scales, shears and a move? Its last number may be
- * 1 as single precision rounds it: it is not looked at by those who take the others. */
+ * 1 as single precision rounds it: neither froe nor assimp uses that number. */
 static bool is_affine(const formats_json *matrix) {
     size_t i = 0;
     FORMATS_JSON_EACH(item, matrix) {
