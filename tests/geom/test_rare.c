@@ -68,6 +68,25 @@ static void planes_trust_no_other_rounding(void **state) {
     assert_true(isinf(up.n_err) && isinf(fine_up.n_err));
 }
 
+/* Where a line crosses another is known up to an error; where nothing is known, the error is infinite: lines that are
+ * parallel but for what doubles lose, a crossing near 2^1010, and another rounding. */
+static void crossings_that_doubles_cannot_tell_have_no_bound(void **state) {
+    static const double lines[][8] = {{0, 0, 1, 1, 0, 1, 1, 0},
+                                      {0, 0, 0.1, 0.3, 0.2, 0.6, 0.1 + 0.2, 0.9},
+                                      {0x1p1010, 0, 0x1.8p1010, 1, 0x1p1010, 1, 0x1.8p1010, 0}};
+    (void)state;
+    for (int up = 0; up < 2; up++)
+        for (int i = 0; i < 3; i++) {
+            const double *const ends[4] = {lines[i], lines[i] + 2, lines[i] + 4, lines[i] + 6};
+            if (up) fesetround(FE_UPWARD);
+            const geom_plane wall = geom_plane_at_crossing(2, ends);
+            fesetround(FE_TONEAREST);
+            assert_int_equal(wall.c_err < INFINITY, !up && i == 0);
+            assert_true(isfinite(wall.c));
+            if (i == 0) assert_true(up || fabs(wall.c - 0.5) <= wall.c_err);
+        }
+}
+
 /* Two planes of the same sums are one, whatever their rows; of other rows they are not. */
 static void fine_planes_are_told_apart(void **state) {
     static const double rows[2][6] = {{1, 2, 3, 4, 5, 6}, {1, 2, 3, 4, 5, 7}};
@@ -475,6 +494,7 @@ int main(void) {
         cmocka_unit_test(eyes_far_away_see_sheared_walls_by_their_shear),
         cmocka_unit_test(ends_of_lines_lie_on_them),
         cmocka_unit_test(planes_trust_no_other_rounding),
+        cmocka_unit_test(crossings_that_doubles_cannot_tell_have_no_bound),
         cmocka_unit_test(fine_planes_are_told_apart),
         cmocka_unit_test(boxes_lie_beside_vertical_planes),
         cmocka_unit_test(crossings_of_vectors_lie_beside_sheared_walls),

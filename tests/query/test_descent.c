@@ -156,13 +156,17 @@ static void flat_scenes_have_leaves(void **state) {
     check("point", point, false);
 }
 
-/* Cuts that floats cannot hold: one far beyond the scene, and sums of which the later, finer planes are not small: they
+/* Cuts that floats cannot hold: some far beyond the scene, and sums of which the later, finer planes are not small: they
  * move the first one, or turn it. Between them is one that floats can hold. */
 static void cuts_that_floats_cannot_hold_are_passed_exactly(void **state) {
     static const tree_meta meta = {.method = "by hand", .leaf = 300};
     static const double far[2] = {1, 0.5}, plain[2] = {0.5, 1};
     static const double moved[6] = {1, -1, 0, 0, 0, 0x1p48}, turned[6] = {1, 1, 1, 0x1p52, 0, 0};
-    static const froe_cut cuts[] = {{.kind = FROE_CUT_PLANE, .value = 5, .normal = far},
+    static const froe_cut cuts[] = {{.kind = FROE_CUT_AXIS, .value = 3},
+                                    {.kind = FROE_CUT_AXIS, .value = -0x1p600},
+                                    {.kind = FROE_CUT_PLANE, .value = 0x1p11, .normal = far},
+                                    {.kind = FROE_CUT_PLANE, .value = -1e300, .normal = far},
+                                    {.kind = FROE_CUT_PLANE, .value = 5, .normal = far},
                                     {.kind = FROE_CUT_FINE, .id = {2}, .normal = moved},
                                     {.kind = FROE_CUT_PLANE, .value = 0.75, .normal = plain},
                                     {.kind = FROE_CUT_FINE, .id = {2}, .normal = turned}};

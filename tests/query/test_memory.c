@@ -3,6 +3,7 @@
  * answered is what is answered undisturbed. */
 #include "asked.h"
 #include "query/questions.h"
+#include "query/range/centroids.h"
 
 enum { MANY = 18 }; /* arrays begin with room for 16 items */
 
@@ -128,18 +129,19 @@ static froe_tree *chain(froe_kind kind) {
     assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
     assert_int_equal(draft_new(NULL, 2, 0, &draft), FROE_OK);
     for (int i = 0; i <= DEPTH; i++) {
-        const double at[4] = {kind == FROE_POINT ? i + 1.5 : 0, i + 1, 1, i + 1};
+        const double y = (i + 1) * 0.0625, at[4] = {kind == FROE_POINT ? y + 0x1p-5 : 0, y, 1, y};
         assert_int_equal(trees_add(scene, kind, 1, at, NULL, NULL), FROE_OK);
     }
     if (kind == FROE_SEGMENT) { /* one cut without a list */
-        const froe_cut cut = {.kind = FROE_CUT_AXIS, .axis = 1, .value = 0.5 + DEPTH};
+        const froe_cut cut = {.kind = FROE_CUT_AXIS, .axis = 1, .value = (DEPTH + 0.5) * 0.0625};
         assert_int_equal(draft_split(&draft, node, &cut, 0, &child), FROE_OK);
         assert_int_equal(draft_list(&draft, child + 1), FROE_OK);
         assert_int_equal(draft_piece(&draft, child + 1, DEPTH, NULL, 0), FROE_OK);
         node = child;
     }
     for (uint32_t i = DEPTH + (kind == FROE_POINT); i-- > 0; node = child) {
-        const froe_cut across = {.kind = FROE_CUT_AXIS, .value = i + 1}, along = {.kind = FROE_CUT_OBJECT, .id = {i}};
+        const froe_cut across = {.kind = FROE_CUT_AXIS, .value = (i + 1) * 0.0625},
+                       along = {.kind = FROE_CUT_OBJECT, .id = {i}};
         assert_int_equal(draft_split(&draft, node, kind == FROE_POINT ? &across : &along, 0, &child), FROE_OK);
         const uint32_t lists = kind == FROE_POINT ? child + 1 : node;
         assert_int_equal(draft_list(&draft, lists), FROE_OK);
@@ -223,10 +225,26 @@ static froe_status ask_groups_of_groups(froe_query *q, told *t) {
     return status;
 }
 
+/* How many segments reach a window whose side touches all of them, or just does not: units decide none of them. */
+static froe_status ask_count_along(froe_query *q, told *t) {
+    static const double sides[] = {0.5, 0x1.0000000000001p-1};
+    froe_range r = froe_range_defaults();
+    froe_status status = FROE_OK;
+    for (int i = 0; i < 2 && !status; i++) {
+        const double box[4] = {-1, sides[i], 2, 0.75};
+        uint64_t count = 0;
+        r.points = box;
+        status = froe_query_count(q, &r, &count, NULL);
+        if (!status) assert_int_equal(count, i ? 0 : q->tree->scene->object_count);
+        tell(t, &count, sizeof count);
+    }
+    return status;
+}
+
 /* What has no number among the questions: those after them. */
-static froe_status (*const others[])(froe_query *q, told *t) = {ask_all_neighbours, ask_middle, ask_cubes,
-                                                                ask_ray_up,         ask_covers, ask_groups_of_groups};
-enum { ALL_NEIGHBOURS = QUESTIONS, MIDDLE, CUBES, RAY_UP, COVERS, GROUPS };
+static froe_status (*const others[])(froe_query *q, told *t) = {
+    ask_all_neighbours, ask_middle, ask_cubes, ask_ray_up, ask_covers, ask_groups_of_groups, ask_count_along};
+enum { ALL_NEIGHBOURS = QUESTIONS, MIDDLE, CUBES, RAY_UP, COVERS, GROUPS, COUNT_ALONG };
 
 static froe_status ask_with(void *user, const froe_allocator *alloc) {
     asking *a = user;
@@ -304,12 +322,35 @@ static void memory_may_end_where_many_nodes_wait(void **state) {
     ask_this(chain(FROE_SEGMENT), RAY_UP);
 }
 
+/* More segments are in doubt than any leaf has. */
+static void memory_may_end_where_much_is_in_doubt(void **state) {
+    (void)state;
+    froe_scene *scene;
+    assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+    for (int i = 0; i < 400; i++) {
+        const double ends[4] = {i / 400.0, 0.5 - i % 7 / 64.0, (i + 0.5) / 400, 0.5};
+        add_to(scene, FROE_NONE, FROE_SEGMENT, 1, ends, NULL);
+    }
+    ask_this(trees_build(scene, "index", 6), COUNT_ALONG);
+    froe_scene_free(scene);
+}
+
+/* A point is found by the centroids of the tree, for which memory is asked first. */
+static void memory_may_end_while_centroids_are_made(void **state) {
+    (void)state;
+    froe_tree *tree = chain(FROE_POINT);
+    assert_true(query_is_deep(tree));
+    ask_this(tree, MIDDLE);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(memory_may_end_among_many_groups),
         cmocka_unit_test(memory_may_end_among_many_areas),
         cmocka_unit_test(memory_may_end_among_many_covers),
         cmocka_unit_test(memory_may_end_where_many_nodes_wait),
+        cmocka_unit_test(memory_may_end_where_much_is_in_doubt),
+        cmocka_unit_test(memory_may_end_while_centroids_are_made),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

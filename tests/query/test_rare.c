@@ -363,6 +363,27 @@ static void counts_of_groups_are_forgotten_when_calls_come_round(void **state) {
     test_memory_end(&m);
 }
 
+/* A context numbers its queries by 32 bits, too. No object may be taken for one that an earlier query has looked at. */
+static void marks_are_forgotten_when_queries_come_round(void **state) {
+    static const uint32_t objects[] = {5, 7, 999};
+    (void)state;
+    test_memory m;
+    const froe_allocator alloc = test_memory_begin(&m);
+    for (int many = 0; many < 2; many++) {
+        query_marks marks = {.query = 0};
+        for (int turn = 0; turn < 2; turn++) {
+            query_marks_clear(&marks);
+            assert_int_equal(marks.query, 1);
+            if (many) assert_true(query_marks_spread(&marks, &alloc, 1000));
+            for (int i = 0; i < 3; i++) assert_true(query_mark(&marks, objects[i]));
+            for (int i = 0; i < 3; i++) assert_false(query_mark(&marks, objects[i]));
+            marks.query = UINT32_MAX;
+        }
+        query_marks_free(&marks, &alloc);
+    }
+    test_memory_end(&m);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(joins_with_boxes_and_balls_are_single_questions),
@@ -375,6 +396,7 @@ int main(void) {
         cmocka_unit_test(missing_arguments_of_rays_are_refused),
         cmocka_unit_test(answers_are_the_same_at_any_scale),
         cmocka_unit_test(counts_of_groups_are_forgotten_when_calls_come_round),
+        cmocka_unit_test(marks_are_forgotten_when_queries_come_round),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -152,6 +152,35 @@ static void blocks_that_cannot_be_read_are_told_by_every_question(void **state) 
     free(f.bytes);
 }
 
+/* Owners that are no objects: windows that hold the whole tree read them without its blocks. */
+static void owners_that_do_not_exist_are_told_by_every_window(void **state) {
+    static const double box[4] = {-1, -1, 3, 3};
+    (void)state;
+    const tree_file f = tree_file_of(trees_grow(2, FROE_SEGMENT, 3000, 0, 0.02, "index", 4));
+    const file_section s = tree_file_section(&f, FILE_OWNERS);
+    memset(f.bytes + s.offset, 0x7f, s.size);
+    forge_checksums(f.bytes, f.size);
+    for (int which = 0; which < 3; which++) {
+        froe_tree *tree;
+        froe_diagnostic why = {0};
+        froe_answers many;
+        froe_list found;
+        froe_range r = froe_range_defaults();
+        uint64_t sum;
+        froe_status status = FROE_OK;
+        r.points = box;
+        assert_int_equal(froe_tree_open_memory(f.bytes, f.size, NULL, &tree, NULL), FROE_OK);
+        froe_query *q = ask(tree);
+        if (which == 0) status = froe_query_range(q, &r, &found, &why);
+        if (which == 1) status = froe_query_count(q, &r, &sum, &why);
+        if (which == 2) status = froe_batch_boxes(q, box, 1, NULL, &many, &why);
+        assert_int_equal(status, FROE_E_FORMAT);
+        assert_non_null(strstr(why.message, "owners that do not exist"));
+        froe_query_free(q), froe_tree_free(tree);
+    }
+    free(f.bytes);
+}
+
 static void opened_trees_of_nothing_have_no_neighbours(void **state) {
     static const double x[3] = {0};
     (void)state;
@@ -668,6 +697,7 @@ int main(void) {
         cmocka_unit_test(chunks_of_questions_without_answers_leave_no_gaps),
         cmocka_unit_test(batches_can_be_cancelled_at_every_call),
         cmocka_unit_test(blocks_that_cannot_be_read_are_told_by_every_question),
+        cmocka_unit_test(owners_that_do_not_exist_are_told_by_every_window),
         cmocka_unit_test(opened_trees_of_nothing_have_no_neighbours),
         cmocka_unit_test(sets_with_the_same_tag_are_told_apart),
         cmocka_unit_test(pairs_of_segments_on_one_line_are_told_once),

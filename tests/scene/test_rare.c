@@ -209,7 +209,7 @@ static void edges_of_wrong_objects_do_not_exist(void **state) {
                      FROE_OK);
     assert_int_equal(scene_explicit(s, &s->alloc, &c), FROE_OK);
     uint32_t starts[4], vertices[10];
-    for (int wrong = 0; wrong < 4; wrong++) {
+    for (int wrong = 0; wrong < 5; wrong++) {
         memcpy(starts, c.start_of, sizeof starts);
         memcpy(vertices, c.vertex_of, sizeof vertices);
         if (wrong == 1) starts[0] = 5; /* before the first object, and behind the last one */
@@ -217,6 +217,7 @@ static void edges_of_wrong_objects_do_not_exist(void **state) {
         if (wrong == 3) vertices[5] = 77;
         froe_scene arrays = c;
         arrays.start_of = starts, arrays.vertex_of = vertices;
+        if (wrong == 4) arrays.object_count = 0;
         assert_int_equal(scene_mapped(&arrays, NULL, &m, NULL), FROE_OK);
         size_t found = 0;
         for (uint32_t edge = 0; edge < 10; edge++)

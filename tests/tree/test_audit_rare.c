@@ -6,6 +6,8 @@
 #include "tree/audit/inseparable.h"
 #include "tree/packed/packed_audit.h"
 #include "tree/packed/space.h"
+#include <float.h>
+#include <froe/query.h>
 #include <math.h>
 
 /* A triangle below the line x + y = sum in the first two coordinates, as a hull in a scene of that dimension. Cuts go
@@ -320,6 +322,57 @@ static void headers_of_blocks_of_space_are_checked(void **state) {
     froe_tree_free(full), froe_tree_free(none);
 }
 
+/* Units of bounds are believed by searches: boxes within that of their leaf, which starts where doubles go on. */
+static void boxes_of_space_are_audited(void **state) {
+    static const char *const what[] = {"a box outside the box of its leaf", "a box outside the box of its leaf",
+                                       "a box that the object leaves", "a box that the object leaves"};
+    (void)state;
+    froe_tree *tree = trees_grow(3, FROE_SEGMENT, 4, 0, 0.4, "index", 6);
+    space_header *h = (space_header *)(void *)tree->packed.blocks;
+    assert_int_equal(audit(tree, NULL), FROE_OK);
+    assert_true(h->count == 4 && h->triangles == 0 && h->scale > 0);
+    for (int wrong = 0; wrong < 4; wrong++) {
+        const space_header right = *h;
+        froe_diagnostic why = {0};
+        if (wrong == 0) h->box[0][1]++;
+        if (wrong == 1) h->box[1][2]--;
+        if (wrong == 2) h->lo[0] = DBL_MAX; /* no double is beyond the box */
+        if (wrong == 3) h->lo[2] = -DBL_MAX;
+        assert_int_equal(audit(tree, &why), FROE_E_AUDIT);
+        if (!strstr(why.message, what[wrong])) fail_msg("%s", why.message);
+        *h = right;
+    }
+    assert_int_equal(audit(tree, NULL), FROE_OK);
+    froe_tree_free(tree);
+}
+
+/* The largest unit is that of the upper bound of a scene whose size is as many. */
+static void units_reach_the_upper_bound(void **state) {
+    static const double coords[] = {0, 0, 0, 65535, 1, 2, 3, 65535, 65535, 5, 5, 5, 65535, 6, 65535, 65535, 65535, 4};
+    (void)state;
+    for (int box = 0; box < 2; box++) {
+        const double far[3] = {65535, 65535, box ? 65535 : 4}, window[6] = {far[0], far[1], far[2], 1e5, 1e5, 1e5};
+        const double corners[6] = {1, 2, 3, 65535, 65535, 65535};
+        const size_t starts[3] = {0, 3, 6};
+        froe_scene *scene;
+        froe_query *q;
+        froe_list found;
+        froe_range r = froe_range_defaults();
+        assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+        assert_int_equal(trees_add(scene, FROE_POLYGON, 2, coords, NULL, starts), FROE_OK);
+        if (box) assert_int_equal(trees_add(scene, FROE_BOX, 1, corners, NULL, NULL), FROE_OK);
+        froe_tree *tree = trees_build(scene, "index", 6);
+        assert_int_equal(((const space_header *)(const void *)tree->packed.blocks)->box[1][0], 65535);
+        assert_int_equal(audit(tree, NULL), FROE_OK);
+        assert_int_equal(froe_query_new(tree, &q, NULL), FROE_OK);
+        r.points = window;
+        assert_int_equal(froe_query_range(q, &r, &found, NULL), FROE_OK);
+        assert_int_equal(found.count, 1);
+        assert_int_equal(found.ids[0], box ? 2 : 1);
+        froe_query_free(q), froe_tree_free(tree), froe_scene_free(scene);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hulls_of_dimension_4_must_be_listed_where_they_reach),
@@ -334,6 +387,8 @@ int main(void) {
         cmocka_unit_test(corners_in_cuts_of_packed_trees_are_found),
         cmocka_unit_test(blocks_that_a_packed_tree_cannot_have_are_found),
         cmocka_unit_test(headers_of_blocks_of_space_are_checked),
+        cmocka_unit_test(boxes_of_space_are_audited),
+        cmocka_unit_test(units_reach_the_upper_bound),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

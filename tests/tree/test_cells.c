@@ -143,6 +143,18 @@ static bool add_far_leaf(void *user, const froe_cell *cell) {
     return true;
 }
 
+static bool add_leaf_far_along(void *user, const froe_cell *cell) {
+    tally *t = user;
+    double near[2 * FAR_CORNERS];
+    assert_true(cell->corners <= FAR_CORNERS);
+    for (size_t i = 0; i < 2 * cell->corners; i++) near[i] = cell->coords[i] - (i % 2 ? 0 : far_away);
+    const double measure = polygon_area(near, cell->corners);
+    if (!t->cells++) t->root_measure = measure;
+    t->leaves += cell->leaf;
+    t->leaf_measure += cell->leaf ? measure : 0;
+    return true;
+}
+
 /* Cuts through corners and, with `section`, an oblique one that is given by numbers. */
 static void leaves_far_from_the_origin_tile_the_box(void **state) {
     (void)state;
@@ -464,6 +476,29 @@ static void cuts_through_corners_of_the_box_have_sections(void **state) {
         }
 }
 
+/* Along the first axis 2^49 away, along the second beside 0, on either side of it or across it: numbers count from the
+ * nearer side where its distance from 0 is at least half that of the other side. */
+static void boxes_far_along_one_axis_are_tiled(void **state) {
+    static const double sides[][2] = {{-3, -1}, {1, 3}, {-1, 1}, {-64, -62}, {62, 64}}, origins[] = {0, 0, 0, -62, 62};
+    (void)state;
+    for (size_t i = 0; i < sizeof sides / sizeof *sides; i++) {
+        const double lo[2] = {far_away, sides[i][0]}, hi[2] = {far_away + 64, sides[i][1]};
+        const double coords[8] = {far_away + 8,  lo[1] + 0.5,  far_away + 24, lo[1] + 1.5,
+                                  far_away + 40, lo[1] + 0.25, far_away + 56, lo[1] + 0.75};
+        const shape_frame frame = shape_frame_of(2, lo, hi);
+        tally t = {.dim = 2};
+        froe_scene *scene;
+        assert_true(frame.origin[0] == far_away && frame.origin[1] == origins[i]);
+        assert_int_equal(froe_scene_new(2, NULL, &scene), FROE_OK);
+        assert_int_equal(trees_add(scene, FROE_SEGMENT, 2, coords, NULL, NULL), FROE_OK);
+        t.tree = trees_build(scene, "autopartition", 1);
+        assert_int_equal(froe_tree_cells(t.tree, lo, hi, add_leaf_far_along, &t, NULL), FROE_OK);
+        assert_true(t.leaves >= 2);
+        assert_true(fabs(t.leaf_measure - 128) < 1e-9 && t.root_measure == 128);
+        froe_tree_free((froe_tree *)(uintptr_t)t.tree), froe_scene_free(scene);
+    }
+}
+
 /* Cuts so far from the box that they overflow in its units are on one side of it. */
 static void boxes_far_smaller_than_the_tree_are_in_one_leaf(void **state) {
     (void)state;
@@ -491,6 +526,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(cuts_through_corners_of_the_box_have_sections),
         cmocka_unit_test(boxes_far_smaller_than_the_tree_are_in_one_leaf),
+        cmocka_unit_test(boxes_far_along_one_axis_are_tiled),
         cmocka_unit_test(leaves_tile_the_box),
         cmocka_unit_test(leaves_between_walls_tile_the_box),
         cmocka_unit_test(parts_of_a_tree_are_cells_of_a_smaller_box),

@@ -169,9 +169,9 @@ static int beyond_both(num_arena *arena, num_ratio s, double radius, num_dyadic 
     return num_dyadic_compare(s.top, num_dyadic_mul(arena, num_dyadic_mul(arena, sum, sum), s.bottom));
 }
 
-/* Are both distances from simplices of as many corners? */
+/* Are both distances from simplices of as many corners? Only what has a lo has a radius. */
 static bool same_kind(const geom_distance *a, const geom_distance *b) {
-    return !a->lo && !b->lo && a->count == b->count && a->radius == b->radius && !a->high.count;
+    return !a->lo && !b->lo && a->count == b->count && !a->high.count;
 }
 
 /* Do both come from the same corners? Objects of one scene share them. */

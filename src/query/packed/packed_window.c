@@ -245,17 +245,22 @@ static bool answer_window(froe_query *q, const packed_visit *v, const packed_win
     return true;
 }
 
-/* Decides what is unsure. */
-static bool settle_unsure(froe_query *q, const packed_window *w) {
+/* Decides what is unsure. REQUIRES: room for all of it in query->found, as there is after one visit. */
+static void decide_unsure(froe_query *q, const packed_window *w) {
     packed_work *work = q->packed;
     uint64_t exact = q->numbers.stats.exact;
     work->decided += work->unsure.count;
-    if (!array_reserve(&q->alloc, &q->found, work->unsure.count)) return false;
     for (size_t i = 0; i < work->unsure.count; i++)
         if (reports(q, work->unsure.data + i, w))
             q->found.data[q->found.count++] = work->unsure.data[i].id & PACKED_OBJECT;
     work->unsure.count = 0;
     q->stats.exact += q->numbers.stats.exact - exact;
+}
+
+/* The same after any number of visits. False without memory. */
+static bool settle_unsure(froe_query *q, const packed_window *w) {
+    if (!array_reserve(&q->alloc, &q->found, q->packed->unsure.count)) return false;
+    decide_unsure(q, w);
     return true;
 }
 
@@ -326,8 +331,10 @@ froe_status packed_count_range(froe_query *q, const double *lo, const double *hi
 froe_status packed_any(froe_query *q, const double *lo, const double *hi) {
     const packed_window w = window_of(lo, hi);
     bool memory = collect_alone(q, &w);
-    for (size_t i = 0; i < q->packed->visits.count && memory && !q->found.count; i++)
-        memory = answer_window(q, make_visit(q, i), &w) && settle_unsure(q, &w);
+    for (size_t i = 0; i < q->packed->visits.count && memory && !q->found.count; i++) {
+        memory = answer_window(q, make_visit(q, i), &w);
+        if (memory) decide_unsure(q, &w);
+    }
     return memory ? FROE_OK : FROE_E_MEMORY;
 }
 

@@ -63,7 +63,7 @@ bool query_object_meets_box(froe_query *q, uint32_t object, const double *lo, co
         ends[k] = lo[k] > a[k] ? lo[k] : a[k];
         ends[s->dim + k] = hi[k] < b[k] ? hi[k] : b[k];
     }
-    if (scene_form(s, object) == FROE_SEGMENT && s->dim <= 3) { /* its bounds meet the box */
+    if (scene_form(s, object) == FROE_SEGMENT) { /* its bounds meet the box; above dimension 3 it is a hull */
         const double *u = scene_point(s, object, 0), *v = scene_point(s, object, 1), *far = ends + s->dim;
         if (in_box(u, ends, far, s->dim) || in_box(v, ends, far, s->dim)) return true;
         if (s->dim == 2) return !segment_beside_box(&q->numbers, -1, u, v, ends, far);

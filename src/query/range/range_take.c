@@ -113,8 +113,10 @@ static void normal_of(int dim, const double *p, const double *q, const double *r
 /* Facets in both directions, so that it does not matter which one is the outer one. */
 static bool add_slab(geom_range *r, const froe_allocator *alloc, const double *n) {
     double back[FROE_MAX_DIM];
+    bool ok = true;
     for (int k = 0; k < r->dim; k++) back[k] = -n[k];
-    return geom_range_add_facet(r, alloc, n) && geom_range_add_facet(r, alloc, back);
+    for (int i = 0; i < 2 && ok; i++) ok = geom_range_add_facet(r, alloc, i ? back : n);
+    return ok;
 }
 
 /* In the plane and in space. */

@@ -42,7 +42,7 @@ static crossing cross_plane(const geom_ray *ray, const query_plane *plane, doubl
     const double value = query_plane_value(plane, ray->dim, ray->o, &value_error);
     const double slope = query_plane_slope(plane, ray->dim, ray->d, &slope_error);
     const num_ball t = filter_div((num_ball){-value, value_error}, (num_ball){slope, slope_error});
-    if (t.e < INFINITY && isfinite(t.x))
+    if (t.e < INFINITY) /* an infinite quotient has no other error, as the slope has an error > 0 */
         return (crossing){t.x - t.e * (1 + 0x1p-50), t.x + t.e * (1 + 0x1p-50), slope < 0, false};
     const double reach = value_error + (fabs(slope) + slope_error) * leave;
     return fabs(value) > reach * (1 + 0x1p-50) ? crossing_at(value) : (crossing){.both = true};
