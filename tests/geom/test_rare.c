@@ -445,6 +445,41 @@ static void walls_are_met_at_rounded_quotients_of_any_size(void **state) {
         }
 }
 
+/* Rays that pass all edges of a triangle on one side, certainly, although they lie so nearly in its plane that filters
+ * cannot tell whether they cross it upwards: they hit it where exact numbers say. */
+static void rays_nearly_in_a_triangle_are_decided_exactly(void **state) {
+    static const struct {
+        double way[3], corners[9];
+    } cases[] = {
+        {{1, -0x1.e2a67e2ca0ef8p-4, -0x1.555e9ad2d9528p-54},
+         {0x1.a3691aeccb948p-28, -0x1.55fcec19fde2cp-27, -0x1.49f4b75e57f4ap-67, 0x1.5a164a39ba11p-2,
+          0x1.7ba81085e087p-5, -0x1.0ef10232153dap-69, -0x1.1e799cb7a1bf8p-3, -0x1.75d3b871148ap-4,
+          0x1.b2839b4355a9cp-54}},
+        {{1, -0x1.7f56675edb8e2p-4, 0x1.b1d4da2007e78p-51},
+         {0x1.1da8f6d6d5276p-28, 0x1.972173e04f654p-28, -0x1.641e84bd5c45p-69, 0x1.759bb2f56bcp-4, 0x1.cf299803af978p-2,
+          0x1.47c8ca23f6168p-48, -0x1.fdbf34c40debp-3, -0x1.0a64a1e0594cep-2, -0x1.9c18b6fe4510cp-49}}};
+    int hits = 0;
+    (void)state;
+    for (int i = 0; i < 2; i++)
+        for (int back = 0; back < 2; back++) {
+            const geom_body body = {FROE_POLYGON, 3, 3, cases[i].corners, NULL, 0};
+            bool met[2];
+            double at[2] = {0, 0};
+            geom_ray ray = {.dim = 3};
+            for (int k = 0; k < 3; k++) ray.d[k] = back ? -cases[i].way[k] : cases[i].way[k];
+            for (int exact = 0; exact < 2; exact++) {
+                geom_hit hit;
+                context.first = exact ? NUM_EXACT : NUM_FILTER;
+                met[exact] = geom_ray_meets(&context, &ray, &body, &hit);
+                if (met[exact]) at[exact] = geom_hit_round(&context, &ray, &hit);
+            }
+            context.first = NUM_FILTER;
+            assert_true(met[0] == met[1] && at[0] == at[1]);
+            hits += met[0];
+        }
+    assert_int_equal(hits, 2); /* of a line and its two directions one hits */
+}
+
 enum { STACKED = 900 };
 
 /* Triangles behind one another, one seen along the ray through the next: each corner replaces one of the last. */
@@ -517,6 +552,7 @@ int main(void) {
         cmocka_unit_test(walls_are_met_in_their_order),
         cmocka_unit_test(walls_are_met_at_rounded_quotients_of_any_size),
         cmocka_unit_test(hulls_of_stacked_triangles_are_entered_at_the_first),
+        cmocka_unit_test(rays_nearly_in_a_triangle_are_decided_exactly),
         cmocka_unit_test(polytopes_may_lack_memory),
     };
     return cmocka_run_group_tests(tests, begin, end);
