@@ -117,7 +117,7 @@ static int answer_case(num_context *context, formula f, const double *p) {
     const int dim = f == VERTEX_2 || f == CROSSING_2 || f == BALL_2 ? 2 : 3;
     geom_plane h = f <= EYE_AFAR ? plane_of(dim, p) : (geom_plane){.dim = 3};
     geom_eye eye;
-    switch (f) {
+    switch (f) { /* one way: every formula has a case */
     case VERTEX_2:
     case VERTEX_3:
         return agreed(dim == 3 ? geom_side_of_eye_filter(p, p + 3, p + 6, &(geom_eye){.at = {p[9], p[10], p[11]}})

@@ -3,11 +3,11 @@
 #include <math.h>
 
 /* Rounding changes the two products and their difference by less than 2^-50 of the products together, underflow by
- * less than 2^-1070; an overflow makes the bound infinite or NaN. */
+ * less than 2^-1070; an overflow makes the bound infinite or NaN, which nothing exceeds. */
 int query_turn(num_context *numbers, const double *u, const double *v, const double *x) {
     double a = (v[0] - u[0]) * (x[1] - u[1]), b = (v[1] - u[1]) * (x[0] - u[0]);
     double turn = a - b, bound = 0x1p-50 * (fabs(a) + fabs(b)) + 0x1p-1070;
-    if (numbers->first == NUM_FILTER && fabs(turn) > bound && bound <= 0x1p1000) return turn > 0 ? 1 : -1;
+    if (numbers->first == NUM_FILTER && fabs(turn) > bound) return turn > 0 ? 1 : -1;
     if (u[0] == v[0] && u[1] == v[1]) return 0;
     geom_plane line = geom_plane_points(2, (const double *const[]){u, v});
     return geom_side_vertex(numbers, &line, x);

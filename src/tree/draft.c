@@ -168,6 +168,7 @@ froe_status draft_cover(tree_draft *draft, uint32_t node, uint32_t object) {
 froe_status draft_piece(tree_draft *draft, uint32_t node, uint32_t object, const uint32_t *ring, uint32_t count) {
     tree_node *n = draft->nodes.data + node;
     tree_piece piece = {.object = object};
+    /* one way: so many take 16 GB */
     if (draft->pieces.count >= TREE_MOST || draft->bounds.count + count >= UINT32_MAX) return FROE_E_LIMIT;
     if (!array_reserve(&draft->alloc, &draft->pieces, 1)) return FROE_E_MEMORY;
     if (ring) {

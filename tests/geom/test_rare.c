@@ -12,6 +12,7 @@
 #include "geom/range.h"
 #include "geom/ray/ray.h"
 #include "geom/selftest.h"
+#include "geom/turn.h"
 #include "support/memory.h"
 #include <fenv.h>
 #include <math.h>
@@ -66,6 +67,25 @@ static void planes_trust_no_other_rounding(void **state) {
     fesetround(FE_TONEAREST);
     assert_true(right.n_err < 1 && fine.n_err < 1 && vector.n_err == 0);
     assert_true(isinf(up.n_err) && isinf(fine_up.n_err));
+}
+
+/* Neither does what has a filter of its own: turns, and points and rays beside triangles. */
+static void filters_are_asked_in_one_rounding_alone(void **state) {
+    static const double corners[] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, above[3] = {0.25, 0.25, 1};
+    const geom_body triangle = {FROE_POLYGON, 3, 3, corners, NULL, 0};
+    const geom_ray ray = {3, {0.25, 0.25, 1}, {0, 0, -1}};
+    (void)state;
+    for (int up = 0; up < 2; up++) {
+        geom_hit hit;
+        if (up) fesetround(FE_UPWARD);
+        const int turn = geom_turn(&context, corners, corners + 3, corners + 6);
+        const geom_distance d = geom_distance_from(&context, above, &triangle);
+        const bool meets = geom_ray_meets(&context, &ray, &triangle, &hit);
+        fesetround(FE_TONEAREST);
+        assert_true(turn == 1 && meets);
+        assert_int_equal(geom_distance_compare_to(&context, above, &d, 1), 0);
+        assert_true(geom_hit_round(&context, &ray, &hit) == 1);
+    }
 }
 
 /* Where a line crosses another is known up to an error; where nothing is known, the error is infinite: lines that are
@@ -529,6 +549,7 @@ int main(void) {
         cmocka_unit_test(eyes_far_away_see_sheared_walls_by_their_shear),
         cmocka_unit_test(ends_of_lines_lie_on_them),
         cmocka_unit_test(planes_trust_no_other_rounding),
+        cmocka_unit_test(filters_are_asked_in_one_rounding_alone),
         cmocka_unit_test(crossings_that_doubles_cannot_tell_have_no_bound),
         cmocka_unit_test(fine_planes_are_told_apart),
         cmocka_unit_test(boxes_lie_beside_vertical_planes),

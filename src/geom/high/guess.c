@@ -141,7 +141,7 @@ geom_guess geom_guess_between(const geom_convex *a, const geom_convex *b) {
     for (int k = 0; k < s.dim; k++) g.origin[k] = geom_convex_coordinate(a, 0, k) * g.scale;
     place(&s, a, b, 0);
     memcpy(g.x, s.y[0], sizeof g.x);
-    /* each step is nearer to 0: the limit is one of time alone */
+    /* one way: each step is nearer to 0, so that the limit is one of time alone */
     for (int step = 0; step < STEPS; step++) {
         double size = 0, before = dot(s.dim, g.x, g.x);
         uint32_t i, j;
@@ -191,7 +191,7 @@ void geom_guess_bounds(const geom_guess *g, const geom_convex *a, const geom_con
     }
     for (int k = 0; k < dim; k++) square += reach[k] / furthest * (reach[k] / furthest); /* does not underflow */
     const double far = furthest * sqrt(square) / sum * (1 + SUM_ERROR);
-    if (far >= 0) *most = far; /* not a number, too */
+    if (far >= 0) *most = far; /* one way: weights are numbers, which is not relied on */
     *least = *least / g->scale * (1 - 0x1p-50) - 0x1p-1070;
     *most = *most / g->scale * (1 + 0x1p-50) + 0x1p-1070;
     *least = *least > 0 ? fmin(*least, DBL_MAX) : 0;

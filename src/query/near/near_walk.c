@@ -110,8 +110,9 @@ froe_status query_near_next(froe_query *q, tree_objects *list) {
     query_near *n = &q->near;
     if (n->packed) return space_walk_next(q, &q->space->walk, n->limit, list);
     const query_contents *contents;
-    froe_status status = query_contents_of(q, &contents, NULL); /* prepared by query_near_begin() */
+    froe_status status = query_contents_of(q, &contents, NULL);
     list->count = 0;
+    /* one way: query_near_begin() has prepared the contents */
     while (!status && (n->at.node != FROE_NONE || pop_region(n))) {
         const tree_node *node = t->nodes + n->at.node;
         *list = tree_list(t, n->at.node);

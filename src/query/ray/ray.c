@@ -36,16 +36,19 @@ froe_status query_ray_check(int dim, const double *origin, const double *directi
     return support_fail(diag, FROE_E_INPUT, "The direction of a ray is 0.");
 }
 
-froe_status query_ray_take(froe_query *q, const double *origin, const double *direction, double t_max,
-                           froe_diagnostic *diag) {
+void query_ray_set(froe_query *q, const double *origin, const double *direction, double t_max) {
     const int dim = q->tree->scene->dim;
-    const froe_status status = query_ray_check(dim, origin, direction, t_max, diag);
-    if (status) return status;
     q->ray.ray = (geom_ray){.dim = dim};
     memcpy(q->ray.ray.o, origin, (size_t)dim * sizeof *origin);
     memcpy(q->ray.ray.d, direction, (size_t)dim * sizeof *direction);
     q->ray.limit = t_max;
-    return FROE_OK;
+}
+
+froe_status query_ray_take(froe_query *q, const double *origin, const double *direction, double t_max,
+                           froe_diagnostic *diag) {
+    const froe_status status = query_ray_check(q->tree->scene->dim, origin, direction, t_max, diag);
+    if (!status) query_ray_set(q, origin, direction, t_max);
+    return status;
 }
 
 bool query_ray_meets(froe_query *q, const geom_ray *ray, uint32_t object, double t_max, query_met *out) {

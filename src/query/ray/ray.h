@@ -40,7 +40,9 @@ void query_ray_free(query_ray *r, const froe_allocator *alloc);
 /** Is the origin finite, the direction too and not 0, and t_max >= 0? */
 froe_status query_ray_check(int dim, const double *origin, const double *direction, double t_max,
                             froe_diagnostic *diag);
-/** Checks a ray and prepares query->ray for it. */
+/** Prepares query->ray for a ray that has been checked. */
+void query_ray_set(struct froe_query *query, const double *origin, const double *direction, double t_max);
+/** The same for one that has not been. */
 froe_status query_ray_take(struct froe_query *query, const double *origin, const double *direction, double t_max,
                            froe_diagnostic *diag);
 /** The object of certain kinds (bits, as added) that the ray taken meets first: query->ray.met has it, or nothing. */

@@ -48,9 +48,10 @@ static crossing cross_plane(const geom_ray *ray, const query_plane *plane, doubl
     return fabs(value) > reach * (1 + 0x1p-50) ? crossing_at(value) : (crossing){.both = true};
 }
 
-static bool push_step(froe_query *q, query_step step) {
-    if (step.enter > step.leave || step.enter > q->ray.limit || step.enter == INFINITY) return true;
-    return array_push(&q->alloc, &q->ray.steps, step);
+/* REQUIRES: room. */
+static void push_step(froe_query *q, query_step step) {
+    if (step.enter > step.leave || step.enter > q->ray.limit || step.enter == INFINITY) return;
+    q->ray.steps.data[q->ray.steps.count++] = step;
 }
 
 froe_status query_walk_begin(froe_query *q, froe_diagnostic *diag) {
@@ -76,15 +77,17 @@ froe_status query_walk_begin(froe_query *q, froe_diagnostic *diag) {
         if (!out.both && out.hi < root.leave) root.leave = out.hi;
     }
     q->ray.steps.count = 0;
-    if (!status && !push_step(q, root)) status = support_fail_memory(diag);
+    if (!status && !array_reserve(&q->alloc, &q->ray.steps, 1)) status = support_fail_memory(diag);
+    if (!status) push_step(q, root);
     return status;
 }
 
 froe_status query_walk_next(froe_query *q, tree_objects *list) {
     const query_planes *planes;
     if (q->ray.packed) return space_walk_next(q, &q->space->walk, q->ray.limit, list);
-    froe_status status = query_planes_of(q, &planes, NULL); /* prepared by query_walk_begin() */
+    froe_status status = query_planes_of(q, &planes, NULL);
     list->count = 0;
+    /* one way: query_walk_begin() has prepared the planes */
     while (!status && q->ray.steps.count) {
         const query_step s = q->ray.steps.data[--q->ray.steps.count];
         if (s.enter > q->ray.limit) continue;
@@ -111,7 +114,10 @@ froe_status query_walk_next(froe_query *q, tree_objects *list) {
         }
         const uint32_t covers = tree_covers(t, node);
         const bool listed = node->type == TREE_TABLED && t->cuts[node->u.cut].count && !covers;
-        if (!push_step(q, second) || (listed && !push_step(q, in_cut)) || !push_step(q, first)) return FROE_E_MEMORY;
+        if (!array_reserve(&q->alloc, &q->ray.steps, 3)) return FROE_E_MEMORY;
+        push_step(q, second);
+        if (listed) push_step(q, in_cut);
+        push_step(q, first);
         if (covers) {
             *list = tree_list(t, s.node);
             return FROE_OK;

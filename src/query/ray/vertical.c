@@ -19,8 +19,8 @@ froe_status froe_query_vertical(froe_query *query, const double *point, int dire
     froe_status status = query_vertical_check(query, point, direction, diag);
     if (status) return status;
     if (query->packed) return packed_vertical(query, point, 1, direction, object) ? query_failed(query, diag) : FROE_OK;
-    status = query_ray_take(query, point, (const double[]){0, direction}, INFINITY, diag);
-    if (!status) status = query_ray_first(query, INFINITY, 1u << FROE_SEGMENT, diag);
+    query_ray_set(query, point, (const double[]){0, direction}, INFINITY);
+    status = query_ray_first(query, INFINITY, 1u << FROE_SEGMENT, diag);
     if (!status) *object = query->ray.met.count ? query->ray.met.data[0].object : FROE_NONE;
     return status;
 }
