@@ -9,6 +9,7 @@
  * Descartes' rule is applied to the exact polynomial. Ticks are tested by predicates, never by polynomials.
  * Source: Lane and Riesenfeld, "Bounds on a polynomial", BIT 1981; Collins and Akritas, SYMSAC 1976. */
 #include "kinetic/now/near.h"
+#include "kinetic/now/straight.h"
 #include <math.h>
 
 enum { FAILURE_LEVELS = 56 };
@@ -303,6 +304,8 @@ static int64_t first_pole(now_state *now, const now_claim *claim, int64_t last, 
  * they are not, it may leave its segments, pass infinity and be back within one. So then the claim is tested, too.
  */
 int64_t now_first_failure(now_state *now, const now_claim *claim) {
+    int64_t straight;
+    if (straight_first_failure(now, claim, &straight)) return straight;
     const int64_t last = named_last(now, claim->q, named_last(now, claim->p, now->motion->last_tick | 1));
     const bool along = claim->above == NOW_ALONG, some = last - now->tick >= 2;
     near_claim near;
