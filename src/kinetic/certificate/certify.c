@@ -188,9 +188,9 @@ static void set_list(froe_kinetic *k, uint32_t *list, uint32_t owner, uint32_t v
     }
 }
 
+/* REQUIRES: the wall is that of an end. */
 static void certify_end(froe_kinetic *k, uint32_t node, const ktree_cell *cell, int side) {
     const ktree_node *n = ktree_node_at(&k->tree, node);
-    if (!ktree_is_end(n->wall[side])) return;
     const uint32_t segment = n->segment, which = KTREE_END_0 - n->wall[side];
     ktree_end *end = ktree_segment_at(&k->tree, segment)->end + which;
     if (end->stamp != k->tree.stamp) return;
@@ -224,7 +224,8 @@ static void certify_touched(froe_kinetic *k, uint32_t root, ktree_cell cell) {
             call_poll(&k->call);
             ktree_node_at(tree, node)->cut = find_cut(tree, node);
             certify_regions(k, node, &cell);
-            for (int side = 0; side < 2; side++) certify_end(k, node, &cell, side);
+            for (int side = 0; side < 2; side++)
+                if (ktree_is_end(ktree_node_at(tree, node)->wall[side])) certify_end(k, node, &cell, side);
             continue;
         }
         top->back = true;

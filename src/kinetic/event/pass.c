@@ -220,7 +220,7 @@ static bool list_crossing_after(ktree *tree, passing *p, name_point point) {
 /* -------------------------------------------------------------------- change -- */
 
 /* The tree of some that cross a cell from wall to wall, given from below: the first in order on top (Vuillemin 1980).
- */
+ * It has no certificates, and so no stamp that would make certify_sites() look for some. */
 static void plant(froe_kinetic *k, size_t first, size_t count, uint32_t parent, uint8_t slot) {
     static const uint32_t no_walls[2] = {KTREE_NO_WALL, KTREE_NO_WALL};
     ktree *tree = &k->tree;
@@ -229,6 +229,7 @@ static void plant(froe_kinetic *k, size_t first, size_t count, uint32_t parent, 
         const uint32_t node = ktree_new_node(tree, *s, no_walls);
         uint32_t below = KTREE_LEAF;
         if (!node || !call_reserve(&k->call, &k->surgery.scratch, 1)) return;
+        ktree_node_at(tree, node)->stamp = tree->stamp - 1;
         uint32_t *path = k->surgery.scratch.data;
         for (; k->surgery.scratch.count; k->surgery.scratch.count--) {
             const uint32_t last = path[k->surgery.scratch.count - 1];
