@@ -37,25 +37,29 @@ static double rise(now_state *now, uint32_t segment, double dx) {
     return rises < height ? rises : height; /* NaN, too */
 }
 
+static void enlarge(participants_place *place, now_spot spot, const double error[2]) {
+    place->low[0] = place->high[0] = spot.x, place->low[1] = place->high[1] = spot.y;
+    for (int i = 0; i < 2; i++) {
+        const double e = (error[i] + fabs(place->low[i]) * 0x1p-50) * 2;
+        place->low[i] -= e, place->high[i] += e;
+    }
+}
+
+static participants_place place_of_vertex(now_state *now, uint32_t vertex) {
+    participants_place out;
+    const now_spot spot = now_vertex_flight(now, vertex, &out.speed);
+    enlarge(&out, spot, (double[]){spot.error, spot.error});
+    return out;
+}
+
 /* A box around p. Around a crossing it reaches along the lines as far as x, where the other point is. */
 static participants_place place_of_name(now_state *now, name_point p, double x) {
-    now_spot spot = now_spot_of(now, p);
-    participants_place out = {{spot.x, spot.y}, {spot.x, spot.y}, 0};
-    double error[2] = {spot.error, spot.error};
-    if (name_is_vertex(p)) {
-        out.speed = now_speed(now, p.a);
-    } else {
-        double s = speed_of(now, p.a), t = speed_of(now, (uint32_t)p.b), dx = fabs(x - spot.x) + spot.error;
-        double up = rise(now, p.a, dx), over = rise(now, (uint32_t)p.b, dx);
-        out.speed = s > t ? s : t;
-        error[0] += dx;
-        error[1] += up < over ? up : over;
-    }
-    for (int i = 0; i < 2; i++) {
-        double e = (error[i] + fabs(out.low[i]) * 0x1p-50) * 2;
-        out.low[i] -= e;
-        out.high[i] += e;
-    }
+    if (name_is_vertex(p)) return place_of_vertex(now, p.a);
+    const now_spot spot = now_spot_of(now, p);
+    const double s = speed_of(now, p.a), t = speed_of(now, (uint32_t)p.b), dx = fabs(x - spot.x) + spot.error;
+    const double up = rise(now, p.a, dx), over = rise(now, (uint32_t)p.b, dx);
+    participants_place out = {.speed = s > t ? s : t};
+    enlarge(&out, spot, (double[]){spot.error + dx, spot.error + (up < over ? up : over)});
     return out;
 }
 
@@ -79,13 +83,10 @@ typedef struct line {
 
 static line line_of_segment(now_state *now, uint32_t segment) {
     const uint32_t *end = now->segments.data[segment].end;
-    line out = {.error = 0, .speed = speed_of(now, segment)};
-    for (int i = 0; i < 2; i++) {
-        now_spot s = now_vertex_spot(now, end[i]);
-        out.at[i][0] = s.x, out.at[i][1] = s.y;
-        out.error = s.error > out.error ? s.error : out.error;
-    }
-    return out;
+    double speed[2];
+    const now_spot a = now_vertex_flight(now, end[0], speed), b = now_vertex_flight(now, end[1], speed + 1);
+    return (line){
+        {{a.x, a.y}, {b.x, b.y}}, a.error > b.error ? a.error : b.error, speed[0] > speed[1] ? speed[0] : speed[1]};
 }
 
 /* May a segment meet a place, enlarged on all sides by what both move? */
@@ -167,7 +168,7 @@ static void add_flop(froe_kinetic *k, uint32_t surface) {
     for (int i = 0; i < 3; i++) {
         const uint32_t vertex = now_face_of(&k->now, surface)->vertex[i];
         add_segments_at(k, vertex);
-        call_push(&k->call, &k->participants.places, place_of_name(&k->now, (name_point){vertex, NAME_VERTEX}, 0));
+        call_push(&k->call, &k->participants.places, place_of_vertex(&k->now, vertex));
     }
 }
 
@@ -199,7 +200,7 @@ bool participants_have_loose_ends(froe_kinetic *k, const slab_item *item) {
     for (size_t i = 0; i < 2 * all->list.count; i++) {
         const uint32_t vertex = k->now.segments.data[all->list.data[i / 2]].end[i % 2];
         if ((name_is_vertex(p) && p.a == vertex) || (name_is_vertex(q) && q.a == vertex)) continue;
-        const participants_place at = place_of_name(&k->now, (name_point){vertex, NAME_VERTEX}, 0);
+        const participants_place at = place_of_vertex(&k->now, vertex);
         for (size_t j = 0; j < all->places.count; j++)
             if (places_meet(&at, all->places.data + j)) return true;
     }

@@ -92,8 +92,16 @@ int64_t now_course_last(now_state *now, uint32_t vertex) {
     return now_course_of(now, vertex)->last;
 }
 
-double now_speed(now_state *now, uint32_t vertex) {
-    const now_course *c = now_course_of(now, vertex);
+now_spot now_bent_spot(now_state *now, uint32_t vertex) {
+    const now_course *c = now->courses.data + vertex;
+    const now_bend *b = now->bends.data + vertex;
+    if (c->degree == NOW_TURNING) return now_turning_spot(now, vertex);
+    const double s = (double)(now->tick - c->base), bend[2] = {b->x[0] + s * b->x[1], b->y[0] + s * b->y[1]};
+    return (now_spot){c->x[0] + s * (c->x[1] + s * bend[0]), c->y[0] + s * (c->y[1] + s * bend[1]), c->error};
+}
+
+double now_bent_speed(now_state *now, uint32_t vertex) {
+    const now_course *c = now->courses.data + vertex;
     const now_bend *bend = now->bends.data + vertex;
     if (c->degree == NOW_TURNING) return now_turning_speed(now, vertex);
     double x = fabs(c->x[1]), y = fabs(c->y[1]), s = span_of(c);

@@ -192,6 +192,9 @@ now_spot now_turning_spot(now_state *now, uint32_t vertex);
 double now_turning_speed(now_state *now, uint32_t vertex);
 
 /* course.c */
+/** As now_vertex_spot() and now_speed(), of a vertex that does not fly straight and has been looked up. */
+now_spot now_bent_spot(now_state *now, uint32_t vertex);
+double now_bent_speed(now_state *now, uint32_t vertex);
 /** Looks up the piece that the present tick belongs to. */
 void now_look_up(now_state *now, uint32_t vertex);
 /** Trials of later ticks do not leave the piece. */
@@ -202,18 +205,30 @@ static inline const now_course *now_course_of(now_state *now, uint32_t vertex) {
 }
 static inline now_spot now_vertex_spot(now_state *now, uint32_t vertex) {
     const now_course *c = now_course_of(now, vertex);
-    if (c->degree == NOW_TURNING) return now_turning_spot(now, vertex);
-    double s = (double)(now->tick - c->base), bend[2] = {0, 0};
+    if (c->degree > 1) return now_bent_spot(now, vertex);
+    const double s = (double)(now->tick - c->base);
+    return (now_spot){c->x[0] + s * c->x[1], c->y[0] + s * c->y[1], c->error};
+}
+/** Where a vertex is, and now_speed(). */
+static inline now_spot now_vertex_flight(now_state *now, uint32_t vertex, double *speed) {
+    const now_course *c = now_course_of(now, vertex);
     if (c->degree > 1) {
-        const now_bend *b = now->bends.data + vertex;
-        bend[0] = b->x[0] + s * b->x[1], bend[1] = b->y[0] + s * b->y[1];
+        *speed = now_bent_speed(now, vertex);
+        return now_bent_spot(now, vertex);
     }
-    return (now_spot){c->x[0] + s * (c->x[1] + s * bend[0]), c->y[0] + s * (c->y[1] + s * bend[1]), c->error};
+    const double s = (double)(now->tick - c->base), x = fabs(c->x[1]), y = fabs(c->y[1]);
+    *speed = (x > y ? x : y) * (1 + 0x1p-20);
+    return (now_spot){c->x[0] + s * c->x[1], c->y[0] + s * c->y[1], c->error};
 }
 /** Up to and including which tick the flight of a vertex is one polynomial. */
 int64_t now_course_last(now_state *now, uint32_t vertex);
 /** No coordinate of the vertex changes by more in a tick, as long as its piece lasts. */
-double now_speed(now_state *now, uint32_t vertex);
+static inline double now_speed(now_state *now, uint32_t vertex) {
+    const now_course *c = now_course_of(now, vertex);
+    if (c->degree > 1) return now_bent_speed(now, vertex);
+    const double x = fabs(c->x[1]), y = fabs(c->y[1]);
+    return (x > y ? x : y) * (1 + 0x1p-20);
+}
 /** A coordinate times 2^lift; of little ones what is lost is less than NUM_BALL_TINY. */
 static inline double now_lifted(const now_state *now, double x) {
     return ldexp(x, now->lift);
