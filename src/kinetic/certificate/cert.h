@@ -45,6 +45,12 @@ typedef struct cert_recent {
     int64_t tick;
 } cert_recent;
 
+/** An end with a wall of which a surgery knows what is next to it from now on. */
+typedef struct cert_known {
+    uint32_t end;     /**< 2 segment + end */
+    uint32_t next[2]; /**< segments above and below, or FROE_NONE */
+} cert_known;
+
 typedef struct cert_table {
     kinetic_call *call;
     const now_state *now;
@@ -54,6 +60,8 @@ typedef struct cert_table {
     ARRAY(cert_segment) segments;
     ARRAY(uint32_t) courses;       /**< certificate of each vertex */
     ARRAY(uint32_t) neighbours[2]; /**< of the end that gets certificates: next segments above, below */
+    cert_known known[2];           /**< of the surgery that certify_sites() is called for */
+    unsigned known_count;
     cert_recent *recent;
     uint32_t stamp; /**< of the present surgery */
 } cert_table;

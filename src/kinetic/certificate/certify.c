@@ -188,6 +188,20 @@ static void set_list(froe_kinetic *k, uint32_t *list, uint32_t owner, uint32_t v
     }
 }
 
+/* False: the surgery does not know them. */
+static bool recall_neighbours(froe_kinetic *k, uint32_t end) {
+    const cert_table *certs = &k->certs;
+    for (unsigned i = 0; i < certs->known_count; i++) {
+        if (certs->known[i].end != end) continue;
+        for (int below = 0; below < 2; below++) {
+            k->certs.neighbours[below].count = 0;
+            add_neighbour(k, below, certs->known[i].next[below]);
+        }
+        return true;
+    }
+    return false;
+}
+
 /* REQUIRES: the wall is that of an end. */
 static void certify_end(froe_kinetic *k, uint32_t node, const ktree_cell *cell, int side) {
     const ktree_node *n = ktree_node_at(&k->tree, node);
@@ -195,7 +209,7 @@ static void certify_end(froe_kinetic *k, uint32_t node, const ktree_cell *cell, 
     ktree_end *end = ktree_segment_at(&k->tree, segment)->end + which;
     if (end->stamp != k->tree.stamp) return;
     end->stamp = 0;
-    find_neighbours(k, node, cell, side);
+    if (!recall_neighbours(k, 2 * segment + which)) find_neighbours(k, node, cell, side);
     for (int below = 0; below < 2; below++)
         set_list(k, k->certs.segments.data[segment].end[which] + below, 2 * segment + which,
                  k->now.segments.data[segment].end[which], below);

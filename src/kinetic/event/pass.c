@@ -10,6 +10,7 @@ typedef struct passing {
     uint32_t node, segment; /* of s, in the near cell */
     uint32_t wall;          /* an end, or the segment that it crosses at the point */
     bool grows;             /* it gets longer: the point goes to the far cell, and s comes after it from the near one */
+    bool above;             /* the point is above the one that the wall belongs to */
     size_t across;          /* how many on the list cross the wall in the far cell, from below */
     size_t below;           /* how many of these are below the point */
 } passing;
@@ -68,6 +69,7 @@ static bool find_far(ktree *tree, name_point point, passing *p) {
     const now_spot a = now_spot_of(tree->now, point), b = now_spot_of(tree->now, wall);
     const double d = a.y - b.y, error = (a.error + b.error) * 2;
     if (!(d > error) && !(d < -error)) return false; /* which one is higher is undecided */
+    p->above = d > error;
     ktree_site *far = &p->far.site;
     p->far.side = 1 - side;
     far->parent = owner;
@@ -276,6 +278,52 @@ static void move_segment(froe_kinetic *k, const passing *p) {
     if (ktree_is_end(p->wall)) ktree_touch_end(tree, 2 * p->segment + (KTREE_END_0 - p->wall));
 }
 
+/* ---------------------------------------------------------------------- ends -- */
+
+/* Is it an end of one segment alone? */
+static bool is_single_end(const ktree *tree, name_point p) {
+    const uint32_t end = name_is_vertex(p) ? tree->vertices.data[p.a] : FROE_NONE;
+    return end != FROE_NONE && ktree_next_end(tree, end) == FROE_NONE;
+}
+
+/* The end that the wall belongs to: s comes next to it if it comes between it and what was next to it. False: it is to
+ * be found what is next to it. */
+static bool know_owner(froe_kinetic *k, const passing *p, name_point point, cert_known *out) {
+    for (int below = 0; below < 2; below++) {
+        const uint32_t cert = k->certs.segments.data[out->end / 2].end[out->end % 2][below];
+        const cert_record *c = cert == FROE_NONE ? NULL : k->certs.all.data + cert;
+        if (c && (c->tick <= k->now.tick || c->next != FROE_NONE)) return false;
+        out->next[below] = c ? c->claim.p.a : FROE_NONE;
+        if (out->next[below] == p->segment) return false; /* it goes */
+    }
+    uint32_t *next = out->next + !p->above;
+    if (!p->grows) return true;
+    if (*next != FROE_NONE) {
+        const int side = now_side(&k->now, *next, point.a);
+        if (!side) return false;
+        if ((side > 0) == p->above) return true; /* behind that one */
+    }
+    *next = p->segment;
+    return true;
+}
+
+/* What is next to both ends, where nothing else ends with them. Of s that is what is next to it on the list. */
+static void know_neighbours(froe_kinetic *k, const passing *p, name_point point) {
+    const ktree *tree = &k->tree;
+    cert_table *certs = &k->certs;
+    const ktree_cell *far = &p->far.site.cell;
+    const name_point wall = p->near.site.cell.wall[p->near.side];
+    if (!ktree_is_end(p->wall) || !is_single_end(tree, point)) return;
+    cert_known *out = certs->known + certs->known_count++;
+    out->end = tree->vertices.data[point.a];
+    out->next[0] = p->below < p->across ? tree->list.data[p->below] : far->top;
+    out->next[1] = p->below ? tree->list.data[p->below - 1] : far->bottom;
+    if (!is_single_end(tree, wall)) return;
+    out = certs->known + certs->known_count;
+    out->end = tree->vertices.data[wall.a];
+    certs->known_count += know_owner(k, p, point, out);
+}
+
 pass_outcome pass_wall(froe_kinetic *k, const slab_item *item) {
     ktree *tree = &k->tree;
     passing p;
@@ -297,8 +345,10 @@ pass_outcome pass_wall(froe_kinetic *k, const slab_item *item) {
     k->counts.surgeries++;
     move_segment(k, &p);
     if (k->call.stopped) return PASS_DONE;
+    know_neighbours(k, &p, point);
     ktree_touch_wall(tree, near->wall[p.near.side]);
     certify_sites(k, (const ktree_site *const[]){&p.near.site, &p.far.site}, 2);
+    k->certs.known_count = 0;
     turn_certify_halves(k);
     return PASS_DONE;
 }
