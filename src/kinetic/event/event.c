@@ -362,10 +362,15 @@ static bool repair(froe_kinetic *k, event_group *g, const event_summary *event, 
     return crowd;
 }
 
+static bool is_settled(const froe_kinetic *k) {
+    return cert_next_tick(&k->certs) > k->now.tick && !k->events.turning.count && !k->events.flopping.count;
+}
+
 /* So many rounds, or until nothing is due any more. The first one tells what happens. */
 static bool settle_tick(froe_kinetic *k, unsigned rounds, const event_watcher *watcher) {
     bool go_on = true;
     for (unsigned round = 0; round < rounds && !k->call.stopped; round++) {
+        if (is_settled(k)) break;
         gather_failed_certs(k);
         const size_t count = k->events.items.count;
         if (!count || k->call.stopped) break;
@@ -427,7 +432,6 @@ static bool let_leave(froe_kinetic *k, int64_t tick) {
     const bool space = now_is_in_space(&k->now);
     void (*leave)(froe_kinetic *, uint32_t, uint32_t) = space ? leave_with_edge : leave_tree;
     size_t gone = 0;
-    k->events.leaving.count = k->events.staying.count = k->events.meeting.count = 0;
     for (bool first = true;; first = false) {
         cert_find_due(&k->certs, tick);
         for (size_t i = 0; i < k->certs.queue.due.count; i++) {
@@ -459,7 +463,6 @@ static bool let_leave(froe_kinetic *k, int64_t tick) {
 /* Swaps the ends of segments that turn. This comes before any other question at the tick, as sides depend on it. */
 static void turn_segments(froe_kinetic *k) {
     event_state *events = &k->events;
-    events->turning.count = 0;
     cert_find_due(&k->certs, k->now.tick);
     for (size_t i = 0; i < k->certs.queue.due.count; i++) {
         const cert_record *c = k->certs.all.data + k->certs.queue.due.data[i];
@@ -479,7 +482,6 @@ static void turn_segments(froe_kinetic *k) {
 static void flop_triangles(froe_kinetic *k) {
     event_state *events = &k->events;
     size_t kept = 0;
-    events->flopping.count = 0;
     cert_find_due(&k->certs, k->now.tick);
     for (size_t i = 0; i < k->certs.queue.due.count; i++) {
         const cert_record *c = k->certs.all.data + k->certs.queue.due.data[i];
@@ -531,7 +533,16 @@ static bool tell_meetings(froe_kinetic *k, const event_watcher *watcher) {
     return go_on;
 }
 
+/* Are claims all that is due at the tick, so that nothing leaves, turns, or goes on to another piece of a plan? */
+static bool claims_alone_are_due(froe_kinetic *k, int64_t tick) {
+    cert_find_due(&k->certs, tick);
+    for (size_t i = 0; i < k->certs.queue.due.count; i++)
+        if (k->certs.all.data[k->certs.queue.due.data[i]].kind > CERT_BELOW) return false;
+    return true;
+}
+
 bool event_step(froe_kinetic *k, int64_t tick, const event_watcher *watcher) {
+    event_state *events = &k->events;
     int64_t next = cert_next_tick(&k->certs);
     if (next > tick) {
         k->now.tick = tick;
@@ -539,22 +550,26 @@ bool event_step(froe_kinetic *k, int64_t tick, const event_watcher *watcher) {
     }
     /* All certificates hold until then. What comes next to each other where a segment leaves must not pass before. */
     if (next - 2 > k->now.tick) k->now.tick = next - 2;
-    const bool all = let_leave(k, next);
+    events->leaving.count = events->staying.count = events->meeting.count = 0;
+    events->turning.count = events->flopping.count = 0;
+    const bool usual = claims_alone_are_due(k, next), all = !usual && let_leave(k, next);
     k->now.tick = next;
-    renew_apply(k);
-    turn_segments(k);
-    flop_triangles(k);
-    k->events.phase = EVENT_BEFORE;
+    if (!usual) {
+        renew_apply(k);
+        turn_segments(k);
+        flop_triangles(k);
+    }
+    events->phase = EVENT_BEFORE;
     /* Where all is made anew, edges of which plans go on are in the tree until then, and may have turned in between. */
     bool go_on = settle_tick(k, all ? 1 : LAST_ROUND + 1, watcher);
     if (all && !k->call.stopped) {
         triangle_enroll_all(k);
         if (!k->call.stopped) surgery_restart(k);
     }
-    k->events.phase = EVENT_CHANGE;
+    events->phase = EVENT_CHANGE;
     go_on &= enter_tree(k, watcher);
-    k->events.phase = EVENT_AFTER;
+    events->phase = EVENT_AFTER;
     go_on &= settle_tick(k, LAST_ROUND + 1, watcher);
-    k->events.phase = EVENT_MEETING;
+    events->phase = EVENT_MEETING;
     return tell_meetings(k, watcher) && go_on;
 }

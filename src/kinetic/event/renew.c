@@ -2,6 +2,7 @@
 #include "kinetic/event/renew.h"
 #include "base/sort.h"
 #include "kinetic/kinetic.h"
+#include "kinetic/now/straight.h"
 #include <math.h>
 
 enum { CERTS_EACH = 1 << 14 }; /* so many certificates are looked at for a segment, at most */
@@ -105,6 +106,7 @@ void renew_check(froe_kinetic *k, int64_t tick) {
     for (size_t i = 0; i < events->renewed.count && !k->call.stopped; i++) {
         event_renewal *r = events->renewed.data + i;
         const now_claim claim = k->certs.all.data[r->cert].claim;
+        if (straight_first_failure(now, &claim, &r->tick)) continue; /* it holds, and is about no crossing */
         const bool holds = now_holds(now, &claim) > 0 && !now->lost && turn_at(now, claim.p) == r->turn[0] &&
                            turn_at(now, claim.q) == r->turn[1];
         r->tick = holds ? now_first_failure(now, &claim) : tick;

@@ -29,9 +29,9 @@ typedef struct lifted_piece {
 static void lift_piece(const now_state *now, const motion_piece *piece, lifted_piece *out) {
     out->piece = *piece;
     out->knot[0] = *piece->from, out->knot[1] = *piece->to;
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < now->motion->dim; k++) {
         out->knot[0].at[k] = now_lifted(now, piece->from->at[k]);
-        out->knot[0].control[k] = now_lifted(now, piece->from->control[k]);
+        if (piece->degree > 1) out->knot[0].control[k] = now_lifted(now, piece->from->control[k]);
         out->knot[1].at[k] = now_lifted(now, piece->to->at[k]);
         if (piece->second) out->second[k] = now_lifted(now, piece->second[k]);
     }
