@@ -66,12 +66,16 @@ void certify_borders(const ktree *tree, uint32_t node, const ktree_cell *cell, c
     }
 }
 
+static bool has_walls(const ktree_node *n) {
+    return n->wall[KTREE_LEFT] != KTREE_NO_WALL || n->wall[KTREE_RIGHT] != KTREE_NO_WALL;
+}
+
 /* Is there such a region, without a wall inside? */
 static bool has_region(const ktree *tree, const ktree_node *n, cert_kind region) {
     const uint32_t *wall = n->wall, *child = n->child;
     if (region == CERT_LEFT) return wall[KTREE_LEFT] != KTREE_NO_WALL && !has_cut(tree, child[KTREE_LEFT]);
     if (region == CERT_RIGHT) return wall[KTREE_RIGHT] != KTREE_NO_WALL && !has_cut(tree, child[KTREE_RIGHT]);
-    if (wall[KTREE_LEFT] == KTREE_NO_WALL && wall[KTREE_RIGHT] == KTREE_NO_WALL) return false;
+    if (!has_walls(n)) return false;
     /* the middle between the two ends of the segment exists as long as the segment does, in an augmented tree */
     if (tree->augmented && ktree_is_end(wall[KTREE_LEFT]) && ktree_is_end(wall[KTREE_RIGHT])) return false;
     return !has_cut(tree, child[KTREE_UP]) && !has_cut(tree, child[KTREE_DOWN]);
@@ -84,6 +88,7 @@ static void certify_regions(froe_kinetic *k, uint32_t node, const ktree_cell *ce
     const ktree *tree = &k->tree;
     ktree_node *n = ktree_node_at(tree, node);
     ktree_cell own;
+    if (!has_walls(n) && (n->cert[0] & n->cert[1] & n->cert[2]) == FROE_NONE) return;
     for (int i = 0; i < 3; i++) {
         const cert_kind region = order[i];
         uint32_t *cert = n->cert + region;
@@ -219,8 +224,8 @@ static void certify_end(froe_kinetic *k, uint32_t node, const ktree_cell *cell, 
 
 static bool find_cut(const ktree *tree, uint32_t node) {
     const ktree_node *n = ktree_node_at(tree, node);
-    bool cut = n->wall[KTREE_LEFT] != KTREE_NO_WALL || n->wall[KTREE_RIGHT] != KTREE_NO_WALL;
-    for (int i = 0; i < 4; i++) cut = cut || has_cut(tree, n->child[i]);
+    bool cut = has_walls(n);
+    for (int i = 0; i < 4 && !cut; i++) cut = has_cut(tree, n->child[i]);
     return cut;
 }
 

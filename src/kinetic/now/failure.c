@@ -277,21 +277,26 @@ static int64_t first_change_until(now_state *now, const now_claim *claim, int64_
     return first_change(now, claim, last, &near);
 }
 
-/* Does a polynomial surely keep its sign? */
-static bool keeps_sign(const near_poly *p) {
+/* Does a polynomial surely keep its sign in this share of its range? */
+static bool keeps_sign(const near_poly *p, double share) {
     failure_stretch s;
-    to_bernstein(p, &s);
-    const verdict v = judge(p, &s);
+    near_poly part = {.degree = p->degree, .size = p->size, .error = p->error};
+    double power = 1;
+    for (int i = 0; i <= p->degree; i++, power *= share) part.c[i] = p->c[i] * power;
+    to_bernstein(&part, &s);
+    const verdict v = judge(&part, &s);
     return v == HOLDS || v == FAILS;
 }
 
-/* When the denominators behind a claim first change their signs, until `last`. */
-static int64_t first_pole(now_state *now, const now_claim *claim, int64_t last, const near_claim *near) {
+/* When the denominators behind a claim first change their signs, until `last`, in so many ticks from now of those that
+ * `near` is about. */
+static int64_t first_pole(now_state *now, const now_claim *claim, int64_t last, const near_claim *near, int64_t span) {
     const name_point name[2] = {claim->p, claim->q};
+    const double share = (double)(last - now->tick) / (double)span * (1 + 0x1p-50);
     int64_t first = NOW_NEVER;
     for (int i = 0; i < 2; i++) {
         now_claim turn = {name[i], {0, NAME_NONE}, 1};
-        if (!name_is_crossing(name[i]) || (near->has_turn[i] && keeps_sign(near->turn + i))) continue;
+        if (!name_is_crossing(name[i]) || (near->has_turn[i] && keeps_sign(near->turn + i, share))) continue;
         if (now_holds(now, &turn) < 0) turn.above = -1;
         const int64_t tick = first_change_until(now, &turn, first < last ? first : last);
         first = tick < first ? tick : first;
@@ -319,7 +324,7 @@ int64_t now_first_failure(now_state *now, const now_claim *claim) {
     if (!some) return NOW_NEVER;
     if (along) near_find(now, claim, 0, (double)(last - now->tick), &near);
     const int64_t first = first_change(now, claim, last, &near);
-    const int64_t pole = first_pole(now, claim, first < last ? first : last, &near);
+    const int64_t pole = first_pole(now, claim, first < last ? first : last, &near, last - now->tick);
     if (pole == NOW_NEVER) return first;
     const int64_t before = first_change_until(now, claim, pole - 2);
     return before < pole ? before : pole;
