@@ -4,22 +4,25 @@
  *     --o----o------        segment a vertex is has degree 2. Its coefficients in Bernstein's form come from the
  *              `o b2        places at both ends of the time: products of the first steps, of both, and of the last.
  *
+ * The order of a vertex and a crossing has degree 3, times the turn from one of its lines to the other.
+ *
  * Where these show that it stays positive nothing fails before a plan goes on. This is so for most certificates of
  * tracks that are sampled. Otherwise the tick is guessed, and both sides of it are tested: a polynomial of degree 2 that
  * is positive now and two ticks before it is negative has no other root before. Where a sign is not sure in doubles,
  * failure.c decides. */
 #include "kinetic/now/straight.h"
 
-/* What a claim is about, > 0 while it holds: the order of two vertices, or the side of the third of the line from the
- * first to the second. */
+/* What a claim is about, > 0 while it holds: the order of two vertices; the side of the third of the line from the first
+ * to the second; or the order of where that line crosses the one from the third to the fourth, and the fifth. */
 typedef struct straight_claim {
-    const now_course *course[3];
-    double start[3]; /* the present tick, from the beginnings of their pieces */
-    double sign;     /* of sides */
-    double error;    /* no value from now to the end is further off, nor the mean of two products */
+    const now_course *course[5];
+    double start[5]; /* the present tick, from the beginnings of their pieces */
+    double sign;     /* of sides, and of orders with a crossing */
+    double turn;     /* the sign of the turn from the first line to the second */
+    double error;    /* no value from now to the end is further off, nor the mean of products */
 } straight_claim;
 
-typedef double straight_order(const straight_claim *c, double s);
+typedef double straight_value(const straight_claim *c, double s);
 
 /* Looks up the pieces of some vertices. False: not all fly straight. */
 static bool find_courses(now_state *now, const uint32_t *vertex, int count, int64_t *last, straight_claim *out) {
@@ -82,7 +85,7 @@ static double error_of_side(const straight_claim *c, const straight_steps *first
 /* -------------------------------------------------------------------- ticks -- */
 
 /* The even number of ticks, near a guess, at which a claim surely fails that surely holds two before. 0: unsure. */
-static int64_t confirm(const straight_claim *c, straight_order *value, double guess, int64_t span) {
+static int64_t confirm(const straight_claim *c, straight_value *value, double guess, int64_t span) {
     enum { TRIES = 4 };
     int64_t at = (int64_t)guess;
     bool holds = false; /* two before */
@@ -151,8 +154,142 @@ static bool find_side(now_state *now, const now_claim *claim, int64_t *out) {
     return at > 0;
 }
 
+/* ---------------------------------------------------------------- crossings -- */
+
+/* So many ticks from now: the steps d and e along both lines, from the first to the third vertex, and to the fifth. */
+typedef struct straight_lines {
+    double d[2], e[2], between[2], x;
+} straight_lines;
+
+static straight_lines lines_at(const straight_claim *c, double s) {
+    double at[5][2];
+    for (int i = 0; i < 5; i++) {
+        const now_course *v = c->course[i];
+        const double t = c->start[i] + s;
+        at[i][0] = v->x[0] + t * v->x[1], at[i][1] = v->y[0] + t * v->y[1];
+    }
+    return (straight_lines){{at[1][0] - at[0][0], at[1][1] - at[0][1]},
+                            {at[3][0] - at[2][0], at[3][1] - at[2][1]},
+                            {at[2][0] - at[0][0], at[2][1] - at[0][1]},
+                            at[4][0] - at[0][0]};
+}
+
+/* x turn - d_x shift, with turn = d x e and shift = between x e: the order times the turn. */
+static double crossing_at(const straight_claim *c, double s) {
+    const straight_lines v = lines_at(c, s);
+    return c->sign * (v.x * cross(v.d, v.e) - v.d[0] * cross(v.between, v.e));
+}
+
+/* Sets the error of values, and returns that of turns. */
+static double errors_of_crossing(straight_claim *c, const straight_lines *first, const straight_lines *last) {
+    const double off[4] = {c->course[0]->error + c->course[1]->error, c->course[2]->error + c->course[3]->error,
+                           c->course[0]->error + c->course[2]->error, c->course[0]->error + c->course[4]->error};
+    const double d = larger(length(first->d), length(last->d)) * (1 + 0x1p-40) + off[0];
+    const double e = larger(length(first->e), length(last->e)) * (1 + 0x1p-40) + off[1];
+    const double between = larger(length(first->between), length(last->between)) * (1 + 0x1p-40) + off[2];
+    const double x = larger(fabs(first->x), fabs(last->x)) * (1 + 0x1p-40) + off[3];
+    const double turn = d * e * 0x1p-49 + d * off[1] + e * off[0];
+    const double shift = between * e * 0x1p-49 + between * off[1] + e * off[2];
+    c->error = (x * turn + d * shift + off[3] * d * e + off[0] * between * e + (x + between) * d * e * 0x1p-48) *
+                   (1 + 0x1p-40) +
+               NUM_BALL_TINY;
+    return turn * (1 + 0x1p-40) + NUM_BALL_TINY;
+}
+
+/* In Bernstein's form: the cross product of two steps. */
+static void cross_lines(const double d0[2], const double d1[2], const double e0[2], const double e1[2], double out[3]) {
+    out[0] = cross(d0, e0), out[1] = 0.5 * (cross(d0, e1) + cross(d1, e0)), out[2] = cross(d1, e1);
+}
+
+typedef enum straight_verdict { STRAIGHT_HOLDS, STRAIGHT_FALLS, STRAIGHT_UNSURE } straight_verdict;
+
+/* Between two times, at the first of which it holds: does it throughout, or up to a single root? Unsure, too, if the
+ * lines may be parallel in between. Sets its coefficients in Bernstein's form. */
+static straight_verdict judge_crossing(straight_claim *c, const straight_lines *first, const straight_lines *last,
+                                       double b[4]) {
+    double turn[3], shift[3];
+    const double off = errors_of_crossing(c, first, last);
+    const double x0 = c->sign * first->x, x1 = c->sign * last->x, d0 = c->sign * first->d[0], d1 = c->sign * last->d[0];
+    cross_lines(first->d, last->d, first->e, last->e, turn);
+    cross_lines(first->between, last->between, first->e, last->e, shift);
+    b[0] = x0 * turn[0] - d0 * shift[0], b[3] = x1 * turn[2] - d1 * shift[2];
+    b[1] = (x1 * turn[0] + 2 * x0 * turn[1] - d1 * shift[0] - 2 * d0 * shift[1]) / 3;
+    b[2] = (2 * x1 * turn[1] + x0 * turn[2] - 2 * d1 * shift[1] - d0 * shift[2]) / 3;
+    for (int i = 0; i < 3; i++)
+        if (!(c->turn * turn[i] > off)) return STRAIGHT_UNSURE;
+    bool falls = false;
+    for (int i = 0; i < 4; i++) {
+        if (!(fabs(b[i]) > c->error) || (falls && b[i] > 0)) return STRAIGHT_UNSURE;
+        falls = b[i] < 0;
+    }
+    return b[0] < 0 ? STRAIGHT_UNSURE : falls ? STRAIGHT_FALLS : STRAIGHT_HOLDS;
+}
+
+/* From 0 to 1: where a polynomial of degree 3 in Bernstein's form falls through 0 (Newton's method, and halving). */
+static double falling_root(const double b[4], double close) {
+    const double c[4] = {b[0], 3 * (b[1] - b[0]), 3 * (b[2] - 2 * b[1] + b[0]), b[3] - 3 * (b[2] - b[1]) - b[0]};
+    double low = 0, high = 1, u = b[0] / (b[0] - b[3]);
+    for (int i = 0; i < 60; i++) {
+        const double y = c[0] + u * (c[1] + u * (c[2] + u * c[3])), slope = c[1] + u * (2 * c[2] + 3 * u * c[3]);
+        *(y > 0 ? &low : &high) = u;
+        double next = u - y / slope;
+        if (!(next > low && next < high)) next = 0.5 * (low + high);
+        if (fabs(next - u) < close) return next;
+        u = next;
+    }
+    return u;
+}
+
+/* A shorter time in which a crossing is looked at: twice as long as it takes to fall to 0 if it goes on as it begins. */
+static int64_t shorter(const double b[4], int64_t length) {
+    const double u = b[1] < b[0] ? b[0] / (1.5 * (b[0] - b[1])) : 1;
+    return (int64_t)((u > 0.01 ? u < 0.5 ? u : 0.5 : 0.01) * (double)length) & ~(int64_t)1;
+}
+
+static bool find_crossing(now_state *now, const now_claim *claim, int64_t *out) {
+    enum { TRIES = 12 };
+    const bool before = name_is_crossing(claim->p); /* the vertex */
+    const name_point crossing = before ? claim->p : claim->q;
+    const uint32_t *s = now->segments.data[crossing.a].end, *t = now->segments.data[crossing.b].end;
+    int64_t last = now->motion->last_tick | 1, from = 0;
+    straight_claim c;
+    double b[4];
+    if (!find_courses(now, (const uint32_t[]){s[0], s[1], t[0], t[1], before ? claim->q.a : claim->p.a}, 5, &last, &c))
+        return false;
+    const int64_t span = last - now->tick;
+    if (span < 2) return false;
+    straight_lines first = lines_at(&c, 0);
+    c.turn = cross(first.d, first.e) > 0 ? 1 : -1;
+    c.sign = before ? c.turn : -c.turn;
+    int64_t length = span;
+    for (int i = 0; i < TRIES; i++) {
+        const straight_lines final = lines_at(&c, (double)(from + length));
+        const straight_verdict verdict = judge_crossing(&c, &first, &final, b);
+        if (verdict == STRAIGHT_FALLS) {
+            const double root = falling_root(b, 0.5 / (double)length);
+            const int64_t at = confirm(&c, crossing_at, (double)from + root * (double)length, from + length);
+            *out = now->tick + at;
+            return at > from;
+        }
+        if (verdict == STRAIGHT_HOLDS) {
+            from += length, first = final, length *= 4;
+            *out = NOW_NEVER;
+            if (from == span) return true;
+            if (length > span - from) length = span - from;
+        } else {
+            length = shorter(b, length);
+            if (length < 4) return false;
+        }
+    }
+    return false;
+}
+
 bool straight_first_failure(now_state *now, const now_claim *claim, int64_t *out) {
-    if (claim->q.b != NAME_VERTEX || claim->above == NOW_ALONG) return false;
-    if (claim->p.b == NAME_SEGMENT) return find_side(now, claim, out);
-    return claim->p.b == NAME_VERTEX && find_order(now, (const uint32_t[]){claim->p.a, claim->q.a}, out);
+    const name_point p = claim->p, q = claim->q;
+    if (claim->above == NOW_ALONG) return false;
+    if (p.b == NAME_SEGMENT) return find_side(now, claim, out);
+    if (name_is_vertex(p) && name_is_vertex(q)) return find_order(now, (const uint32_t[]){p.a, q.a}, out);
+    if ((name_is_crossing(p) && name_is_vertex(q)) || (name_is_vertex(p) && name_is_crossing(q)))
+        return find_crossing(now, claim, out);
+    return false;
 }
