@@ -164,17 +164,6 @@ static void operate_carefully(froe_kinetic *k, event_group *g) {
 
 /* ------------------------------------------------------------------ events -- */
 
-static froe_event_kind kind_of(const ktree *tree, const slab_item *item) {
-    name_point p = item->claim.p, q = item->claim.q, third;
-    if (item->kind == CERT_TURN) return FROE_EVENT_TURN;
-    if (item->kind == CERT_FLOP) return FROE_EVENT_FLOP;
-    if (item->kind > CERT_RIGHT || now_met_segment(tree->now, p, q) != FROE_NONE) return FROE_EVENT_CONTACT;
-    if (ktree_is_one_segment(tree, p, q)) return FROE_EVENT_TURN;
-    if (name_is_vertex(p) && name_is_vertex(q)) return FROE_EVENT_VERTICES;
-    if (name_is_vertex(p) || name_is_vertex(q)) return FROE_EVENT_VERTEX_CROSSING;
-    return name_third_crossing(p, q, &third) ? FROE_EVENT_TRIPLE : FROE_EVENT_CROSSINGS;
-}
-
 /* Adds a number to up to four. False: it was there. */
 static bool add_to(uint32_t *all, unsigned *count, uint32_t number) {
     for (unsigned i = 0; i < *count && i < 4; i++)
@@ -249,12 +238,12 @@ static void add_names(const froe_kinetic *k, event_summary *all, const slab_item
 static event_summary describe(const froe_kinetic *k, const event_group *g) {
     size_t flops = 0;
     for (size_t i = 0; i < g->count; i++) flops += item_of(k, g, i)->kind == CERT_FLOP;
-    event_summary all = {.event = event_now(&k->now, kind_of(&k->tree, item_of(k, g, 0)))};
+    event_summary all = {.event = event_now(&k->now, item_of(k, g, 0)->event)};
     froe_event *e = &all.event;
     for (size_t i = 0; i < g->count; i++) {
         const slab_item *item = item_of(k, g, i);
         if (flops && item->kind != CERT_FLOP) continue;
-        if (kind_of(&k->tree, item) != e->kind) e->kind = FROE_EVENT_BATCH;
+        if (item->event != e->kind) e->kind = FROE_EVENT_BATCH;
         add_names(k, &all, item);
     }
     if (flops) e->kind = flops > 1 ? FROE_EVENT_BATCH : FROE_EVENT_FLOP;
@@ -282,7 +271,7 @@ static void gather_flops(froe_kinetic *k) {
         const uint32_t surface = events->flopping.data[i];
         now_claim was = k->certs.all.data[k->certs.segments.data[surface].turn].claim;
         was.above = -was.above;
-        slab_item item = {surface, CERT_FLOP, was, {0, 0}};
+        slab_item item = {surface, CERT_FLOP, was, {0, 0}, FROE_EVENT_FLOP};
         slab_find(&k->tree, &item);
         call_push(&k->call, &events->items, item);
     }
@@ -295,7 +284,7 @@ static void gather_failed_certs(froe_kinetic *k) {
     gather_flops(k);
     for (size_t i = 0; i < events->turning.count; i++) {
         const uint32_t s = events->turning.data[i], *end = k->now.segments.data[s].end;
-        slab_item item = {s, CERT_TURN, {{end[0], NAME_VERTEX}, {end[1], NAME_VERTEX}, 0}, {0, 0}};
+        slab_item item = {s, CERT_TURN, {{end[0], NAME_VERTEX}, {end[1], NAME_VERTEX}, 0}, {0, 0}, FROE_EVENT_TURN};
         slab_find(&k->tree, &item);
         call_push(&k->call, &events->items, item);
     }
@@ -306,7 +295,7 @@ static void gather_failed_certs(froe_kinetic *k) {
         const uint32_t cert = k->certs.queue.due.data[i];
         if (k->certs.all.data[cert].kind < CERT_TURN) {
             const now_claim claim = certify_claim_of(k, cert);
-            slab_item item = {cert, certify_kind(&k->tree, &k->certs, cert), claim, {0, 0}};
+            slab_item item = {cert, certify_kind(&k->tree, &k->certs, cert), claim, {0, 0}, FROE_EVENT_CONTACT};
             if (now_holds(&k->now, &claim) >= 0) { /* since the last tick it failed and became true again */
                 certify_again(k, cert);
             } else {
@@ -351,7 +340,7 @@ static bool repair(froe_kinetic *k, event_group *g, const event_summary *event, 
     set_lines(&k->now, g);
     for (size_t i = 0; i < g->count && !outcome && is_sound(k); i++) { /* if walls are passed, and that is all */
         const slab_item *item = item_of(k, g, i);
-        if (is_current(k, item)) outcome = slab_is_one_place(&k->tree, item) ? PASS_REFUSED : pass_wall(k, item);
+        if (is_current(k, item)) outcome = slab_is_one_place(item) ? PASS_REFUSED : pass_wall(k, item);
     }
     const bool crowd = outcome && !operate(k, g, simple && outcome == PASS_REFUSED);
     if (crowd) {

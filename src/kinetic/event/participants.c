@@ -191,7 +191,7 @@ bool participants_add_item(froe_kinetic *k, const slab_item *item) {
         place[i] = place_of_name(&k->now, p, now_spot_of(&k->now, other).x);
         call_push(&k->call, &all->places, place[i]);
     }
-    return slab_is_one_place(&k->tree, item) || are_apart(&k->tree, name, place);
+    return slab_is_one_place(item) || are_apart(&k->tree, name, place);
 }
 
 bool participants_have_loose_ends(froe_kinetic *k, const slab_item *item) {

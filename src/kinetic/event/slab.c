@@ -5,11 +5,16 @@
 #include "kinetic/kinetic.h"
 #include <math.h>
 
-bool slab_is_one_place(const ktree *tree, const slab_item *item) {
-    name_point p = item->claim.p, q = item->claim.q, third;
-    if (item->kind == CERT_TURN || p.b == NAME_SEGMENT || now_met_segment(tree->now, p, q) != FROE_NONE) return true;
-    if (name_is_crossing(p) && name_is_crossing(q)) return name_third_crossing(p, q, &third);
-    return ktree_is_one_segment(tree, p, q);
+static froe_event_kind kind_of(const ktree *tree, const slab_item *item) {
+    const name_point p = item->claim.p, q = item->claim.q;
+    name_point third;
+    if (item->kind == CERT_TURN) return FROE_EVENT_TURN;
+    if (item->kind == CERT_FLOP) return FROE_EVENT_FLOP;
+    if (item->kind > CERT_RIGHT || now_met_segment(tree->now, p, q) != FROE_NONE) return FROE_EVENT_CONTACT;
+    if (ktree_is_one_segment(tree, p, q)) return FROE_EVENT_TURN;
+    if (name_is_vertex(p) && name_is_vertex(q)) return FROE_EVENT_VERTICES;
+    if (name_is_vertex(p) || name_is_vertex(q)) return FROE_EVENT_VERTEX_CROSSING;
+    return name_third_crossing(p, q, &third) ? FROE_EVENT_TRIPLE : FROE_EVENT_CROSSINGS;
 }
 
 void slab_reach(now_state *now, double slab[2], name_point p) {
@@ -30,6 +35,7 @@ static void reach_crossings(ktree *tree, double slab[2], uint32_t vertex, uint32
 void slab_find(ktree *tree, slab_item *item) {
     name_point p = item->claim.p, q = item->claim.q, third;
     item->slab[0] = (double)INFINITY, item->slab[1] = -(double)INFINITY;
+    item->event = kind_of(tree, item);
     if (item->kind == CERT_FLOP) { /* edges change places all along */
         for (int i = 0; i < 3; i++)
             slab_reach(tree->now, item->slab, (name_point){now_face_of(tree->now, item->cert)->vertex[i], NAME_VERTEX});
