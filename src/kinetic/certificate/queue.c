@@ -19,11 +19,14 @@ static void put_entry(queue_heap *queue, size_t place, queue_entry entry) {
     queue->places.data[entry.id] = (uint32_t)place;
 }
 
-static void rise(queue_heap *queue, size_t place) {
+/* False: it stays. */
+static bool rise(queue_heap *queue, size_t place) {
     const queue_entry entry = queue->entries.data[place];
+    const size_t before = place;
     for (; place && entry.tick < queue->entries.data[(place - 1) / 4].tick; place = (place - 1) / 4)
         put_entry(queue, place, queue->entries.data[(place - 1) / 4]);
     put_entry(queue, place, entry);
+    return place < before;
 }
 
 static void sink(queue_heap *queue, size_t place) {
@@ -48,16 +51,14 @@ void queue_remove(queue_heap *queue, uint32_t id) {
     queue->places.data[id] = FROE_NONE;
     if (last.id == id) return;
     put_entry(queue, place, last);
-    rise(queue, place);
-    sink(queue, queue->places.data[last.id]);
+    if (!rise(queue, place)) sink(queue, place);
 }
 
 void queue_set(queue_heap *queue, uint32_t id, int64_t tick) {
     uint32_t *place = queue->places.data + id;
     if (*place == FROE_NONE) *place = (uint32_t)queue->entries.count++;
     queue->entries.data[*place] = (queue_entry){tick, id};
-    rise(queue, *place);
-    sink(queue, *place);
+    if (!rise(queue, *place)) sink(queue, *place);
 }
 
 bool queue_find_due(const froe_allocator *alloc, queue_heap *queue, int64_t tick) {
