@@ -89,19 +89,18 @@ static line line_of_segment(now_state *now, uint32_t segment) {
         {{a.x, a.y}, {b.x, b.y}}, a.error > b.error ? a.error : b.error, speed[0] > speed[1] ? speed[0] : speed[1]};
 }
 
-/* May a segment meet a place, enlarged on all sides by what both move? */
+/* May a segment meet a place, enlarged on all sides by what both move? Most are far above or below. */
 static bool comes_near(const line *s, const participants_place *place) {
-    double centre[2], half[2], d[2], far = margin(place->speed, s->speed);
+    double half[2], far = margin(place->speed, s->speed);
     far += 2 * s->error;
-    for (int i = 0; i < 2; i++) {
-        double a = s->at[0][i], b = s->at[1][i], slack = far + (fabs(a) + fabs(b)) * 0x1p-50;
-        const double low = place->low[i], high = place->high[i];
-        if ((a < b ? b : a) < low - slack || (a < b ? a : b) > high + slack) return false;
-        centre[i] = 0.5 * low + 0.5 * high;
-        half[i] = 0.5 * high - 0.5 * low + slack;
-        d[i] = b - a;
+    for (int i = 1; i >= 0; i--) {
+        const double a = s->at[0][i], b = s->at[1][i], slack = far + (fabs(a) + fabs(b)) * 0x1p-50;
+        if ((a < b ? b : a) < place->low[i] - slack || (a < b ? a : b) > place->high[i] + slack) return false;
+        half[i] = 0.5 * place->high[i] - 0.5 * place->low[i] + slack;
     }
-    double u = centre[0] - s->at[0][0], v = centre[1] - s->at[0][1];
+    const double d[2] = {s->at[1][0] - s->at[0][0], s->at[1][1] - s->at[0][1]};
+    const double u = 0.5 * place->low[0] + 0.5 * place->high[0] - s->at[0][0];
+    const double v = 0.5 * place->low[1] + 0.5 * place->high[1] - s->at[0][1];
     double reach = fabs(d[0]) * half[1] + fabs(d[1]) * half[0];
     double off = fabs(d[0] * v - d[1] * u), slack = (fabs(d[0] * v) + fabs(d[1] * u)) * 0x1p-48;
     return !(off > reach * (1 + 0x1p-40) + slack);

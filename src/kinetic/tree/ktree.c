@@ -135,30 +135,32 @@ ktree_cell ktree_plane(void) {
     return (ktree_cell){{{0, NAME_NONE}, {0, NAME_NONE}}, FROE_NONE, FROE_NONE, FROE_NONE, FROE_NONE};
 }
 
-static bool is_missing(const ktree_node *node, const name_point *wall, int side) {
-    return node->wall[side] != KTREE_NO_WALL && !name_exists(*wall);
-}
-
 /* Looks up the name of a wall if it is not known yet. */
 static void take_wall(const ktree *tree, name_point *wall, const ktree_node *node, int side) {
-    if (is_missing(node, wall, side)) *wall = ktree_wall_name(tree, node->segment, node->wall[side]);
+    if (node->wall[side] != KTREE_NO_WALL && !name_exists(*wall))
+        *wall = ktree_wall_name(tree, node->segment, node->wall[side]);
 }
 
 /* In the plane there are no surfaces, and so only nodes are read. */
-static ktree_cell plane_cell_of(const ktree *tree, uint32_t node) {
+static inline ktree_cell plane_cell_of(const ktree *tree, uint32_t node, bool augmented) {
     ktree_cell cell = ktree_plane();
     int missing = 4;
-    for (const ktree_node *n = ktree_node_at(tree, node), *parent; missing && n->parent != KTREE_ROOT; n = parent) {
-        parent = ktree_node_at(tree, n->parent);
+    const ktree_node *n = ktree_node_at(tree, node);
+    while (missing && n->parent != KTREE_ROOT) {
+        const ktree_node *parent = augmented ? ktree_node_at(tree, n->parent) : tree->nodes.data + n->parent;
         const int slot = n->slot;
-        if (slot >= KTREE_UP) {
-            uint32_t *border = slot == KTREE_UP ? &cell.bottom : &cell.top;
-            if (*border == FROE_NONE) *border = parent->segment, missing--;
+        n = parent;
+        if (slot < KTREE_UP) {
+            if (name_exists(cell.wall[1 - slot])) continue;
+            take_wall(tree, cell.wall + (1 - slot), n, slot);
+            missing -= name_exists(cell.wall[1 - slot]);
+            continue;
         }
+        uint32_t *border = slot == KTREE_UP ? &cell.bottom : &cell.top;
+        if (*border == FROE_NONE) *border = n->segment, missing--;
         for (int side = 0; side < 2; side++) {
-            name_point *wall = cell.wall + (slot < KTREE_UP ? 1 - side : side);
-            if ((slot < KTREE_UP && slot != side) || !is_missing(parent, wall, side)) continue;
-            *wall = ktree_wall_name(tree, parent->segment, parent->wall[side]);
+            if (n->wall[side] == KTREE_NO_WALL || name_exists(cell.wall[side])) continue;
+            cell.wall[side] = ktree_wall_name(tree, n->segment, n->wall[side]);
             missing--;
         }
     }
@@ -166,7 +168,8 @@ static ktree_cell plane_cell_of(const ktree *tree, uint32_t node) {
 }
 
 ktree_cell ktree_cell_of(const ktree *tree, uint32_t node) {
-    if (!now_is_in_space(tree->now)) return plane_cell_of(tree, node);
+    if (!now_is_in_space(tree->now)) /* without the test of each node whether it has turned, where none does */
+        return tree->augmented ? plane_cell_of(tree, node, true) : plane_cell_of(tree, node, false);
     ktree_cell cell = ktree_plane();
     for (const ktree_node *n = ktree_node_at(tree, node); n->parent != KTREE_ROOT; n = ktree_node_at(tree, n->parent)) {
         if (name_exists(cell.wall[0]) && name_exists(cell.wall[1]) && cell.top != FROE_NONE &&
