@@ -286,42 +286,52 @@ static bool is_single_end(const ktree *tree, name_point p) {
     return end != FROE_NONE && ktree_next_end(tree, end) == FROE_NONE;
 }
 
-/* The end that the wall belongs to: s comes next to it if it comes between it and what was next to it. False: it is to
- * be found what is next to it. */
-static bool know_owner(froe_kinetic *k, const passing *p, name_point point, cert_known *out) {
+/* What is next to an end by its certificates. False: they are to be made anew, or it is s itself, which goes. */
+static bool recall_next(const froe_kinetic *k, uint32_t end, uint32_t segment, uint32_t next[2]) {
     for (int below = 0; below < 2; below++) {
-        const uint32_t cert = k->certs.segments.data[out->end / 2].end[out->end % 2][below];
+        const uint32_t cert = k->certs.segments.data[end / 2].end[end % 2][below];
         const cert_record *c = cert == FROE_NONE ? NULL : k->certs.all.data + cert;
         if (c && (c->tick <= k->now.tick || c->next != FROE_NONE)) return false;
-        out->next[below] = c ? c->claim.p.a : FROE_NONE;
-        if (out->next[below] == p->segment) return false; /* it goes */
+        next[below] = c ? c->claim.p.a : FROE_NONE;
+        if (next[below] == segment) return false;
     }
-    uint32_t *next = out->next + !p->above;
-    if (!p->grows) return true;
-    if (*next != FROE_NONE) {
-        const int side = now_side(&k->now, *next, point.a);
-        if (!side) return false;
-        if ((side > 0) == p->above) return true; /* behind that one */
-    }
-    *next = p->segment;
     return true;
+}
+
+/* The end that the wall belongs to: s comes next to it if it comes between it and what is next to it. */
+static void know_owner(froe_kinetic *k, const passing *p, name_point point, name_point wall) {
+    cert_known *out = k->certs.known + k->certs.known_count;
+    out->end = k->tree.vertices.data[wall.a];
+    bool known = recall_next(k, out->end, p->segment, out->next);
+    uint32_t *next = out->next + !p->above;
+    if (known && p->grows) {
+        const int side = *next == FROE_NONE ? 0 : now_side(&k->now, *next, point.a);
+        if (*next == FROE_NONE || (side && (side > 0) != p->above)) {
+            *next = p->segment;
+            k->certs.known_count++;
+            known = false;
+        }
+        known = known && side;
+    }
+    if (!known) ktree_touch_wall(&k->tree, wall);
 }
 
 /* What is next to both ends, where nothing else ends with them. Of s that is what is next to it on the list. */
 static void know_neighbours(froe_kinetic *k, const passing *p, name_point point) {
     const ktree *tree = &k->tree;
-    cert_table *certs = &k->certs;
     const ktree_cell *far = &p->far.site.cell;
     const name_point wall = p->near.site.cell.wall[p->near.side];
-    if (!ktree_is_end(p->wall) || !is_single_end(tree, point)) return;
-    cert_known *out = certs->known + certs->known_count++;
-    out->end = tree->vertices.data[point.a];
-    out->next[0] = p->below < p->across ? tree->list.data[p->below] : far->top;
-    out->next[1] = p->below ? tree->list.data[p->below - 1] : far->bottom;
-    if (!is_single_end(tree, wall)) return;
-    out = certs->known + certs->known_count;
-    out->end = tree->vertices.data[wall.a];
-    certs->known_count += know_owner(k, p, point, out);
+    const bool single = ktree_is_end(p->wall) && is_single_end(tree, point);
+    if (single) {
+        cert_known *out = k->certs.known + k->certs.known_count++;
+        out->end = tree->vertices.data[point.a];
+        out->next[0] = p->below < p->across ? tree->list.data[p->below] : far->top;
+        out->next[1] = p->below ? tree->list.data[p->below - 1] : far->bottom;
+    }
+    if (single && is_single_end(tree, wall))
+        know_owner(k, p, point, wall);
+    else
+        ktree_touch_wall(&k->tree, wall);
 }
 
 pass_outcome pass_wall(froe_kinetic *k, const slab_item *item) {
@@ -346,7 +356,6 @@ pass_outcome pass_wall(froe_kinetic *k, const slab_item *item) {
     move_segment(k, &p);
     if (k->call.stopped) return PASS_DONE;
     know_neighbours(k, &p, point);
-    ktree_touch_wall(tree, near->wall[p.near.side]);
     certify_sites(k, (const ktree_site *const[]){&p.near.site, &p.far.site}, 2);
     k->certs.known_count = 0;
     turn_certify_halves(k);
