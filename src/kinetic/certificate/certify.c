@@ -52,8 +52,9 @@ void certify_again(froe_kinetic *k, uint32_t cert) {
 
 /* ----------------------------------------------------------------- regions -- */
 
+/* No turn changes what this reads of a node. */
 static bool has_cut(const ktree *tree, uint32_t node) {
-    return node && ktree_node_at(tree, node)->cut;
+    return node && tree->nodes.data[node].cut;
 }
 
 void certify_borders(const ktree *tree, uint32_t node, const ktree_cell *cell, cert_kind region, name_point out[2]) {
@@ -68,6 +69,10 @@ void certify_borders(const ktree *tree, uint32_t node, const ktree_cell *cell, c
 
 static bool has_walls(const ktree_node *n) {
     return n->wall[KTREE_LEFT] != KTREE_NO_WALL || n->wall[KTREE_RIGHT] != KTREE_NO_WALL;
+}
+
+static bool has_certs(const ktree_node *n) {
+    return (n->cert[CERT_LEFT] & n->cert[CERT_MIDDLE] & n->cert[CERT_RIGHT]) != FROE_NONE;
 }
 
 /* Is there such a region, without a wall inside? */
@@ -88,7 +93,7 @@ static void certify_regions(froe_kinetic *k, uint32_t node, const ktree_cell *ce
     const ktree *tree = &k->tree;
     ktree_node *n = ktree_node_at(tree, node);
     ktree_cell own;
-    if (!has_walls(n) && (n->cert[0] & n->cert[1] & n->cert[2]) == FROE_NONE) return;
+    if (!has_walls(n) && !has_certs(n)) return;
     for (int i = 0; i < 3; i++) {
         const cert_kind region = order[i];
         uint32_t *cert = n->cert + region;
@@ -229,6 +234,18 @@ static bool find_cut(const ktree *tree, uint32_t node) {
     return cut;
 }
 
+/* Puts the touched children of a node on the list of visits. False: there are none. */
+static bool push_touched(ktree *tree, uint32_t node, const ktree_cell *cell) {
+    const size_t before = tree->visits.count;
+    for (int i = 0; i < 4; i++) {
+        const uint32_t child = ktree_node_at(tree, node)->child[i];
+        if (!child || tree->nodes.data[child].stamp != tree->stamp) continue;
+        const ktree_cell inner = ktree_child_cell(tree, cell, node, i);
+        ktree_push_visit(tree, child, &inner, false);
+    }
+    return tree->visits.count > before;
+}
+
 /* All touched nodes of a subtree, children before parents. */
 static void certify_touched(froe_kinetic *k, uint32_t root, ktree_cell cell) {
     ktree *tree = &k->tree;
@@ -236,24 +253,19 @@ static void certify_touched(froe_kinetic *k, uint32_t root, ktree_cell cell) {
     ktree_push_visit(tree, root, &cell, false);
     while (tree->visits.count) {
         ktree_visit *top = tree->visits.data + tree->visits.count - 1;
-        uint32_t node = top->node;
+        const uint32_t node = top->node;
+        const bool back = top->back;
         cell = top->cell;
-        if (top->back) {
-            tree->visits.count--;
-            call_poll(&k->call);
-            ktree_node_at(tree, node)->cut = find_cut(tree, node);
-            certify_regions(k, node, &cell);
-            for (int side = 0; side < 2; side++)
-                if (ktree_is_end(ktree_node_at(tree, node)->wall[side])) certify_end(k, node, &cell, side);
-            continue;
-        }
         top->back = true;
-        for (int i = 0; i < 4; i++) {
-            uint32_t child = ktree_node_at(tree, node)->child[i];
-            if (!child || ktree_node_at(tree, child)->stamp != tree->stamp) continue;
-            ktree_cell inner = ktree_child_cell(tree, &cell, node, i);
-            ktree_push_visit(tree, child, &inner, false);
-        }
+        if (!back && push_touched(tree, node, &cell)) continue;
+        tree->visits.count--;
+        call_poll(&k->call);
+        const ktree_node *n = ktree_node_at(tree, node);
+        ktree_node_at(tree, node)->cut = find_cut(tree, node);
+        if (!has_walls(n) && !has_certs(n)) continue;
+        certify_regions(k, node, &cell);
+        for (int side = 0; side < 2; side++)
+            if (ktree_is_end(ktree_node_at(tree, node)->wall[side])) certify_end(k, node, &cell, side);
     }
 }
 
