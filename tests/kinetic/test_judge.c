@@ -10,6 +10,7 @@
 #include "kinetic/motions.h"
 #include "kinetic/moving.h"
 #include "kinetic/now/near.h"
+#include "kinetic/now/straight.h"
 #include "oracle/truth.h"
 
 enum { TICKS = 4, QUESTIONS = 35 };
@@ -304,10 +305,52 @@ static void sure_signs_in_doubles_are_right(void **state) {
     assert_true(seen[0] > 10000 && seen[1] > 3000);
 }
 
+/* What is told of straight flight in doubles is so by whole numbers: the claim holds two ticks before the one that is
+ * told, and not then; or it holds at the last tick and at others. Counts both. */
+static void look_at_straight_flight(now_state *now, const now_claim *claim, fuzz_source *r, uint64_t seen[2]) {
+    const int64_t start = now->tick, p = last_of(now, claim->p), q = last_of(now, claim->q), last = (p < q ? p : q) | 1;
+    int64_t tick;
+    if (last - start < 8 || !straight_first_failure(now, claim, &tick)) return;
+    const bool never = tick == NOW_NEVER;
+    const int64_t good = never ? last - 2 : tick - 2;
+    seen[never]++;
+    for (int i = 0; i < 4; i++) {
+        now->tick = i ? start + (int64_t)(fuzz_bits(r) % (uint64_t)(good - start + 1)) : good;
+        assert_true(now->tick < start || now_holds(now, claim) > 0);
+    }
+    now->tick = tick;
+    assert_true(never || now_holds(now, claim) < 0);
+    now->tick = start;
+}
+
+static void straight_flight_in_doubles_is_right(void **state) {
+    (void)state;
+    uint64_t seen[4] = {0};
+    for (size_t i = 0; i < 3 * MOVING_KINDS; i++) {
+        moving_kind kind = moving_kinds[i / 3];
+        kind.tick = ldexp(1, -25 - 9 * (int)(i % 3)); /* at last neighbouring ticks differ by last places */
+        froe_motion *m = moving_new(&kind, 17, NULL);
+        fuzz_source r = {i + 1};
+        now_state now;
+        assert_int_equal(now_new(m, NULL, &now), FROE_OK);
+        for (int j = 0; j < 300; j++) {
+            now.tick = (int64_t)(fuzz_bits(&r) % (uint64_t)(m->last_tick / 2)) | 1;
+            const name_point p = any_name(&now, &r), q = any_name(&now, &r);
+            const now_claim order = {p, q, 0};
+            const now_claim side = {{(uint32_t)fuzz_int(&r, 0, (int)m->objects.count - 1), NAME_SEGMENT}, q, 1};
+            look_at_straight_flight(&now, &order, &r, seen + 2 * (name_is_crossing(p) != name_is_crossing(q)));
+            if (name_is_vertex(q)) look_at_straight_flight(&now, &side, &r, seen);
+        }
+        now_free(&now);
+        froe_motion_free(m);
+    }
+    for (int i = 0; i < 4; i++) assert_true(seen[i] > 300);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(all_stages_agree_with_whole_numbers),
-                                       cmocka_unit_test(failures_are_first),
-                                       cmocka_unit_test(places_in_doubles_do_not_depend_on_what_was_asked),
-                                       cmocka_unit_test(sure_signs_in_doubles_are_right)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(all_stages_agree_with_whole_numbers), cmocka_unit_test(failures_are_first),
+        cmocka_unit_test(places_in_doubles_do_not_depend_on_what_was_asked),
+        cmocka_unit_test(sure_signs_in_doubles_are_right), cmocka_unit_test(straight_flight_in_doubles_is_right)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
