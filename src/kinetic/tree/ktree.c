@@ -89,7 +89,7 @@ uint32_t ktree_new_node(ktree *tree, uint32_t segment, const uint32_t wall[2]) {
                                               .stamp = tree->stamp,
                                               .turner = FROE_NONE};
     name_walls(tree, node);
-    if (s->nodes) ktree_node_at(tree, s->nodes)->previous = node;
+    if (s->nodes) tree->nodes.data[s->nodes].previous = node; /* not read, as it may be far from all caches */
     s->nodes = node;
     tree->node_count++;
     for (int side = 0; side < 2; side++) own_end(tree, node, side);
@@ -112,10 +112,10 @@ void ktree_free_node(ktree *tree, uint32_t node) {
         ktree_touch_end(tree, 2 * n->segment + which);
     }
     if (n->previous)
-        ktree_node_at(tree, n->previous)->next = n->next;
+        tree->nodes.data[n->previous].next = n->next;
     else
         ktree_segment_at(tree, n->segment)->nodes = n->next;
-    if (n->next) ktree_node_at(tree, n->next)->previous = n->previous;
+    if (n->next) tree->nodes.data[n->next].previous = n->previous;
     n->segment = n->turner = FROE_NONE;
     n->next = tree->free_node;
     tree->free_node = node;
@@ -125,8 +125,8 @@ void ktree_free_node(ktree *tree, uint32_t node) {
 void ktree_attach(ktree *tree, uint32_t parent, uint8_t slot, uint32_t node) {
     ktree_node_at(tree, parent)->child[slot] = node;
     if (!node) return;
-    ktree_node_at(tree, node)->parent = parent;
-    ktree_node_at(tree, node)->slot = slot;
+    tree->nodes.data[node].parent = parent;
+    tree->nodes.data[node].slot = slot;
 }
 
 /* ------------------------------------------------------------------- cells -- */
