@@ -90,7 +90,9 @@ static bool find_far(ktree *tree, name_point point, passing *p) {
 /* --------------------------------------------------------- what crosses the wall -- */
 
 static void push_half_visit(froe_kinetic *k, uint32_t node, unsigned back) {
-    if (node) call_push(&k->call, &k->surgery.scratch, 2 * node + back);
+    if (!node) return;
+    __builtin_prefetch(k->tree.nodes.data + node);
+    call_push(&k->call, &k->surgery.scratch, 2 * node + back);
 }
 
 /* Lists the segments that cross a subtree of a half along the passed wall, from the bottom up, and stamps nodes at
@@ -106,6 +108,9 @@ static bool walk_half(froe_kinetic *k, const strip *h, uint32_t node) {
             ktree_list(tree, n->segment);
             continue;
         }
+        const uint32_t *end = k->now.segments.data[n->segment].end;
+        __builtin_prefetch(k->now.courses.data + end[0]);
+        __builtin_prefetch(k->now.courses.data + end[1]);
         n->stamp = tree->stamp;
         k->counts.nodes_touched++;
         const bool ends = n->wall[h->side] != KTREE_NO_WALL;
