@@ -327,12 +327,22 @@ static bool is_one_event(const froe_kinetic *k, const event_group *g, const even
     }
 }
 
+/* The cell of a node that is to be looked for soon is found from the nodes above. */
+static void ask_ahead(const froe_kinetic *k, const slab_item *item) {
+    if (item->kind > CERT_RIGHT) return;
+    const uint32_t node = k->certs.all.data[item->cert].owner;
+    __builtin_prefetch(k->tree.nodes.data + k->tree.nodes.data[node].parent);
+}
+
 /* Repairs the tree where the certificates of a group fail, described by the event. The group may grow. True: others
  * may be in the same place that have no certificates. */
 static bool repair(froe_kinetic *k, event_group *g, const event_summary *event, unsigned round) {
     bool usual = true; /* unrelated points are not in one place */
     participants_clear(&k->participants);
-    for (size_t i = 0; i < g->count; i++) usual &= participants_add_item(k, item_of(k, g, i));
+    for (size_t i = 0; i < g->count; i++) {
+        ask_ahead(k, item_of(k, g, i));
+        usual &= participants_add_item(k, item_of(k, g, i));
+    }
     const bool simple = usual && round < CAREFUL_ROUND && is_one_event(k, g, event) &&
                         !participants_have_loose_ends(k, item_of(k, g, 0));
     k->now.lost = !(g->slab[0] <= g->slab[1] && g->slab[1] - g->slab[0] < (double)INFINITY);
