@@ -3,17 +3,17 @@
  *      b0   b1              Places of vertices are linear in time, so the order of two is, too, and on which side of a
  *     --o----o------        segment a vertex is has degree 2. Its coefficients in Bernstein's form come from the
  *              `o b2        places at both ends of the time: products of the first steps, of both, and of the last.
- *
- * The order of a vertex and a crossing has degree 3, times the turn from one of its lines to the other.
+ *                           The order of a vertex and a crossing has degree 3, times the turn from one of its lines to
+ *                           the other.
  *
  * Where these show that it stays positive nothing fails before a plan goes on. This is so for most certificates of
- * tracks that are sampled. Otherwise the tick is guessed, and both sides of it are tested: a polynomial of degree 2 that
- * is positive now and two ticks before it is negative has no other root before. Where a sign is not sure in doubles,
- * failure.c decides. */
+ * tracks that are sampled. Otherwise the tick is guessed, and both sides of it are tested: a polynomial of degree 2
+ * that is positive now and two ticks before it is negative has no other root before. A crossing is looked at for
+ * shorter times, until its sign surely changes once at most. Where a sign is not sure in doubles, failure.c decides. */
 #include "kinetic/now/straight.h"
 
-/* What a claim is about, > 0 while it holds: the order of two vertices; the side of the third of the line from the first
- * to the second; or the order of where that line crosses the one from the third to the fourth, and the fifth. */
+/* What a claim is about, > 0 while it holds: the order of two vertices; the side of the third of the line from the
+ * first to the second; or the order of where that line crosses the one from the third to the fourth, and the fifth. */
 typedef struct straight_claim {
     const now_course *course[5];
     double start[5]; /* the present tick, from the beginnings of their pieces */
@@ -61,13 +61,13 @@ static straight_steps steps_at(const straight_claim *c, double s) {
     return (straight_steps){{at[1][0] - at[0][0], at[1][1] - at[0][1]}, {at[2][0] - at[0][0], at[2][1] - at[0][1]}};
 }
 
-static double cross(const double d[2], const double e[2]) {
+static double steps_cross(const double d[2], const double e[2]) {
     return d[0] * e[1] - d[1] * e[0];
 }
 
 static double side_at(const straight_claim *c, double s) {
     const straight_steps v = steps_at(c, s);
-    return c->sign * cross(v.d, v.e);
+    return c->sign * steps_cross(v.d, v.e);
 }
 
 static double length(const double d[2]) {
@@ -138,8 +138,8 @@ static bool find_side(now_state *now, const now_claim *claim, int64_t *out) {
     const int64_t span = last > now->tick ? last - now->tick : 0;
     const straight_steps first = steps_at(&c, 0), final = steps_at(&c, (double)span);
     const double error = c.error = error_of_side(&c, &first, &final);
-    const double b0 = c.sign * cross(first.d, first.e), b2 = c.sign * cross(final.d, final.e);
-    const double b1 = 0.5 * c.sign * (cross(first.d, final.e) + cross(final.d, first.e));
+    const double b0 = c.sign * steps_cross(first.d, first.e), b2 = c.sign * steps_cross(final.d, final.e);
+    const double b1 = 0.5 * c.sign * (steps_cross(first.d, final.e) + steps_cross(final.d, first.e));
     if (!(b0 > error)) return false;
     *out = NOW_NEVER;
     if (span < 2) return true;
@@ -177,7 +177,7 @@ static straight_lines lines_at(const straight_claim *c, double s) {
 /* x turn - d_x shift, with turn = d x e and shift = between x e: the order times the turn. */
 static double crossing_at(const straight_claim *c, double s) {
     const straight_lines v = lines_at(c, s);
-    return c->sign * (v.x * cross(v.d, v.e) - v.d[0] * cross(v.between, v.e));
+    return c->sign * (v.x * steps_cross(v.d, v.e) - v.d[0] * steps_cross(v.between, v.e));
 }
 
 /* Sets the error of values, and returns that of turns. */
@@ -198,7 +198,8 @@ static double errors_of_crossing(straight_claim *c, const straight_lines *first,
 
 /* In Bernstein's form: the cross product of two steps. */
 static void cross_lines(const double d0[2], const double d1[2], const double e0[2], const double e1[2], double out[3]) {
-    out[0] = cross(d0, e0), out[1] = 0.5 * (cross(d0, e1) + cross(d1, e0)), out[2] = cross(d1, e1);
+    out[0] = steps_cross(d0, e0), out[1] = 0.5 * (steps_cross(d0, e1) + steps_cross(d1, e0)),
+    out[2] = steps_cross(d1, e1);
 }
 
 typedef enum straight_verdict { STRAIGHT_HOLDS, STRAIGHT_FALLS, STRAIGHT_UNSURE } straight_verdict;
@@ -240,7 +241,7 @@ static double falling_root(const double b[4], double close) {
     return u;
 }
 
-/* A shorter time in which a crossing is looked at: twice as long as it takes to fall to 0 if it goes on as it begins. */
+/* A shorter time in which a crossing is looked at: twice what it takes to fall to 0 if it goes on as it begins. */
 static int64_t shorter(const double b[4], int64_t length) {
     const double u = b[1] < b[0] ? b[0] / (1.5 * (b[0] - b[1])) : 1;
     return (int64_t)((u > 0.01 ? u < 0.5 ? u : 0.5 : 0.01) * (double)length) & ~(int64_t)1;
@@ -248,7 +249,7 @@ static int64_t shorter(const double b[4], int64_t length) {
 
 static bool find_crossing(now_state *now, const now_claim *claim, int64_t *out) {
     enum { TRIES = 12 };
-    const bool before = name_is_crossing(claim->p); /* the vertex */
+    const bool before = name_is_crossing(claim->p); /* the crossing comes first */
     const name_point crossing = before ? claim->p : claim->q;
     const uint32_t *s = now->segments.data[crossing.a].end, *t = now->segments.data[crossing.b].end;
     int64_t last = now->motion->last_tick | 1, from = 0;
@@ -259,7 +260,7 @@ static bool find_crossing(now_state *now, const now_claim *claim, int64_t *out) 
     const int64_t span = last - now->tick;
     if (span < 2) return false;
     straight_lines first = lines_at(&c, 0);
-    c.turn = cross(first.d, first.e) > 0 ? 1 : -1;
+    c.turn = steps_cross(first.d, first.e) > 0 ? 1 : -1;
     c.sign = before ? c.turn : -c.turn;
     int64_t length = span;
     for (int i = 0; i < TRIES; i++) {
