@@ -156,8 +156,8 @@ static void flat_scenes_have_leaves(void **state) {
     check("point", point, false);
 }
 
-/* Cuts that floats cannot hold: some far beyond the scene, and sums of which the later, finer planes are not small: they
- * move the first one, or turn it. Between them is one that floats can hold. */
+/* Cuts that floats cannot hold: some far beyond the scene, and sums of which the later, finer planes are not small:
+ * they move the first one, or turn it. Between them is one that floats can hold. */
 static void cuts_that_floats_cannot_hold_are_passed_exactly(void **state) {
     static const tree_meta meta = {.method = "by hand", .leaf = 300};
     static const double far[2] = {1, 0.5}, plain[2] = {0.5, 1};
