@@ -290,7 +290,8 @@ froe_status formats_animate_svg(formats_writer *w, const formats_animation *a, f
     put_format(w, "viewBox=\"0 0 %.0f %.0f\">\n<title>", s.width, s.height + LINE);
     const size_t count = froe_motion_object_count(a->motion);
     formats_put_whole(w, count);
-    formats_put(w, count == 1 ? " moving segment; those" : " moving segments; those in contact are orange</title>\n");
+    formats_put(w,
+                count == 1 ? " moving segment</title>\n" : " moving segments; those in contact are orange</title>\n");
     put_style(w);
     formats_put(w, "<rect class=\"sheet\" width=\"100%\" height=\"100%\"/>\n");
     put_axis(&s, 0);
