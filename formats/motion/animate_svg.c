@@ -48,7 +48,8 @@ static grid_lines find_grid(const layout *s, int axis) {
     const double first = axis ? s->height - AXIS : s->left, last = axis ? RIM : s->width - RIM;
     const double from = (first - g.origin) / g.each, to = (last - g.origin) / g.each;
     const double step = support_nice_above((to - from) * (axis ? 60 : 90) / (fabs(last - first) + 1));
-    if (!(step > 0) || !isfinite(to) || !isfinite(from) || to / step > 0x1p52) return g;
+    if (!(step > 0) || !isfinite(to) || !isfinite(from)) return g;
+    if (to / step > 0x1p52 || from / step < -0x1p52) return g; /* where numbers have no next one */
     g.first = ceil(from / step), g.step = step, g.last = g.first;
     while ((g.last + 1) * step <= to) g.last++;
     if (g.first * step > to) g.last = g.first - 1;
