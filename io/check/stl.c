@@ -1,5 +1,6 @@
-/* stl.c: is an STL file whole? assimp reads a text that was cut off as far as it goes, and of a facet the first three
- * vertices. Of a binary file whose length is another one than its header says, it tells only that the type is unknown.
+/* stl.c: whether an STL file is whole, and nothing of it would be passed over. assimp reads a text that was cut off as
+ * far as it goes, of a facet the first three vertices, and nothing of solids behind other lines or in capital letters.
+ * Of a binary file whose length is another one than its header says, it tells only that the type is unknown.
  *
  *     80 bytes: anything   4 bytes: the number of triangles   50 bytes: a triangle   50 bytes: a triangle   ... */
 #include "check/check.h"
@@ -18,43 +19,52 @@ static bool is_word(const char *at, size_t length, const char *word) {
     return length == strlen(word) && !strncasecmp(at, word, length);
 }
 
-/* The line, from 1, of the first vertex behind the third of a facet, which assimp leaves out; 0: there is none. */
-static size_t find_fourth(const char *text) {
-    size_t line = 1, vertices = 0, length;
-    bool inside = false; /* a facet: names of solids may be any words */
-    for (const char *at = text; *at; at += length) {
-        for (; *at && strchr(blanks, *at); at++) line += *at == '\n';
-        length = strcspn(at, blanks);
-        if (is_word(at, length, "facet")) inside = true, vertices = 0;
-        if (is_word(at, length, "endfacet")) inside = false;
-        if (inside && is_word(at, length, "vertex") && ++vertices > 3) return line;
-    }
-    return 0;
+/* Does a line begin so? */
+static bool begins(const char *at, const char *word) {
+    return !strncasecmp(at, word, strlen(word));
 }
 
-/* Does the last line of the text begin with "endsolid"? A name may follow it. */
-static bool is_whole(const char *text) {
-    static const char word[] = "endsolid";
-    bool whole = false;
-    for (const char *at = text; at; at = strpbrk(at, "\r\n")) {
-        at += strspn(at, blanks);
-        if (*at) whole = !strncasecmp(at, word, strlen(word));
+/* What assimp would pass over in silence, and the line where it is, or 0 for the end of the text. NULL: nothing. Names
+ * of solids may be any words. Behind the last solid anything may stand but a solid or a facet. */
+static const char *find_fault(const char *text, size_t *line) {
+    size_t number = 1, vertices = 0, length, stray = 0;
+    bool inside = false, facet = false, whole = false; /* in a solid, in a facet; all solids have ended */
+    for (const char *at = text; *at; at += length) {
+        bool first = at == text; /* word of its line */
+        for (; *at && strchr(blanks, *at); at++) {
+            first = first || *at == '\n' || *at == '\r';
+            number += *at == '\n';
+        }
+        length = strcspn(at, blanks);
+        const bool facets = is_word(at, length, "facet"), solid = first && begins(at, "solid");
+        *line = number;
+        if ((solid || (first && facets)) && *at < 'a') return "Words such as 'facet' are not read in capital letters.";
+        if (first && begins(at, "endsolid")) {
+            whole = true;
+            if (*at == 'e') inside = false, stray = 0; /* assimp does not know ENDSOLID */
+        } else if (solid || (first && facets)) {
+            if (!inside && stray) *line = stray;
+            if (!inside && (stray || facets)) return "This is in no solid, and triangles behind it are not read.";
+            whole = false, inside = true;
+        } else if (first && length && !inside && !stray) {
+            stray = number;
+        }
+        if (facets) facet = true, vertices = 0;
+        if (is_word(at, length, "endfacet")) facet = false;
+        if (facet && is_word(at, length, "vertex") && ++vertices > 3) return "The facet has more than 3 vertices.";
     }
-    return whole;
+    *line = 0;
+    return whole ? NULL : "The text does not end with a line 'endsolid', so that triangles may be missing.";
 }
 
 static froe_status check_text(const formats_source *source, formats_sink *sink) {
     const char *name = support_short(source->path);
     formats_text text = {0};
-    froe_status status = formats_load_part(source, sink, 0, (size_t)source->size, &text);
-    const size_t line = status ? 0 : find_fourth(text.data);
-    if (line)
-        status =
-            support_fail(sink->diag, FROE_E_FORMAT, "%s: line %zu: The facet has more than 3 vertices.", name, line);
-    if (!status && !is_whole(text.data))
-        status =
-            support_fail(sink->diag, FROE_E_FORMAT,
-                         "%s: The text does not end with a line 'endsolid', so that triangles may be missing.", name);
+    froe_status status = formats_load(source, sink, true, &text);
+    size_t line = 0;
+    const char *sentence = status ? NULL : find_fault(text.data, &line);
+    if (sentence && line) status = support_fail(sink->diag, FROE_E_FORMAT, "%s: line %zu: %s", name, line, sentence);
+    if (sentence && !line) status = support_fail(sink->diag, FROE_E_FORMAT, "%s: %s", name, sentence);
     array_free(&sink->alloc, &text);
     return status;
 }
@@ -66,7 +76,7 @@ froe_status io_stl_check(const formats_source *source, formats_sink *sink) {
     const uint64_t size = HEADER + TRIANGLE * triangles;
     const bool text = !memchr(source->head, '\0', there);
     if (there == HEADER && source->size == size) return FROE_OK;
-    if (text) return strncmp(from, "solid", 5) ? FROE_OK : check_text(source, sink);
+    if (text) return begins(from, "solid") ? check_text(source, sink) : FROE_OK;
     if (there < HEADER)
         return support_fail(sink->diag, FROE_E_FORMAT, "%s: A binary STL file has %d bytes at least, and this one %zu.",
                             name, HEADER, there);
