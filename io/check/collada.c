@@ -7,7 +7,8 @@
  *     p            assimp takes a negative index for 0
  *     geometry     what is neither mesh nor instanced is counted: splines, and hulls of other meshes
  *
- * Whatever assimp refuses by itself is left to it, and so is a text that is no XML. */
+ * What assimp does not look at is not looked at either: libraries of other things, such as physics, and extras of
+ * programs. Whatever assimp refuses by itself is left to it, and so is a text that is no XML. */
 #include "check/check.h"
 #include "support/decimal/decimal.h"
 #include <expat.h>
@@ -33,6 +34,7 @@ typedef struct collada_check {
     size_t depth, geometry; /* of the element, from 1; of the geometry that it is in, or 0 */
     bool indices;           /* in an element p */
     bool turns, matrix;     /* in an element rotate; in a matrix */
+    size_t beyond;          /* the depth of the element, in which nothing is looked at, that it is in, or 0 */
     bool scenes;            /* in the library of scenes, or behind it */
 } collada_check;
 
@@ -76,6 +78,16 @@ static void refer(collada_check *c, const char *element, const char *name) {
     if (!array_push(&c->sink->alloc, &c->named, r)) stop(c, support_fail_memory(c->sink->diag));
 }
 
+/* Does assimp look at nothing in it? */
+static bool is_beyond(const collada_check *c, const char *name) {
+    static const char *const looked[] = {"library_geometries", "library_controllers", "library_nodes",
+                                         "library_visual_scenes"};
+    if (c->depth != 2) return !strcmp(name, "extra");
+    for (size_t i = 0; i < sizeof looked / sizeof *looked; i++)
+        if (!strcmp(name, looked[i])) return false;
+    return true;
+}
+
 static void XMLCALL begin_element(void *user, const char *name, const char **attributes) {
     static const char *const defined[] = {"geometry", "controller", "node"};
     static const char *const others[] = {"spline", "convex_mesh", "brep"}; /* than a mesh */
@@ -83,6 +95,8 @@ static void XMLCALL begin_element(void *user, const char *name, const char **att
     collada_check *c = user;
     if (c->status) return;
     c->depth++;
+    if (!c->beyond && is_beyond(c, name)) c->beyond = c->depth;
+    if (c->beyond) return;
     for (size_t i = 0; i < sizeof defined / sizeof *defined; i++)
         if (!strcmp(name, defined[i])) define(c, attribute(attributes, "id"));
     if (!strcmp(name, "library_visual_scenes")) c->scenes = true;
@@ -117,6 +131,7 @@ static void XMLCALL end_element(void *user, const char *name) {
     (void)name;
     collada_check *c = user;
     if (c->geometry == c->depth) c->geometry = 0;
+    if (c->beyond == c->depth) c->beyond = 0;
     c->depth--;
     if ((c->turns || c->matrix) && !c->status) {
         if (array_push(&c->sink->alloc, &c->numbers, '\0'))
