@@ -314,7 +314,10 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
     io_crs_free(&m.crs);
     if (m.data) GDALClose(m.data);
     io_gdal_end(&m.heard);
-    snprintf(sink->report.sorts_left, sizeof sink->report.sorts_left, "%.47s", m.heard.left.text);
+    const char *left = m.heard.left.text; /* whole names, each of less than 32 letters */
+    size_t fit = strlen(left);
+    while (fit >= sizeof sink->report.sorts_left || (left[fit] && left[fit] != ',')) fit--;
+    snprintf(sink->report.sorts_left, sizeof sink->report.sorts_left, "%.*s", (int)fit, left);
     io_shapes_free(&sink->alloc, &m.shapes);
     array_free(&sink->alloc, &m.texts);
     return status;
