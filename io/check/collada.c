@@ -1,6 +1,6 @@
 /* collada.c: what a COLLADA file (version 1.4.1) may say that assimp passes over, so that the model would be another.
  *
- *     instance_node, instance_geometry, instance_controller: what they name must be in the file
+ *     instance_node, instance_geometry, instance_controller: what they name must be where assimp finds it
  *     trifans      assimp takes a fan of triangles for a polygon
  *     rotate       assimp stretches the model where the axis has another length than 1
  *     matrix       assimp leaves out what the last row says
@@ -35,6 +35,7 @@ typedef struct collada_check {
     bool indices;           /* in an element p */
     bool turns, matrix;     /* in an element rotate; in a matrix */
     size_t beyond;          /* the depth of the element, in which nothing is looked at, that it is in, or 0 */
+    bool nodes;             /* in the library of nodes, of which assimp finds those alone that are in no other one */
     bool scenes;            /* in the library of scenes, or behind it */
 } collada_check;
 
@@ -97,10 +98,11 @@ static void XMLCALL begin_element(void *user, const char *name, const char **att
     c->depth++;
     if (!c->beyond && is_beyond(c, name)) c->beyond = c->depth;
     if (c->beyond) return;
+    if (c->depth == 2) c->nodes = !strcmp(name, "library_nodes");
     for (size_t i = 0; i < sizeof defined / sizeof *defined; i++)
-        if (!strcmp(name, defined[i])) define(c, attribute(attributes, "id"));
+        if (!strcmp(name, defined[i]) && (!c->nodes || c->depth == 3)) define(c, attribute(attributes, "id"));
     if (!strcmp(name, "library_visual_scenes")) c->scenes = true;
-    if (!strcmp(name, "node") && c->scenes)
+    if (!strcmp(name, "node") && c->scenes && !c->nodes)
         define(c, attribute(attributes, "name")); /* by which assimp finds it, too */
     for (size_t i = 0; i < sizeof naming / sizeof *naming && !c->status; i++)
         if (!strcmp(name, naming[i])) refer(c, naming[i], attribute(attributes, "url"));
@@ -165,8 +167,9 @@ static froe_status check_names(collada_check *c) {
         if (*name == '#' && c->ids.count && bsearch(&id, ids.data, c->ids.count, sizeof *ids.data, order_names))
             continue;
         c->status =
-            support_fail(c->sink->diag, FROE_E_FORMAT, "%s: line %lu: '%.80s', which %s names, is not in this file.",
-                         support_short(c->source->path), r.line, name, r.element);
+            support_fail(c->sink->diag, FROE_E_FORMAT, "%s: line %lu: '%.80s', which %s names, is not in this file%s.",
+                         support_short(c->source->path), r.line, name, r.element,
+                         strcmp(r.element, "instance_node") ? "" : ", or is within a node of library_nodes");
     }
     array_free(&c->sink->alloc, &ids);
     return c->status;
