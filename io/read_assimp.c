@@ -270,11 +270,17 @@ froe_status io_read_assimp(const formats_source *source, formats_sink *sink) {
     return status;
 }
 
-static froe_status import(const formats_source *source, formats_sink *sink, const struct aiScene **scene) {
+/* Of the file the first `part` bytes alone; 0: all of it. */
+static froe_status import(const formats_source *source, formats_sink *sink, size_t part, const struct aiScene **scene) {
+    formats_text bytes = {0};
+    froe_status status = part ? formats_load_part(source, sink, 0, part, &bytes) : FROE_OK;
+    if (status) return array_free(&sink->alloc, &bytes), status;
     pthread_mutex_lock(&import_lock);
-    *scene = aiImportFile(source->file, 0);
-    const froe_status status = *scene ? FROE_OK : refuse_import(source, sink);
+    *scene = part ? aiImportFileFromMemory(bytes.data, (unsigned)part, 0, source->extension.text)
+                  : aiImportFile(source->file, 0);
+    status = *scene ? FROE_OK : refuse_import(source, sink);
     pthread_mutex_unlock(&import_lock);
+    array_free(&sink->alloc, &bytes);
     return status;
 }
 
@@ -325,10 +331,11 @@ froe_status io_read_arranged(const formats_source *source, formats_sink *sink, i
     froe_status status = formats_sink_open(sink, 3);
     if (!status) status = formats_sink_progress(sink, 0);
     if (!status && io_is_gltf(source)) status = io_gltf_check(source, sink, &found);
-    if (!status && io_is_stl(source)) status = io_stl_check(source, sink);
+    size_t part = 0;
+    if (!status && io_is_stl(source)) status = io_stl_check(source, sink, &part);
     if (!status && io_is_collada(source)) status = io_collada_check(source, sink);
     const struct aiScene *scene = NULL;
-    if (!status) status = import(source, sink, &scene);
+    if (!status) status = import(source, sink, part, &scene);
     if (!status) status = io_gltf_is_whole(sink, scene, &found);
     array_free(&sink->alloc, &found.parts);
     if (!status) status = read_scene(source, sink, scene, nodes, arrange, user);

@@ -32,8 +32,9 @@ froe_status io_gltf_check(const formats_source *source, formats_sink *sink, io_g
 froe_status io_gltf_is_whole(formats_sink *sink, const struct aiScene *scene, const io_gltf_found *found);
 /** Is it STL, by its extension? */
 bool io_is_stl(const formats_source *source);
-/** Before the import: FROE_E_FORMAT where an STL file is cut off, or has another length than its header says. */
-froe_status io_stl_check(const formats_source *source, formats_sink *sink);
+/** Before the import: FROE_E_FORMAT where an STL file is cut off, or has another length than its header says. Behind a
+ * binary one there may be bytes, too few for a triangle, that assimp must not see: *whole becomes its length. */
+froe_status io_stl_check(const formats_source *source, formats_sink *sink, size_t *whole);
 /** Is it COLLADA, by its extension? */
 bool io_is_collada(const formats_source *source);
 /** Before the import: FROE_E_UNSUPPORTED or FROE_E_FORMAT where a COLLADA file has what assimp passes over in silence.

@@ -69,13 +69,15 @@ static froe_status check_text(const formats_source *source, formats_sink *sink) 
     return status;
 }
 
-froe_status io_stl_check(const formats_source *source, formats_sink *sink) {
+froe_status io_stl_check(const formats_source *source, formats_sink *sink, size_t *whole) {
     const char *name = support_short(source->path), *from = source->head + strspn(source->head, " \t\r\n");
     const size_t there = source->size < HEADER ? (size_t)source->size : HEADER;
     const uint64_t triangles = there < HEADER ? 0 : io_glb_number(source->head + HEADER - 4);
     const uint64_t size = HEADER + TRIANGLE * triangles;
     const bool text = !memchr(source->head, '\0', there);
     if (there == HEADER && source->size == size) return FROE_OK;
+    if (there == HEADER && triangles && size <= UINT32_MAX && source->size > size && source->size < size + TRIANGLE)
+        return *whole = (size_t)size, FROE_OK;
     if (text) return begins(from, "solid") ? check_text(source, sink) : FROE_OK;
     if (there < HEADER)
         return support_fail(sink->diag, FROE_E_FORMAT, "%s: A binary STL file has %d bytes at least, and this one %zu.",
