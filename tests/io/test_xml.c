@@ -1,0 +1,221 @@
+/* test_xml.c: models in XML, COLLADA and 3MF: memory that ends and calls that are cancelled at every place, names that
+ * are missing or refer to nothing, and requirements that are lists of words. */
+#include "support.h"
+#include <cpl_vsi.h>
+
+static size_t objects_of(const char *path, froe_read_report *report) {
+    froe_scene *scene = read_scene(path, report);
+    const size_t count = froe_scene_object_count(scene);
+    froe_scene_free(scene);
+    return count;
+}
+
+/* ------------------------------------------------------------------- COLLADA -- */
+
+enum { NODES = 40, MOST = 1 << 15 };
+
+static const char collada[] =
+    "<COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\"><asset/>\n"
+    "<library_geometries><geometry id=\"g\"><mesh><source id=\"p\"><float_array id=\"a\" count=\"9\">0 0 0 4 0 0 0 4 0"
+    "</float_array><technique_common><accessor source=\"#a\" count=\"3\" stride=\"3\"><param name=\"X\" "
+    "type=\"float\"/>"
+    "<param name=\"Y\" type=\"float\"/><param name=\"Z\" type=\"float\"/></accessor></technique_common></source>"
+    "<vertices id=\"v\"><input semantic=\"POSITION\" source=\"#p\"/></vertices><triangles count=\"1\">"
+    "<input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><p>0 1 2</p></triangles></mesh></geometry>%s"
+    "</library_geometries>\n<library_visual_scenes><visual_scene id=\"s\">%s</visual_scene></library_visual_scenes>\n"
+    "<scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>\n";
+
+static void write_collada(const char *path, const char *geometries, const char *nodes) {
+    char *text = malloc(MOST);
+    assert_non_null(text);
+    assert_true(snprintf(text, MOST, collada, geometries, nodes) < MOST);
+    write_text(path, text);
+    free(text);
+}
+
+/* Nodes in a row, each moved by its number. */
+static void write_nodes(const char *path) {
+    char *nodes = malloc(MOST);
+    size_t used = 0;
+    assert_non_null(nodes);
+    for (int i = 0; i < NODES; i++)
+        used +=
+            (size_t)snprintf(nodes + used, MOST - used,
+                             "<node id=\"node number %d\"><translate>%d 0 0</translate><rotate>0 0 1 90</rotate>"
+                             "<matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</matrix><instance_geometry url=\"#g\"/></node>\n",
+                             i, 5 * i);
+    write_collada(path, "", nodes);
+    free(nodes);
+}
+
+static void many_nodes_are_all_read(void **state) {
+    (void)state;
+    write_nodes("nodes.dae");
+    assert_int_equal(objects_of("nodes.dae", NULL), NODES);
+}
+
+static void names_of_collada_have_to_be_there(void **state) {
+    static const char here[] = "<instance_geometry url=\"#g\"/>", lost[] = "which instance_geometry names, is not in";
+    char nodes[512];
+    (void)state;
+    /* a node without a name or an id is one all the same */
+    snprintf(nodes, sizeof nodes, "<node>%s</node>", here);
+    write_collada("nameless.dae", "<geometry><mesh/></geometry>", nodes);
+    assert_int_equal(objects_of("nameless.dae", NULL), 1);
+    snprintf(nodes, sizeof nodes, "<node>%s<instance_geometry/></node>", here);
+    write_collada("urlless.dae", "", nodes);
+    refuse("urlless.dae", FROE_E_FORMAT, lost);
+    write_text("idless.dae", "<COLLADA version=\"1.4.1\"><asset/><library_visual_scenes><visual_scene><node>"
+                             "<instance_geometry url=\"#g\"/></node></visual_scene></library_visual_scenes></COLLADA>");
+    refuse("idless.dae", FROE_E_FORMAT, lost);
+    /* the first fault is told */
+    snprintf(nodes, sizeof nodes, "<node><rotate>1 1 0 5</rotate><rotate>1 1 1 5</rotate><matrix>2</matrix>%s</node>",
+             here);
+    write_collada("faults.dae", "<geometry id=\"h\"><mesh><trifans><p>0 -1</p></trifans></mesh></geometry>", nodes);
+    refuse("faults.dae", FROE_E_UNSUPPORTED, "trifans");
+    write_collada("axes.dae", "", nodes);
+    refuse("axes.dae", FROE_E_FORMAT, "axis");
+}
+
+/* ----------------------------------------------------------------------- 3MF -- */
+
+static const char relations[] =
+    "<Relationships xmlns=\"r\"><Relationship Target=\"/t.png\" Id=\"t\" Type=\"thumbnail\"/>"
+    "<Relationship Target=\"/t.png\" Id=\"u\" Type=\"http://x/thumbnail\"/><Relationship Id=\"v\"/>"
+    "<Relationship Id=\"w\" Type=\"http://x/3dmodel\"/><Other Type=\"http://x/3dmodel\" Target=\"/o\"/>"
+    "<Relationship Target=\"/3D/m.model\" Id=\"a\" Type=\"http://x/3dmodel\"/>"
+    "<Relationship Target=\"/3D/later.model\" Id=\"b\" Type=\"http://x/3dmodel\"/></Relationships>";
+static const char mesh[] = "<mesh><vertices><vertex x=\"0\" y=\"0\" z=\"0\"/><vertex x=\"1\" y=\"0\" z=\"0\"/>"
+                           "<vertex x=\"0\" y=\"1\" z=\"0\"/></vertices><triangles>"
+                           "<triangle v1=\"0\" v2=\"1\" v3=\"2\"/></triangles></mesh>";
+
+static void write_part(const char *archive, const char *name, const char *text) {
+    char path[128];
+    snprintf(path, sizeof path, "/vsizip/{%s}/%s", archive, name);
+    VSILFILE *file = VSIFOpenL(path, "wb");
+    assert_non_null(file);
+    assert_int_equal(VSIFWriteL(text, 1, strlen(text), file), strlen(text));
+    assert_int_equal(VSIFCloseL(file), 0);
+}
+
+/* An archive of one model: attributes of its root, what it has besides an object, and of what that is made. */
+static void write_3mf(const char *path, const char *root, const char *more) {
+    char text[4096];
+    remove(path);
+    assert_true((size_t)snprintf(text, sizeof text,
+                                 "<model xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\" %s>"
+                                 "<resources>%s<object id=\"1\" name=\"one\">%s</object></resources>"
+                                 "<build><item objectid=\"1\"/></build></model>",
+                                 root, more, mesh) < sizeof text);
+    write_part(path, "_rels/.rels", relations);
+    write_part(path, "3D/m.model", text);
+}
+
+static void requirements_of_3mf_are_lists_of_words(void **state) {
+    static const char declared[] = "xmlns:p=\"http://schemas.microsoft.com/3dmanufacturing/production/2015/06\" "
+                                   "xmlns:s=\"http://schemas.microsoft.com/3dmanufacturing/slice/2015/07\" "
+                                   "xmlns:v=\"http://vendor\" requiredextensions=\"%s\"";
+    static const struct {
+        const char *words, *refused;
+    } cases[] = {{"", NULL},
+                 {" ", NULL},
+                 {"p", NULL},
+                 {" p\tp\n", NULL},
+                 {"p s", "slice/2015/07"},
+                 {"v", "http://vendor"},
+                 {"nobody", "'nobody'"}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char root[512];
+        snprintf(root, sizeof root, declared, cases[i].words);
+        write_3mf("required.3mf", root, "");
+        if (cases[i].refused)
+            refuse("required.3mf", FROE_E_UNSUPPORTED, cases[i].refused);
+        else
+            assert_int_equal(objects_of("required.3mf", NULL), 1);
+    }
+}
+
+static void what_stands_outside_of_objects_is_no_part_of_one(void **state) {
+    froe_read_report report;
+    (void)state;
+    write_3mf("outside.3mf", "",
+              "<vertex x=\"9\" y=\"9\" z=\"9\"/><triangle v1=\"7\" v2=\"8\" v3=\"9\"/><beamlattice/><texture2d/>"
+              "<component objectid=\"1\"/><basematerials id=\"5\"><base displaycolor=\"#FF0000\"/>"
+              "<base displaycolor=\"#FF000080\" name=\"\"/></basematerials>");
+    assert_int_equal(objects_of("outside.3mf", &report), 1);
+    assert_int_equal(report.textures, 1);
+    for (int i = 0; i < 4; i++) {
+        static const char *const colours[] = {"", "displaycolor=\"red\"", "displaycolor=\"#12345\"",
+                                              "displaycolor=\"#123456x\""};
+        char more[128];
+        snprintf(more, sizeof more, "<basematerials id=\"5\"><base %s/></basematerials>", colours[i]);
+        write_3mf("colour.3mf", "", more);
+        refuse("colour.3mf", FROE_E_FORMAT, "A colour is not like #RRGGBB.");
+    }
+}
+
+/* -------------------------------------------------------------------- faults -- */
+
+/* Many names, colours, components, parts and textures. */
+static void write_rich_3mf(const char *path) {
+    char more[3000];
+    size_t used = 0;
+    for (int i = 0; i < 20; i++)
+        used += (size_t)snprintf(more + used, sizeof more - used,
+                                 "<basematerials id=\"%d\"><base name=\"colour number %d\" displaycolor=\"#0000FF\"/>"
+                                 "</basematerials>",
+                                 100 + i, i);
+    write_3mf(path,
+              "xmlns:p=\"http://schemas.microsoft.com/3dmanufacturing/production/2015/06\" "
+              "requiredextensions=\"p\"",
+              more);
+}
+
+static void memory_may_end_at_any_place(void **state) {
+    (void)state;
+    write_nodes("nodes.dae");
+    write_rich_3mf("rich.3mf");
+    assert_true(test_memory_each(read_with_memory, "nodes.dae") > 10);
+    assert_true(test_memory_each(read_with_memory, "rich.3mf") > 10);
+}
+
+static bool count_down(void *user, double done) {
+    int *left = user;
+    (void)done;
+    return --*left != 0;
+}
+
+static void reading_is_cancelled_at_any_call(void **state) {
+    static const char *const paths[] = {"nodes.dae", "rich.3mf"};
+    (void)state;
+    write_nodes("nodes.dae");
+    write_rich_3mf("rich.3mf");
+    for (size_t i = 0; i < 2; i++) {
+        froe_status status = FROE_E_CANCELLED;
+        int stop = 1;
+        for (; status; stop++) {
+            int left = stop;
+            froe_scene *scene = NULL;
+            froe_read_options o = froe_read_defaults();
+            o.progress = count_down, o.user = &left;
+            status = froe_read(paths[i], &o, &scene, NULL, NULL);
+            assert_true(status == FROE_OK || status == FROE_E_CANCELLED);
+            assert_true(!status == (scene != NULL));
+            froe_scene_free(scene);
+        }
+        assert_true(stop > 2);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(many_nodes_are_all_read),
+        cmocka_unit_test(names_of_collada_have_to_be_there),
+        cmocka_unit_test(requirements_of_3mf_are_lists_of_words),
+        cmocka_unit_test(what_stands_outside_of_objects_is_no_part_of_one),
+        cmocka_unit_test(memory_may_end_at_any_place),
+        cmocka_unit_test(reading_is_cancelled_at_any_call),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
