@@ -152,8 +152,7 @@ static bool shape_right(const comparison *c, const tree_piece *piece, const trac
     uint32_t own = 0, shift = 0, n = place->count;
     if (!place->ring) return !piece->ring;
     while (own < n && place->ring[own] == own) own++;
-    /* one way: what lacks an edge of its object has a cut for one, which is not relied on */
-    bool whole = own == n && own == scene_corners(c->tree->scene, c->object);
+    bool whole = n == scene_corners(c->tree->scene, c->object) && own == n;
     if (whole || !piece->ring) return whole && !piece->ring;
     const uint32_t *stored = c->tree->bounds + piece->ring;
     if (stored[0] != n) return false;
