@@ -1,5 +1,5 @@
-/* test_xml.c: models in XML, COLLADA and 3MF: memory that ends and calls that are cancelled at every place, names that
- * are missing or refer to nothing, and requirements that are lists of words. */
+/* test_checks.c: COLLADA, 3MF and STL, which are looked through by froe itself: memory that ends and calls that are
+ * cancelled at every place, names that are missing or refer to nothing, and requirements that are lists of words. */
 #include "support.h"
 #include <cpl_vsi.h>
 
@@ -77,6 +77,40 @@ static void names_of_collada_have_to_be_there(void **state) {
     refuse("axes.dae", FROE_E_FORMAT, "axis");
 }
 
+/* Each of the last four numbers of a matrix counts. */
+static void last_rows_of_matrices_are_looked_at(void **state) {
+    static const char *const rows[] = {"0 0 0 1", "1 0 0 1", "0 1 0 1", "0 0 1 1", "0 0 0 2"};
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char nodes[512];
+        snprintf(nodes, sizeof nodes,
+                 "<node><matrix>1 0 0 0 0 1 0 0 0 0 1 0 %s</matrix><instance_geometry url=\"#g\"/></node>", rows[i]);
+        write_collada("rows.dae", "", nodes);
+        if (i)
+            refuse("rows.dae", FROE_E_FORMAT, "The last row of a matrix is not 0, 0, 0 and 1.");
+        else
+            assert_int_equal(objects_of("rows.dae", NULL), 1);
+    }
+}
+
+/* A library of nodes may stand behind the scenes. Of its nodes those at the top alone are found by assimp. */
+static void nodes_of_later_libraries_are_found(void **state) {
+    char nodes[1024];
+    (void)state;
+    for (int leg = 0; leg < 2; leg++) {
+        snprintf(nodes, sizeof nodes,
+                 "<node><instance_node url=\"#%s\"/></node></visual_scene></library_visual_scenes><library_nodes>"
+                 "<node id=\"chair\" name=\"chair\"><instance_geometry url=\"#g\"/><node id=\"leg\"/></node>"
+                 "</library_nodes><library_visual_scenes><visual_scene id=\"t\">",
+                 leg ? "leg" : "chair");
+        write_collada("later.dae", "", nodes);
+        if (leg)
+            refuse("later.dae", FROE_E_FORMAT, "'#leg', which instance_node names");
+        else
+            assert_int_equal(objects_of("later.dae", NULL), 1);
+    }
+}
+
 /* ----------------------------------------------------------------------- 3MF -- */
 
 static const char relations[] =
@@ -111,6 +145,8 @@ static void write_3mf(const char *path, const char *root, const char *more) {
     write_part(path, "3D/m.model", text);
 }
 
+#define LONG "a-prefix-of-forty-letters-that-is-nowhere" /* of a message the first 80 are shown */
+
 static void requirements_of_3mf_are_lists_of_words(void **state) {
     static const char declared[] = "xmlns:p=\"http://schemas.microsoft.com/3dmanufacturing/production/2015/06\" "
                                    "xmlns:s=\"http://schemas.microsoft.com/3dmanufacturing/slice/2015/07\" "
@@ -123,7 +159,8 @@ static void requirements_of_3mf_are_lists_of_words(void **state) {
                  {" p\tp\n", NULL},
                  {"p s", "slice/2015/07"},
                  {"v", "http://vendor"},
-                 {"nobody", "'nobody'"}};
+                 {"nobody", "'nobody'"},
+                 {LONG LONG LONG, "'" LONG}};
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char root[512];
@@ -134,6 +171,18 @@ static void requirements_of_3mf_are_lists_of_words(void **state) {
         else
             assert_int_equal(objects_of("required.3mf", NULL), 1);
     }
+}
+
+/* Of a corner whose colour is not in the list, the triangle has no mixture. */
+static void corners_without_colours_mix_none(void **state) {
+    (void)state;
+    write_3mf("mixed.3mf", "",
+              "<colorgroup id=\"6\"><color color=\"#0000FF\"/><color color=\"#00FF00\"/></colorgroup>"
+              "<object id=\"2\"><mesh><vertices><vertex x=\"0\" y=\"0\" z=\"0\"/><vertex x=\"1\" y=\"0\" z=\"0\"/>"
+              "<vertex x=\"0\" y=\"1\" z=\"0\"/></vertices><triangles>"
+              "<triangle v1=\"0\" v2=\"1\" v3=\"2\" pid=\"6\" p1=\"0\" p2=\"1\" "
+              "p3=\"9\"/></triangles></mesh></object></resources><build><item objectid=\"2\"/></build><resources>");
+    assert_int_equal(objects_of("mixed.3mf", NULL), 2);
 }
 
 static void what_stands_outside_of_objects_is_no_part_of_one(void **state) {
@@ -153,6 +202,20 @@ static void what_stands_outside_of_objects_is_no_part_of_one(void **state) {
         write_3mf("colour.3mf", "", more);
         refuse("colour.3mf", FROE_E_FORMAT, "A colour is not like #RRGGBB.");
     }
+}
+
+/* ----------------------------------------------------------------------- STL -- */
+
+#define FACET "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
+static const char solids[] = "solid a\n" FACET "endsolid a\nsolid b\n" FACET "endsolid b\n";
+static const char stray[] = "solid a\n" FACET "endsolid a\nthe next\none is\nsolid b\n" FACET "endsolid b\n";
+
+static void words_between_solids_hide_none(void **state) {
+    (void)state;
+    write_text("solids.stl", solids);
+    assert_int_equal(objects_of("solids.stl", NULL), 2);
+    write_text("stray.stl", stray);
+    refuse("stray.stl", FROE_E_FORMAT, "line 10");
 }
 
 /* -------------------------------------------------------------------- faults -- */
@@ -177,7 +240,9 @@ static void memory_may_end_at_any_place(void **state) {
     write_nodes("nodes.dae");
     write_rich_3mf("rich.3mf");
     assert_true(test_memory_each(read_with_memory, "nodes.dae") > 10);
+    write_text("solids.stl", solids);
     assert_true(test_memory_each(read_with_memory, "rich.3mf") > 10);
+    assert_true(test_memory_each(read_with_memory, "solids.stl") > 2);
 }
 
 static bool count_down(void *user, double done) {
@@ -212,7 +277,11 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(many_nodes_are_all_read),
         cmocka_unit_test(names_of_collada_have_to_be_there),
+        cmocka_unit_test(last_rows_of_matrices_are_looked_at),
+        cmocka_unit_test(nodes_of_later_libraries_are_found),
         cmocka_unit_test(requirements_of_3mf_are_lists_of_words),
+        cmocka_unit_test(corners_without_colours_mix_none),
+        cmocka_unit_test(words_between_solids_hide_none),
         cmocka_unit_test(what_stands_outside_of_objects_is_no_part_of_one),
         cmocka_unit_test(memory_may_end_at_any_place),
         cmocka_unit_test(reading_is_cancelled_at_any_call),
