@@ -323,7 +323,6 @@ froe_status packed_count_range(froe_query *q, const double *lo, const double *hi
     }
     memory = memory && settle_unsure(q, &w);
     sum += q->found.count;
-    q->found.count = 0;
     if (memory) *out = sum;
     return memory ? FROE_OK : FROE_E_MEMORY;
 }
