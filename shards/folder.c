@@ -45,12 +45,8 @@ static froe_status read_text(const char *path, const froe_allocator *alloc, shar
 static bool has_file(const char *folder, const char *name) {
     char path[PATH_MAX];
     struct stat info;
-    const size_t length = strlen(folder);
-    if (length + 1 + strlen(name) >= sizeof path) return false;
-    memcpy(path, folder, length);
-    path[length] = '/';
-    strcpy(path + length + 1, name);
-    return !stat(path, &info);
+    const int length = snprintf(path, sizeof path, "%s/%s", folder, name);
+    return length >= 0 && (size_t)length < sizeof path && !stat(path, &info);
 }
 
 bool froe_is_shards(const char *path) {
