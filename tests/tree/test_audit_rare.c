@@ -46,6 +46,30 @@ static void hulls_of_dimension_4_must_be_listed_where_they_reach(void **state) {
             assert_must(hull_beside(dim, 1, sums[i], 1, 1, true), hull_beside(dim, 1, sums[i], 1, 1, false), i >= 2);
 }
 
+/* A ball around 0 beyond two cuts, whose corner is 5 from there, and a point far off on the other side. */
+static froe_tree *balls_beside(int dim, double radius, bool listed) {
+    static const double centre[3] = {0}, far[3] = {-100, -100, 0};
+    const froe_cut cuts[2] = {{.kind = FROE_CUT_AXIS, .axis = 0, .value = 3},
+                              {.kind = FROE_CUT_AXIS, .axis = 1, .value = 4}};
+    const uint32_t splits[2] = {0, 2};
+    const entry entries[4] = {{1, 0, 0, {0}}, {1, 1, 0, {0}}, {3, 1, 0, {0}}, {4, 1, 0, {0}}};
+    froe_scene *scene;
+    assert_int_equal(froe_scene_new(dim, NULL, &scene), FROE_OK);
+    assert_int_equal(trees_add(scene, FROE_POINT, 1, far, NULL, NULL), FROE_OK);
+    assert_int_equal(trees_add(scene, FROE_BALL, 1, centre, &radius, NULL), FROE_OK);
+    froe_tree *tree = hand_made(scene, cuts, splits, 2, entries, listed ? 4 : 3, &by_hand);
+    froe_scene_free(scene);
+    return tree;
+}
+
+static void balls_must_be_listed_where_they_reach(void **state) {
+    static const double radii[] = {4.5, 5, 0x1.4000000000001p2, 6};
+    (void)state;
+    for (int dim = 2; dim <= 3; dim++)
+        for (int i = 0; i < 4; i++)
+            assert_must(balls_beside(dim, radii[i], true), balls_beside(dim, radii[i], false), i >= 2);
+}
+
 /* Beyond x = 1, what is below x = -1 is nothing; nothing has to be listed there. */
 static void nothing_must_be_listed_in_empty_cells(void **state) {
     (void)state;
@@ -376,6 +400,7 @@ static void units_reach_the_upper_bound(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hulls_of_dimension_4_must_be_listed_where_they_reach),
+        cmocka_unit_test(balls_must_be_listed_where_they_reach),
         cmocka_unit_test(nothing_must_be_listed_in_empty_cells),
         cmocka_unit_test(nothing_must_be_listed_where_numbers_overflow),
         cmocka_unit_test(audits_of_cells_may_lack_memory),
