@@ -170,7 +170,7 @@ static patch half_patch(const patch *p, bool upper) {
  * looked at. False: it cannot tell. */
 static bool find_by_balls(num_isolation *out) {
     enum { MOST = 24 };
-    patch stack[MOST + 2];
+    patch stack[MOST + 1]; /* the upper half of each depth, and the patch at hand */
     int count = 1;
     stack[0] = (patch){out->near, 0, 0};
     out->count = 0;
