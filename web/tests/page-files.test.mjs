@@ -80,9 +80,17 @@ test("the preview shows models of every size", async () => {
         const corners = [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0], [0, 0, 1]].map((corner) => `v ${corner.map((x) => x * scale).join(" ")}\n`);
         await dropped(page, { "t.obj": text(`${corners.join("")}f 1 2 5\nf 2 3 5\nf 3 4 5\nf 4 1 5\n`) });
         await drawn(page);
-        await page.evaluate((patch) => { location.hash = `#draw?scene=file&${patch}`; }, more);
+        await page.evaluate((patch) => new Promise((entered) => { // the page has entered the address before this listener
+            const hash = `#draw?scene=file&${patch}`;
+            if (location.hash === hash) { entered(); return; }
+            addEventListener("hashchange", entered, { once: true });
+            location.hash = hash;
+        }), more);
         await page.waitForFunction(() => document.querySelector(".sheet.drawn"));
-        await page.evaluate(() => document.querySelector(".sheet").classList.remove("drawn"));
+        await page.evaluate(() => new Promise((painted) => { // the preview is drawn by the next frame
+            document.querySelector(".sheet").classList.remove("drawn");
+            requestAnimationFrame(() => requestAnimationFrame(painted));
+        }));
         const shot = (await (await page.$(".sheet canvas")).screenshot()).toString("base64");
         return page.evaluate(async (shot) => {
             const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${shot}`)).blob());
