@@ -45,8 +45,9 @@ static froe_status read_text(const char *path, const froe_allocator *alloc, shar
 static bool has_file(const char *folder, const char *name) {
     char path[PATH_MAX];
     struct stat info;
-    const int length = snprintf(path, sizeof path, "%s/%s", folder, name);
-    return length >= 0 && (size_t)length < sizeof path && !stat(path, &info);
+    if (strlen(folder) + 1 + strlen(name) >= sizeof path) return false;
+    strcpy(stpcpy(stpcpy(path, folder), "/"), name); /* printf() would need froe's floating point */
+    return !stat(path, &info);
 }
 
 bool froe_is_shards(const char *path) {
