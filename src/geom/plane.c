@@ -52,7 +52,8 @@ static void image_normal(geom_plane *plane) {
         plane->n[k] = n[k].x;
         most = filter_greater(most, fabs(n[k].x));
         error = filter_greater(error, n[k].e);
-        certain = certain && fabs(n[k].x) <= 0x1p1000; /* false for NaN; the error is less unless a product overflows */
+        /* one way: an error is less, unless a product overflows; false for NaN */
+        certain = certain && fabs(n[k].x) <= 0x1p1000 && n[k].e <= 0x1p1000;
     }
     plane->n_max = most;
     plane->n_err = certain ? error * (1 + 0x1p-48) : (double)INFINITY;
