@@ -203,31 +203,31 @@ static inline const now_course *now_course_of(now_state *now, uint32_t vertex) {
     if (now->tick > c->last || now->tick < c->base) now_look_up(now, vertex);
     return c;
 }
-static inline now_spot now_vertex_spot(now_state *now, uint32_t vertex) {
-    const now_course *c = now_course_of(now, vertex);
-    if (c->degree > 1) return now_bent_spot(now, vertex);
+/** Of a course that is straight. */
+static inline now_spot now_straight_spot(const now_state *now, const now_course *c) {
     const double s = (double)(now->tick - c->base);
     return (now_spot){c->x[0] + s * c->x[1], c->y[0] + s * c->y[1], c->error};
+}
+static inline double now_straight_speed(const now_course *c) {
+    const double x = fabs(c->x[1]), y = fabs(c->y[1]);
+    return (x > y ? x : y) * (1 + 0x1p-20);
+}
+static inline now_spot now_vertex_spot(now_state *now, uint32_t vertex) {
+    const now_course *c = now_course_of(now, vertex);
+    return c->degree > 1 ? now_bent_spot(now, vertex) : now_straight_spot(now, c);
 }
 /** Where a vertex is, and now_speed(). */
 static inline now_spot now_vertex_flight(now_state *now, uint32_t vertex, double *speed) {
     const now_course *c = now_course_of(now, vertex);
-    if (c->degree > 1) {
-        *speed = now_bent_speed(now, vertex);
-        return now_bent_spot(now, vertex);
-    }
-    const double s = (double)(now->tick - c->base), x = fabs(c->x[1]), y = fabs(c->y[1]);
-    *speed = (x > y ? x : y) * (1 + 0x1p-20);
-    return (now_spot){c->x[0] + s * c->x[1], c->y[0] + s * c->y[1], c->error};
+    *speed = c->degree > 1 ? now_bent_speed(now, vertex) : now_straight_speed(c);
+    return c->degree > 1 ? now_bent_spot(now, vertex) : now_straight_spot(now, c);
 }
 /** Up to and including which tick the flight of a vertex is one polynomial. */
 int64_t now_course_last(now_state *now, uint32_t vertex);
 /** No coordinate of the vertex changes by more in a tick, as long as its piece lasts. */
 static inline double now_speed(now_state *now, uint32_t vertex) {
     const now_course *c = now_course_of(now, vertex);
-    if (c->degree > 1) return now_bent_speed(now, vertex);
-    const double x = fabs(c->x[1]), y = fabs(c->y[1]);
-    return (x > y ? x : y) * (1 + 0x1p-20);
+    return c->degree > 1 ? now_bent_speed(now, vertex) : now_straight_speed(c);
 }
 /** A coordinate times 2^lift; of little ones what is lost is less than NUM_BALL_TINY. */
 static inline double now_lifted(const now_state *now, double x) {

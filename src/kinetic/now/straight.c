@@ -47,17 +47,22 @@ static double order_at(const straight_claim *c, double s) {
     return q->x[0] + (c->start[1] + s) * q->x[1] - (p->x[0] + (c->start[0] + s) * p->x[1]);
 }
 
+/* Where the first `count` vertices are then. */
+static void places_at(const straight_claim *c, int count, double s, double at[][2]) {
+    for (int i = 0; i < count; i++) {
+        const now_course *v = c->course[i];
+        const double t = c->start[i] + s;
+        at[i][0] = v->x[0] + t * v->x[1], at[i][1] = v->y[0] + t * v->y[1];
+    }
+}
+
 typedef struct straight_steps {
     double d[2], e[2]; /* from the first vertex to the second and third */
 } straight_steps;
 
 static straight_steps steps_at(const straight_claim *c, double s) {
     double at[3][2];
-    for (int i = 0; i < 3; i++) {
-        const now_course *v = c->course[i];
-        const double t = c->start[i] + s;
-        at[i][0] = v->x[0] + t * v->x[1], at[i][1] = v->y[0] + t * v->y[1];
-    }
+    places_at(c, 3, s, at);
     return (straight_steps){{at[1][0] - at[0][0], at[1][1] - at[0][1]}, {at[2][0] - at[0][0], at[2][1] - at[0][1]}};
 }
 
@@ -70,15 +75,15 @@ static double side_at(const straight_claim *c, double s) {
     return c->sign * steps_cross(v.d, v.e);
 }
 
-static double length(const double d[2]) {
+static double size_of(const double d[2]) {
     return fabs(d[0]) + fabs(d[1]);
 }
 
 /* Steps are longest now or at the end. */
 static double error_of_side(const straight_claim *c, const straight_steps *first, const straight_steps *last) {
     const double off[2] = {c->course[0]->error + c->course[1]->error, c->course[0]->error + c->course[2]->error};
-    const double d = larger(length(first->d), length(last->d)) * (1 + 0x1p-40) + off[0];
-    const double e = larger(length(first->e), length(last->e)) * (1 + 0x1p-40) + off[1];
+    const double d = larger(size_of(first->d), size_of(last->d)) * (1 + 0x1p-40) + off[0];
+    const double e = larger(size_of(first->e), size_of(last->e)) * (1 + 0x1p-40) + off[1];
     return (d * e * 0x1p-49 + d * off[1] + e * off[0]) * (1 + 0x1p-40) + NUM_BALL_TINY;
 }
 
@@ -163,11 +168,7 @@ typedef struct straight_lines {
 
 static straight_lines lines_at(const straight_claim *c, double s) {
     double at[5][2];
-    for (int i = 0; i < 5; i++) {
-        const now_course *v = c->course[i];
-        const double t = c->start[i] + s;
-        at[i][0] = v->x[0] + t * v->x[1], at[i][1] = v->y[0] + t * v->y[1];
-    }
+    places_at(c, 5, s, at);
     return (straight_lines){{at[1][0] - at[0][0], at[1][1] - at[0][1]},
                             {at[3][0] - at[2][0], at[3][1] - at[2][1]},
                             {at[2][0] - at[0][0], at[2][1] - at[0][1]},
@@ -184,9 +185,9 @@ static double crossing_at(const straight_claim *c, double s) {
 static double errors_of_crossing(straight_claim *c, const straight_lines *first, const straight_lines *last) {
     const double off[4] = {c->course[0]->error + c->course[1]->error, c->course[2]->error + c->course[3]->error,
                            c->course[0]->error + c->course[2]->error, c->course[0]->error + c->course[4]->error};
-    const double d = larger(length(first->d), length(last->d)) * (1 + 0x1p-40) + off[0];
-    const double e = larger(length(first->e), length(last->e)) * (1 + 0x1p-40) + off[1];
-    const double between = larger(length(first->between), length(last->between)) * (1 + 0x1p-40) + off[2];
+    const double d = larger(size_of(first->d), size_of(last->d)) * (1 + 0x1p-40) + off[0];
+    const double e = larger(size_of(first->e), size_of(last->e)) * (1 + 0x1p-40) + off[1];
+    const double between = larger(size_of(first->between), size_of(last->between)) * (1 + 0x1p-40) + off[2];
     const double x = larger(fabs(first->x), fabs(last->x)) * (1 + 0x1p-40) + off[3];
     const double turn = d * e * 0x1p-49 + d * off[1] + e * off[0];
     const double shift = between * e * 0x1p-49 + between * off[1] + e * off[2];
