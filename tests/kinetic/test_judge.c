@@ -226,7 +226,7 @@ static void failures_are_first(void **state) {
             now.lost = false;
             if (now_holds(&now, &(now_claim){p, q, 0}) > 0 && !now.lost)
                 look_at_each_tick(&now, &(now_claim){p, q, 0}, found);
-            if (name_is_vertex(q) && now_holds(&now, &side) > 0) look_at_each_tick(&now, &side, found);
+            if (name_is_vertex(side.q) && now_holds(&now, &side) > 0) look_at_each_tick(&now, &side, found);
         }
         now_free(&now);
         froe_motion_free(m);
@@ -280,6 +280,15 @@ static void places_in_doubles_do_not_depend_on_what_was_asked(void **state) {
     }
 }
 
+/* An order of two points, and the side of a segment on which the second is, at a tick of the first half. */
+static void draw_claims(now_state *now, fuzz_source *r, now_claim *order, now_claim *side) {
+    const froe_motion *m = now->motion;
+    now->tick = (int64_t)(fuzz_bits(r) % (uint64_t)(m->last_tick / 2)) | 1;
+    const name_point p = any_name(now, r), q = any_name(now, r);
+    *order = (now_claim){p, q, 0};
+    *side = (now_claim){{(uint32_t)fuzz_int(r, 0, (int)m->objects.count - 1), NAME_SEGMENT}, q, 1};
+}
+
 static void sure_signs_in_doubles_are_right(void **state) {
     (void)state;
     uint64_t seen[2] = {0};
@@ -291,13 +300,11 @@ static void sure_signs_in_doubles_are_right(void **state) {
         now_state now;
         assert_int_equal(now_new(m, NULL, &now), FROE_OK);
         for (int j = 0; j < 300; j++) {
-            now.tick = (int64_t)(fuzz_bits(&r) % (uint64_t)(m->last_tick / 2)) | 1;
-            const name_point p = any_name(&now, &r), q = any_name(&now, &r);
-            const now_claim order = {p, q, 0};
-            const now_claim side = {{(uint32_t)fuzz_int(&r, 0, (int)m->objects.count - 1), NAME_SEGMENT}, q, 1};
+            now_claim order, side;
+            draw_claims(&now, &r, &order, &side);
             now.lost = false;
             if (now_holds(&now, &order) > 0 && !now.lost) look_near_failure(&now, &order, &r, seen);
-            if (name_is_vertex(q) && now_holds(&now, &side) > 0) look_near_failure(&now, &side, &r, seen);
+            if (name_is_vertex(side.q) && now_holds(&now, &side) > 0) look_near_failure(&now, &side, &r, seen);
         }
         now_free(&now);
         froe_motion_free(m);
@@ -334,12 +341,11 @@ static void straight_flight_in_doubles_is_right(void **state) {
         now_state now;
         assert_int_equal(now_new(m, NULL, &now), FROE_OK);
         for (int j = 0; j < 300; j++) {
-            now.tick = (int64_t)(fuzz_bits(&r) % (uint64_t)(m->last_tick / 2)) | 1;
-            const name_point p = any_name(&now, &r), q = any_name(&now, &r);
-            const now_claim order = {p, q, 0};
-            const now_claim side = {{(uint32_t)fuzz_int(&r, 0, (int)m->objects.count - 1), NAME_SEGMENT}, q, 1};
-            look_at_straight_flight(&now, &order, &r, seen + 2 * (name_is_crossing(p) != name_is_crossing(q)));
-            if (name_is_vertex(q)) look_at_straight_flight(&now, &side, &r, seen);
+            now_claim order, side;
+            draw_claims(&now, &r, &order, &side);
+            look_at_straight_flight(&now, &order, &r,
+                                    seen + 2 * (name_is_crossing(order.p) != name_is_crossing(order.q)));
+            if (name_is_vertex(side.q)) look_at_straight_flight(&now, &side, &r, seen);
         }
         now_free(&now);
         froe_motion_free(m);
