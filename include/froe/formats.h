@@ -77,7 +77,7 @@ typedef struct froe_read_report {
                                 any (beyond 180 or 90): the scene has no coordinate system */
     double seconds;      /**< from call to return, by the wall clock */
     char sorts_left[48]; /**< sorts of entities of a DXF that GDAL passes over, as "MESH, 3DSOLID", as many as fit;
-                            nobody counts how many entities these are; "": none */
+                            they are not counted; "": none */
     uint64_t reserved[2];
 } froe_read_report;
 

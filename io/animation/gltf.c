@@ -71,11 +71,11 @@ static froe_status find_text(gltf_file *g) {
         if (!io_glb_is_2(text, size))
             return fail_gltf(g, FROE_E_UNSUPPORTED,
                              "Animations are read from glTF 2, and the file is another version.");
-        const size_t length = io_glb_number(text + IO_GLB_HEADER), next = IO_GLB_HEADER + IO_GLB_CHUNK + length;
+        const size_t length = io_word_at(text + IO_GLB_HEADER), next = IO_GLB_HEADER + IO_GLB_CHUNK + length;
         if (length > size - IO_GLB_HEADER - IO_GLB_CHUNK)
             return fail_gltf(g, FROE_E_FORMAT, "A chunk of glTF is longer than the file.");
         if (next + IO_GLB_CHUNK <= size && !memcmp(text + next + 4, "BIN", 4)) {
-            g->chunk = text + next + IO_GLB_CHUNK, g->chunk_size = io_glb_number(text + next);
+            g->chunk = text + next + IO_GLB_CHUNK, g->chunk_size = io_word_at(text + next);
             if (g->chunk_size > size - next - IO_GLB_CHUNK)
                 return fail_gltf(g, FROE_E_FORMAT, "A chunk of glTF is longer than the file.");
         }
@@ -242,7 +242,7 @@ static double component_at(const char *at, size_t type, bool shares) {
     default:
         break;
     }
-    const uint32_t bits = (uint32_t)io_glb_number(at);
+    const uint32_t bits = (uint32_t)io_word_at(at);
     memcpy(&single, &bits, sizeof single);
     return single;
 }

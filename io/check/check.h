@@ -9,8 +9,8 @@
 /** Is it glTF, of any version? */
 bool io_is_gltf(const formats_source *source);
 enum { IO_GLB_HEADER = 12, IO_GLB_CHUNK = 8 }; /**< bytes before the chunks of a .glb, and before those of each */
-/** A whole number of 4 bytes in a .glb. */
-size_t io_glb_number(const char *at);
+/** A whole number of 4 bytes, the lowest first. */
+size_t io_word_at(const char *at);
 /** Do `size` bytes that begin as a .glb go on as version 2, by a chunk of JSON? */
 bool io_glb_is_2(const char *bytes, size_t size);
 

@@ -21,13 +21,13 @@ bool io_is_gltf(const formats_source *source) {
            !strcmp(source->extension.text, "glb");
 }
 
-size_t io_glb_number(const char *at) {
+size_t io_word_at(const char *at) {
     const unsigned char *b = (const unsigned char *)at;
     return (size_t)b[0] | (size_t)b[1] << 8 | (size_t)b[2] << 16 | (size_t)b[3] << 24;
 }
 
 bool io_glb_is_2(const char *bytes, size_t size) {
-    return size >= IO_GLB_HEADER + IO_GLB_CHUNK && io_glb_number(bytes + 4) == 2 &&
+    return size >= IO_GLB_HEADER + IO_GLB_CHUNK && io_word_at(bytes + 4) == 2 &&
            !memcmp(bytes + IO_GLB_HEADER + 4, "JSON", 4);
 }
 
@@ -36,7 +36,7 @@ static froe_status load_bytes(const formats_source *source, formats_sink *sink, 
     const char *head = source->head;
     if (strncmp(head, "glTF", 4) != 0) return formats_load_part(source, sink, 0, (size_t)source->size, text);
     if (!io_glb_is_2(head, (size_t)source->size)) return FROE_OK;
-    const size_t length = io_glb_number(head + IO_GLB_HEADER);
+    const size_t length = io_word_at(head + IO_GLB_HEADER);
     if (length > source->size - IO_GLB_HEADER - IO_GLB_CHUNK) return FROE_OK;
     return formats_load_part(source, sink, IO_GLB_HEADER + IO_GLB_CHUNK, length, text);
 }

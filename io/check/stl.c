@@ -72,7 +72,7 @@ static froe_status check_text(const formats_source *source, formats_sink *sink) 
 froe_status io_stl_check(const formats_source *source, formats_sink *sink, size_t *whole) {
     const char *name = support_short(source->path), *from = source->head + strspn(source->head, " \t\r\n");
     const size_t there = source->size < HEADER ? (size_t)source->size : HEADER;
-    const uint64_t triangles = there < HEADER ? 0 : io_glb_number(source->head + HEADER - 4);
+    const uint64_t triangles = there < HEADER ? 0 : io_word_at(source->head + HEADER - 4);
     const uint64_t size = HEADER + TRIANGLE * triangles;
     const bool text = !memchr(source->head, '\0', there);
     if (there == HEADER && source->size == size) return FROE_OK;
