@@ -22,6 +22,7 @@ enum { FIELDS = sizeof fields / sizeof *fields, NAMES = FIELDS + SUPPORT_CSV_COL
 
 /* A column of the file that has the name of one of the command's is called so behind it: query_name. */
 static const char prefix[] = "query_";
+enum { LONGER = 24 }; /* bytes: the prefix, and a name of one of the command's columns */
 
 typedef struct choice {
     const char *given, *known; /* on the command line, of the command */
@@ -145,16 +146,26 @@ static int add_rest(choice *c) {
     return code;
 }
 
+/* The columns of the file, each by the name that --columns takes. */
+static void name_own(const choice *c, char longer[][LONGER], const char **names) {
+    for (size_t i = 0; i < c->rows->columns; i++) {
+        names[i] = c->rows->names[i];
+        if (!is_taken(c, names[i])) continue;
+        snprintf(longer[i], LONGER, "%s%s", prefix, names[i]);
+        names[i] = longer[i];
+    }
+}
+
 static int refuse_name(const choice *c, const char *name) {
     const char *names[NAMES];
-    char known[200], own[400], sentence[800];
+    char longer[SUPPORT_CSV_COLUMNS][LONGER], known[200], own[400], sentence[800];
     size_t count = 0, columns = c->rows ? c->rows->columns : 0;
     for (size_t i = 0; i < FIELDS; i++)
         if (field_named(c, fields[i].name) == i) names[count++] = fields[i].name;
     support_csv_names(known, sizeof known, names, count);
     if (columns) {
-        memcpy(names + count, c->rows->names, columns * sizeof *names);
-        support_csv_names(own, sizeof own, c->rows->names, columns);
+        name_own(c, longer, names + count);
+        support_csv_names(own, sizeof own, names + count, columns);
         snprintf(sentence, sizeof sentence, "There are %s, and of the file of queries %s.", known, own);
     } else {
         snprintf(sentence, sizeof sentence, "There are %s.", known);
