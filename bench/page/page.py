@@ -293,12 +293,19 @@ What costs this time and memory, and what else does:
             return
         shapes = [s for s in scenes if any(is_other(p) for p in self.r.select(3, "pieces", scene=s))]
         flat = [s for s in scenes if s not in shapes]
-        self.say("## Pieces", """
+        everyone = self.r.select(3, "pieces")
+        npm = [p for p in ("csg.js", "@jscad/modeling") if any(e.split(",")[0] == p for e in everyone)]
+        text = """
 A binary space partition cuts objects into pieces. Here cuts go on until each triangle or segment is part of a cut; of
-boxes, until one is left in each cell. The other programs do the same with triangles: csg.js, @jscad/modeling, and gl2ps,
-which sorts polygons by such a tree. *Shuffled*: the same triangles in random order. *Failed*: the method refuses
-polygons that cross. These numbers are counts, the same on every machine. A cell shows the pieces of one object, and in brackets the height of the tree, which gl2ps does not
-show.""")
+boxes, until one is left in each cell. The other programs do the same with triangles: %sgl2ps,
+which sorts polygons by such a tree.""" % "".join(p + ", " for p in npm)
+        text += " *Shuffled*: the same triangles in random order." if npm else """
+csg.js and @jscad/modeling, which [README](../../README.md) shows with a scanned bunny, come from the registry of npm: `bench/run npm pieces`
+measures them, and all programs on the bunny."""
+        text += """
+*Failed*: the method refuses polygons that cross. These numbers are counts, the same on every machine. A cell shows the
+pieces of one object, and in brackets the height of the tree, which gl2ps does not show."""
+        self.say("## Pieces", text)
         for some, what in ((shapes, "Triangles"), (flat, "Segments and boxes")):
             names = [MODELS.get(s, s) for s in some]
             head = [what] + ["%s, %s" % (n, "{:,}".format(self.r.objects[("pieces", s, z)])) if not n[-1].isdigit() else n
