@@ -91,14 +91,18 @@ static void each_exit(FILE *out, void (*entry)(FILE *, const char *label, const 
     }
 }
 
+static void each_option(FILE *out, void (*entry)(FILE *, const char *label, const char *help)) {
+    entry(out, "--version", "version, commit, and the libraries inside; --version --json as an object");
+    entry(out, "--completion SHELL", "a script: bash, zsh or fish completes command lines with it");
+    entry(out, "-h, --help", "this text; froe COMMAND --help tells about one command");
+}
+
 void cli_help(FILE *out) {
     fprintf(out, "%s\n\nUsage: froe COMMAND [options]\n\nCommands:\n", introduction);
     const cli_command *command;
     for (size_t i = 0; (command = cli_command_at(i)) != NULL; i++) print_entry(out, command->name, command->summary);
     fputs("\nOptions:\n", out);
-    print_entry(out, "--version", "version, commit, and the libraries inside; --version --json as an object");
-    print_entry(out, "--completion SHELL", "a script: bash, zsh or fish completes command lines with it");
-    print_entry(out, "-h, --help", "this text; froe COMMAND --help tells about one command");
+    each_option(out, print_entry);
     fputs("\nExit codes:\n", out);
     each_exit(out, print_entry);
 }
@@ -197,6 +201,8 @@ void cli_manual(FILE *out, const cli_command *command) {
     put_roff(out, introduction, strlen(introduction));
     fputs("\n.SH COMMANDS\n", out);
     for (size_t i = 0; (command = cli_command_at(i)) != NULL; i++) roff_entry(out, command->name, command->summary);
+    fputs(".SH OPTIONS\n", out);
+    each_option(out, roff_entry);
     roff_exits(out);
     fputs(".SH SEE ALSO\n", out);
     for (size_t i = 0; (command = cli_command_at(i)) != NULL; i++)
