@@ -120,7 +120,8 @@ static bool put_page(FILE *out, const void *given) {
     html_begin(out, "froe: exact line drawings of models, and answers from maps and models", NULL);
     fputs("<header>\n<h1>Exact drawings of models, exact answers from maps</h1>\n<p class=\"lead\">froe turns 3D "
           "models into line drawings, and says what is at a point, near it, or hit by a ray. Each picture below was "
-          "made on this computer by the line under it, which works in this folder.</p>\n</header>\n<main>\n",
+          "made on this computer by the line under it, which works in this folder once froe is "
+          "installed.</p>\n</header>\n<main>\n",
           out);
     for (size_t i = 0; demo_scenes[i].title; i++) put_scene(out, &demo_scenes[i], &results[i]);
     html_copying(out);

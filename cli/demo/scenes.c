@@ -102,8 +102,8 @@ const demo_scene demo_scenes[] = {
                 {.command = "build freedoom-e1m1.geojson -o floor.froe"},
                 {.command = "check floor.froe"},
                 {.command = "draw floor.froe -o floor.svg --no-legend",
-                 .caption = "The floor plan of a game. The deeper a cell lies in the tree, the darker it is. Walls are "
-                            "red from a cut on.",
+                 .caption = "The floor plan of a game. The deeper a cell lies in the tree, the darker it is. Of a "
+                            "wall that cuts divide, every second piece is red.",
                  .text = "A floor plan with cells coloured by depth"},
                 {.command = "build countries-110m.json --wrap -o countries.froe"},
                 {.command = "check countries.froe"},
