@@ -41,6 +41,17 @@ static bool end_lines(cli_rows *rows, char **text, size_t *capacity, ssize_t *le
     return *length >= 0;
 }
 
+/* Is the first line that of a file of another kind, such as a map: JSON, or with bytes that no text has? */
+static bool is_foreign(const char *text, size_t length) {
+    for (size_t i = 0; i < length; i++)
+        if ((unsigned char)text[i] < ' ' && !memchr("\t\n\v\f\r", text[i], 5)) return true;
+    text += strncmp(text, "\xef\xbb\xbf", 3) ? 0 : 3;
+    text += strspn(text, " \t");
+    if (*text != '{') return false;
+    text += 1 + strspn(text + 1, " \t\r\n");
+    return !*text || *text == '"';
+}
+
 /* Reads a line with its end. False: there is none, not all of one, or no memory. */
 static bool next_line(cli_rows *rows, char **text, size_t *capacity, size_t *length) {
     ssize_t got = getline(text, capacity, rows->file);
@@ -48,7 +59,7 @@ static bool next_line(cli_rows *rows, char **text, size_t *capacity, size_t *len
     rows->lines++;
     *length = (size_t)got;
     if (!make_room(text, capacity, *length)) return false;
-    if (rows->lines == 1) rows->wide = support_is_utf16(*text, *length);
+    if (rows->lines == 1) rows->wide = support_is_utf16(*text, *length), rows->foreign = is_foreign(*text, *length);
     for (char *zero; (zero = memchr(*text, '\0', *length));) *zero = '?'; /* no text: it spoils its field */
     return true;
 }
@@ -169,6 +180,9 @@ static int read_header(cli_rows *rows, const cli_column *columns, int dim) {
     const bool there = next_record(rows);
     if (!there && stopped(rows)) return fail_reading(rows);
     if (rows->wide) return cli_fail(CLI_INPUT, rows->path, "%s", support_utf16_sentence);
+    if (rows->foreign)
+        return cli_fail(CLI_INPUT, rows->path, "The file is no table (CSV), whose header would name the columns %s.",
+                        expected);
     if (there) {
         rows->header = rows->text;
         rows->text = NULL;

@@ -41,6 +41,7 @@ typedef struct cli_rows {
     char separator;
     int family;         /**< of the names of the axes, see support/text/csv.h */
     bool wide;          /**< the file is text in UTF-16 */
+    bool foreign;       /**< its first line is that of a file of another kind */
     bool open;          /**< the file ends within quotation marks */
     char sentence[120]; /**< what is wrong with a bad row */
     int code;           /**< behind CLI_ROWS_FAILED: the exit code */
