@@ -261,6 +261,10 @@ static bool read_numbers(cli_rows *rows, double *values) {
         return false;
     }
     if (field.last && column == rows->columns) return true;
+    if (field.last && column == rows->columns - 1 && !*rows->names[column]) { /* as GDAL's of one attribute end */
+        rows->fields[column] = (support_csv_field){.text = at, .last = true};
+        return true;
+    }
     for (; !field.last; column++) field = support_csv_next(&at, rows->separator);
     snprintf(rows->sentence, sizeof rows->sentence, "The row has %zu column%s, and the header %zu.", column,
              support_plural(column), rows->columns);

@@ -105,6 +105,7 @@ formats_csv_header formats_csv_read_header(char **at, formats_csv_table *t) {
         t->lines += support_csv_line_ends(&field);
         t->open = field.open;
     }
+    t->spare = t->columns > 1 && !*field.text;
     support_csv_names(t->found, sizeof t->found, names, (size_t)t->columns);
     formats_csv_header first = FORMATS_CSV_OTHER;
     for (int family = 0; family < SUPPORT_CSV_FAMILIES; ++family) {

@@ -29,6 +29,7 @@ typedef struct formats_csv_table {
     int columns;    /**< 0: more than can be read */
     uint64_t lines; /**< of the header, which has line ends where names in quotation marks do */
     bool open;      /**< a quotation mark of the header is not closed */
+    bool spare;     /**< the last column has no name: rows may end before it, as GDAL's of one attribute do */
     unsigned char role[SUPPORT_CSV_COLUMNS];
     char found[80]; /**< the names of the columns, for a sentence */
 } formats_csv_table;

@@ -127,7 +127,7 @@ static froe_status read_row(csv_reader *c, char **at, uint64_t row) {
         const froe_status status = column < t->columns ? read_field(c, column, field.text) : FROE_OK;
         if (status) return status;
     }
-    if (column != t->columns)
+    if (column != t->columns && !(t->spare && column == t->columns - 1))
         return formats_sink_fail(sink, FROE_E_FORMAT, "The row has %d column%s, and the header %d.", column,
                                  support_plural((uint64_t)column), t->columns);
     if (t->kind == FROE_HULL) return take_corner(c, r);
