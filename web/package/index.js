@@ -8,6 +8,7 @@
 import { Core } from "./core.js";
 import { Froe } from "./froe.js";
 import { given, listener } from "./given.js";
+import { fromNode } from "./node.js";
 
 export { Answers } from "./answers.js";
 export { FroeError, NONE } from "./core.js";
@@ -30,8 +31,8 @@ const FOLDERS = {
 /* Node has no fetch for files, and before 19 no global that draws random numbers, of which names of files are made. */
 async function bytesOf(url) {
     if (url.protocol !== "file:") return {};
-    if (!globalThis.crypto) globalThis.crypto = (await import(/* webpackIgnore: true */ /* @vite-ignore */ "node:crypto")).webcrypto;
-    const { readFile } = await import(/* webpackIgnore: true */ /* @vite-ignore */ "node:fs/promises");
+    if (!globalThis.crypto) globalThis.crypto = (await fromNode("crypto")).webcrypto;
+    const { readFile } = await fromNode("fs/promises");
     return { wasmBinary: await readFile(url) };
 }
 

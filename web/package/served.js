@@ -2,11 +2,12 @@
 import { Answers } from "./answers.js";
 import { FroeError } from "./core.js";
 import { load } from "./index.js";
+import { fromNode } from "./node.js";
 import { decode, encode } from "./parcel.js";
 
 const EVERY = 50; // milliseconds between two shares of progress
 
-const port = globalThis.postMessage ? globalThis : (await import(/* @vite-ignore */ "node:worker_threads")).parentPort;
+let port = globalThis;    // where messages come from and go to
 const kept = new Map();   // by handle: { object, remotes }, the latter as many as have been sent
 let next = 1, told = 0;
 
@@ -65,5 +66,5 @@ async function serve(message) {
 /* One after the other, as they came: what is forgotten may be an argument of a call before. */
 let last = Promise.resolve();
 const hear = (message) => { last = last.then(() => serve(message)); };
-if (port === globalThis) port.onmessage = (event) => hear(event.data);
-else port.on("message", hear);
+if (globalThis.postMessage) port.onmessage = (event) => hear(event.data);
+else fromNode("worker_threads").then(({ parentPort }) => (port = parentPort).on("message", hear));

@@ -11,14 +11,15 @@
  * copied, or moved where moved() says so; arrays that come back are moved. Calls are answered one after the other. */
 import { FroeError } from "./core.js";
 import { given, listener } from "./given.js";
+import { fromNode } from "./node.js";
 import { decode, encode, moved } from "./parcel.js";
 
 export { moved };
 
-/* Node has workers of its own, which speak a little differently. */
-async function open(url) {
+/* Bundlers find the worker where it is spelled out. Node has workers of its own, which speak a little differently. */
+async function open() {
     if (globalThis.Worker) {
-        const worker = new Worker(url, { type: "module" });
+        const worker = new Worker(new URL("./served.js", import.meta.url), { type: "module" });
         return {
             send: (message, move) => worker.postMessage(message, move),
             hear: (said, failed) => {
@@ -28,8 +29,8 @@ async function open(url) {
             end: () => worker.terminate(),
         };
     }
-    const { Worker: Thread } = await import(/* @vite-ignore */ "node:worker_threads");
-    const thread = new Thread(url);
+    const { Worker: Thread } = await fromNode("worker_threads"), here = import.meta.url;
+    const thread = new Thread(new URL("./served.js", here));
     return {
         send: (message, move) => thread.postMessage(message, move),
         hear: (said, failed) => { thread.on("message", said); thread.on("error", (error) => failed(error.message)); },
@@ -51,7 +52,7 @@ export class FroeWorker {
         const { plain, progress } = given(options, { plain: undefined, progress: null });
         const worker = new FroeWorker();
         worker.#progress = listener(progress);
-        worker.#port = await open(new URL("./served.js", import.meta.url));
+        worker.#port = await open();
         worker.#port.hear((answer) => worker.#hear(answer), (why) => worker.#fail(why));
         try {
             /** What load() gives, from afar. */
