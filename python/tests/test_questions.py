@@ -135,6 +135,6 @@ def test_one_thing_is_not_called_several():
     motion.add([0, 0], [[0, 0], [1, 1]], [0, 1, 2])
     assert repr(scene) == "<froe.Scene: 1 object in R^2>"
     assert repr(tree) == "<froe.Tree: 1 object in R^2, 1 piece, by index>"
-    assert repr(tree.query([[0, 0, 1, 1]])) == "<froe.Answers: 1 to 1 question>"
+    assert repr(tree.query([[0, 0, 1, 1]])) == "<froe.Answers: 1 answer to 1 question>"
     assert repr(motion) == "<froe.Motion: 1 object in R^2, from 0 to 1>"
     assert "<title>1 cell, 1 piece</title>" in tree.draw().svg

@@ -49,7 +49,7 @@ class Answers:
         return (self[i] for i in range(len(self)))
 
     def __repr__(self) -> str:
-        return f"<froe.Answers: {len(self.ids)} to {counted(len(self), 'question')}>"
+        return f"<froe.Answers: {counted(len(self.ids), 'answer')} to {counted(len(self), 'question')}>"
 
     def counts(self) -> npt.NDArray[np.int64]:
         """How many answers each question has.
