@@ -96,6 +96,11 @@ class Picture:
         ['a.svg']
         """
         if self._writer is not None:
+            if Path(path).suffix.lower() in (".png", ".dxf"):
+                raise UnsupportedError(
+                    f"{os.fspath(path)}: Pictures are saved as .svg, .pdf or .eps, and their lines as .csv or "
+                    ".geojson. The program froe makes .png and .dxf of a saved tree."
+                )
             self._writer(os.fspath(path))
         elif Path(path).suffix.lower() == ".svg":
             try:
