@@ -87,6 +87,12 @@ static place find_option(const cli_part *parts, void *args, const char *word, co
     return (place){0};
 }
 
+/* Is a word an option of the command by its long name? Then it is no value of the option before it. */
+static bool is_option(const cli_part *parts, void *args, const char *word) {
+    const char *value;
+    return !strncmp(word, "--", 2) && find_option(parts, args, word, &value).option;
+}
+
 static place find_operand(const cli_part *parts, void *args, int position) {
     for (const cli_part *part = parts; part->title; part++)
         for (const cli_option *option = part->options; option->type; option++)
@@ -275,7 +281,7 @@ int cli_parse(const char *command, const cli_part *parts, int argc, char **argv,
             const bool is_flag = found.option->type == CLI_FLAG;
             if (is_flag && value) return cli_fail(CLI_USE, NULL, "--%s: It takes no value.", found.option->name);
             if (!is_flag && !value) { /* it is the next word */
-                if (next == argc)
+                if (next == argc || is_option(parts, args, argv[next]))
                     return cli_fail(CLI_USE, NULL, "--%s: It needs a value, %s.", found.option->name,
                                     found.option->value);
                 value = argv[next++];
