@@ -143,6 +143,21 @@ static int set_options(const draw_args *args, const cli_draw *library, size_t di
     return 0;
 }
 
+/* Options that this picture would not heed. */
+static int check_heeded(const draw_args *args, int dim, froe_draw_format format) {
+    static const char exploded[] = "It needs --style exploded.";
+    const bool apart = args->style == FROE_DRAW_EXPLODED;
+    const cli_need needs[] = {
+        {"scale", !isnan(args->scale), format == FROE_DRAW_PNG, "Only files of the ending .png have pixels."},
+        {"section", args->section != NULL, !apart, "It excludes --style exploded."},
+        {"view", args->view.count != 0, apart, exploded},
+        {"explode", !isnan(args->explode), apart, exploded},
+        {"explode-depth", args->explode_depth != UINT64_MAX, apart, exploded},
+        {"up", args->up >= 0, dim == 3, "A scene in the plane has none."},
+    };
+    return cli_check_needs(needs, sizeof needs / sizeof *needs);
+}
+
 /* Towns in degrees on a map in metres are all outside. */
 static void note_outside(const draw_args *args, size_t outside, size_t count) {
     if (!outside || args->common.quiet) return;
@@ -169,6 +184,7 @@ static int run_draw(const void *given) {
     size_t outside = 0;
     o.marks = marks.marks, o.mark_count = marks.count, o.marks_outside = &outside;
     if (!code) code = set_options(args, &library, (size_t)dim, &o);
+    if (!code) code = check_heeded(args, dim, format);
     if (!code) {
         cli_progress bar = cli_progress_begin(&args->common, "drawing");
         froe_diagnostic diag;
