@@ -79,7 +79,11 @@ static void put_head(FILE *file) {
     fprintf(
         file,
         "# Claims of the sources, measured\n\n"
-        "`make claims` measures the claims of the five sources and writes this page. Each row is one number.\n\n"
+        "`make claims` measures the claims of the five sources that [CITATION.cff](../../CITATION.cff) lists, and four "
+        "of\n"
+        "Paterson and Yao, and writes this page. Each row is one number. `build/bench/bin/bench_claims - \"lemma "
+        "3.4\"`\n"
+        "measures again the rows whose source, claim or method has these words, and writes nothing.\n\n"
         "- **is** is the number by the method. The claim holds if it lies in the **range**.\n"
         "- **breaks without** names what the claim rests on, and in brackets the method or settings that lack it.\n"
         "- **without** is the same number, of the same scenes, measured that way. It must lie outside the range.\n"
