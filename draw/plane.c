@@ -147,6 +147,7 @@ froe_status draw_plane_paint(draw_picture *picture, cairo_t *cr) {
             draw_paint_key(page, cr, &picture->space, picture->wide, left.x, top, width, height);
     }
     froe_status status = paint_panels(picture, cr, panels, count, &part);
+    const bool regions = picture->show & (FROE_DRAW_CELLS | FROE_DRAW_CUTS);
     draw_legend legend = {.scale_of_depths = picture->show & FROE_DRAW_CELLS,
                           .lo_depth = part.lo_depth,
                           .hi_depth = part.hi_depth,
@@ -155,7 +156,7 @@ froe_status draw_plane_paint(draw_picture *picture, cairo_t *cr) {
                           .unit = panels[0].view.scale * picture->space.squeeze,
                           .length = picture->space.unit,
                           .squeeze = picture->space.squeeze,
-                          .merged = part.merged,
+                          .merged = regions ? part.merged : 0,
                           .merged_leaves = part.merged_leaves};
     draw_page_close(page, cr, &legend);
     draw_partition_free(&part);
