@@ -275,11 +275,17 @@ static froe_status import(const formats_source *source, formats_sink *sink, size
     formats_text bytes = {0};
     froe_status status = part ? formats_load_part(source, sink, 0, part, &bytes) : FROE_OK;
     if (status) return array_free(&sink->alloc, &bytes), status;
+    io_log log = {.sink = sink};
     pthread_mutex_lock(&import_lock);
+    io_log_begin(&log);
     *scene = part ? aiImportFileFromMemory(bytes.data, (unsigned)part, 0, source->extension.text)
                   : aiImportFile(source->file, 0);
+    io_log_end();
     status = *scene ? FROE_OK : refuse_import(source, sink);
     pthread_mutex_unlock(&import_lock);
+    if (!status && *log.damage)
+        status = support_fail(sink->diag, FROE_E_FORMAT, "%s: The reader assimp reports '%s'.",
+                              support_short(source->path), log.damage);
     array_free(&sink->alloc, &bytes);
     return status;
 }

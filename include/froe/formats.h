@@ -76,8 +76,8 @@ typedef struct froe_read_report {
     bool no_degrees;     /**< the format promises longitudes and latitudes in degrees, and the coordinates cannot be
                                 any (beyond 180 or 90): the scene has no coordinate system */
     double seconds;      /**< from call to return, by the wall clock */
-    char sorts_left[48]; /**< sorts of entities of a DXF that GDAL passes over, as "MESH, 3DSOLID", as many as fit;
-                            they are not counted; "": none */
+    char sorts_left[48]; /**< sorts of entities of a DXF that GDAL passes over, or of parts of a model that assimp does,
+                            as "MESH, 3DSOLID", as many as fit; they are not counted; "": none */
     uint64_t reserved[2];
 } froe_read_report;
 

@@ -6,6 +6,17 @@
 #include "readers.h"
 #include <assimp/scene.h>
 
+/** What assimp tells in its log of an import. What it leaves out is in the report. */
+typedef struct io_log {
+    formats_sink *sink;
+    char damage[128]; /**< the first of what makes the model another one; "": nothing */
+} io_log;
+/** Listens to what assimp tells in this thread, until io_log_end(). */
+void io_log_begin(io_log *log);
+void io_log_end(void);
+/** Puts a name of that length among the sorts in the report that are left out, where it fits and is not yet there. */
+void io_leave(formats_sink *sink, const char *name, size_t length);
+
 /** Is it glTF, of any version? */
 bool io_is_gltf(const formats_source *source);
 enum { IO_GLB_HEADER = 12, IO_GLB_CHUNK = 8 }; /**< bytes before the chunks of a .glb, and before those of each */
