@@ -333,7 +333,7 @@ static froe_status read_scene(const formats_source *source, formats_sink *sink, 
 
 froe_status io_read_arranged(const formats_source *source, formats_sink *sink, io_nodes *nodes, io_arrange_fn *arrange,
                              void *user) {
-    io_gltf_found found = {.error.line = 0};
+    io_gltf_found found = {.still = !arrange};
     froe_status status = formats_sink_open(sink, 3);
     if (!status) status = formats_sink_progress(sink, 0);
     if (!status && io_is_gltf(source)) status = io_gltf_check(source, sink, &found);

@@ -32,6 +32,7 @@ typedef struct io_gltf_part {
 } io_gltf_part;
 /** What is found before the import and looked at after it. */
 typedef struct io_gltf_found {
+    bool still; /**< set before: nodes stand as they are at rest, and no keys replace their rotations */
     ARRAY(io_gltf_part) parts;
     formats_json_error error; /**< of a text that is no JSON; line 0: there is none */
 } io_gltf_found;

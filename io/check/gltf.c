@@ -10,10 +10,12 @@
 #include <stdio.h>
 #include <string.h>
 
+typedef ARRAY(const formats_json *) gltf_list; /* the items of an array of the file */
+
 typedef struct gltf_check {
     formats_sink *sink;
     const formats_json *root;
-    ARRAY(const formats_json *) accessors;
+    gltf_list accessors, meshes, skins;
 } gltf_check;
 
 bool io_is_gltf(const formats_source *source) {
@@ -97,12 +99,18 @@ static froe_status check_extensions(const gltf_check *c) {
 
 /* ----------------------------------------------------------------------- meshes -- */
 
-/* The accessor that a member names by its number; NULL: there is none. */
-static const formats_json *accessor_of(const gltf_check *c, const formats_json *object, const char *name) {
+static bool list_items(const gltf_check *c, const char *name, gltf_list *list) {
+    FORMATS_JSON_EACH(item, formats_json_get(c->root, name))
+    if (!array_push(&c->sink->alloc, list, item)) return false;
+    return true;
+}
+
+/* The item that a member names by its number; NULL: there is none. */
+static const formats_json *item_of(const gltf_list *list, const formats_json *object, const char *name) {
     const formats_json *named = formats_json_get(object, name);
     const bool is_there =
-        formats_json_is(named, FORMATS_JSON_NUMBER) && named->number >= 0 && named->number < (double)c->accessors.count;
-    return is_there ? c->accessors.data[(size_t)named->number] : NULL;
+        formats_json_is(named, FORMATS_JSON_NUMBER) && named->number >= 0 && named->number < (double)list->count;
+    return is_there ? list->data[(size_t)named->number] : NULL;
 }
 
 /* Are positions such as assimp takes all of them for? */
@@ -120,7 +128,7 @@ static bool is_mode(const formats_json *mode) {
 
 /* How many points, edges or triangles a primitive is (3.7.2.1). */
 static size_t faces_of(const gltf_check *c, const formats_json *primitive, const formats_json *positions) {
-    const formats_json *indices = accessor_of(c, primitive, "indices");
+    const formats_json *indices = item_of(&c->accessors, primitive, "indices");
     const formats_json *count = formats_json_get(indices ? indices : positions, "count");
     const formats_json *mode = formats_json_get(primitive, "mode");
     const bool is_count = formats_json_is(count, FORMATS_JSON_NUMBER) && count->number >= 0 && count->number < 0x1p32;
@@ -135,11 +143,13 @@ static size_t faces_of(const gltf_check *c, const formats_json *primitive, const
 static froe_status check_meshes(gltf_check *c, io_gltf_found *found) {
     const froe_allocator *alloc = &c->sink->alloc;
     size_t number = 0;
-    FORMATS_JSON_EACH(accessor, formats_json_get(c->root, "accessors"))
-    if (!array_push(alloc, &c->accessors, accessor)) return support_fail_memory(c->sink->diag);
+    if (!list_items(c, "accessors", &c->accessors) || !list_items(c, "meshes", &c->meshes) ||
+        !list_items(c, "skins", &c->skins))
+        return support_fail_memory(c->sink->diag);
     FORMATS_JSON_EACH(mesh, formats_json_get(c->root, "meshes")) {
         FORMATS_JSON_EACH(primitive, formats_json_get(mesh, "primitives")) {
-            const formats_json *positions = accessor_of(c, formats_json_get(primitive, "attributes"), "POSITION");
+            const formats_json *positions =
+                item_of(&c->accessors, formats_json_get(primitive, "attributes"), "POSITION");
             if (!is_floating(positions))
                 return fail_at(c, FROE_E_UNSUPPORTED, "mesh", number, mesh,
                                "Its positions are not three floating-point numbers each, as with the extension "
@@ -175,7 +185,34 @@ static bool is_affine(const formats_json *matrix) {
     return is_numbers(matrix, 16);
 }
 
-static froe_status check_nodes(const gltf_check *c) {
+/* Is a rotation of the length 1, but for rounding? There may be none. */
+static bool is_unit(const formats_json *rotation) {
+    double square = 0;
+    FORMATS_JSON_EACH(item, rotation) square += item->number * item->number;
+    return !rotation || fabs(square - 1) <= 0x1p-10;
+}
+
+static bool are_moved(const formats_json *weights) {
+    FORMATS_JSON_EACH(item, weights)
+    if (!is_number(item, 0)) return true;
+    return false;
+}
+
+/* Skins and morph targets are not applied. Of a skin without a matrix for each joint assimp reads beyond the last one,
+ * wherever that is. */
+static froe_status check_shape(const gltf_check *c, const formats_json *node, const formats_json *mesh) {
+    const formats_json *weights = formats_json_get(node, "weights"), *skin = item_of(&c->skins, node, "skin");
+    if (are_moved(weights ? weights : formats_json_get(mesh, "weights"))) io_leave(c->sink, "morph targets", 13);
+    if (!skin) return FROE_OK;
+    io_leave(c->sink, "skins", 5);
+    const formats_json *count = formats_json_get(item_of(&c->accessors, skin, "inverseBindMatrices"), "count");
+    const double joints = (double)formats_json_size(formats_json_get(skin, "joints"));
+    if (formats_json_is(count, FORMATS_JSON_NUMBER) && count->number >= joints) return FROE_OK;
+    return fail_at(c, FROE_E_UNSUPPORTED, "skin", (size_t)formats_json_get(node, "skin")->number, skin,
+                   "It has no matrix (inverseBindMatrices) for each of its joints.");
+}
+
+static froe_status check_nodes(const gltf_check *c, bool still) {
     size_t number = 0;
     FORMATS_JSON_EACH(node, formats_json_get(c->root, "nodes")) {
         if (formats_json_get(formats_json_get(node, "extensions"), "EXT_mesh_gpu_instancing"))
@@ -188,6 +225,12 @@ static froe_status check_nodes(const gltf_check *c) {
             !is_numbers(formats_json_get(node, "rotation"), 4) || !is_numbers(formats_json_get(node, "scale"), 3))
             return fail_at(c, FROE_E_FORMAT, "node", number, node,
                            "Its translation, rotation and scale are not 3, 4 and 3 numbers.");
+        if (still && !is_unit(formats_json_get(node, "rotation")))
+            return fail_at(c, FROE_E_FORMAT, "node", number, node,
+                           "The quaternion of its rotation does not have the length 1.");
+        const formats_json *mesh = item_of(&c->meshes, node, "mesh");
+        const froe_status status = mesh ? check_shape(c, node, mesh) : FROE_OK;
+        if (status) return status;
         number++;
     }
     return FROE_OK;
@@ -210,9 +253,11 @@ froe_status io_gltf_check(const formats_source *source, formats_sink *sink, io_g
         sink->report.layers_left = scenes ? scenes - 1 : 0;
         status = check_extensions(&c);
         if (!status) status = check_meshes(&c, found);
-        if (!status) status = check_nodes(&c);
+        if (!status) status = check_nodes(&c, found->still);
     }
     array_free(&sink->alloc, &c.accessors);
+    array_free(&sink->alloc, &c.meshes);
+    array_free(&sink->alloc, &c.skins);
     array_free(&sink->alloc, &values);
     array_free(&sink->alloc, &text);
     return status;

@@ -12,6 +12,7 @@ static const char whole[] =
     "4}]}],\n"
     "\"accessors\": [{\"bufferView\": 0, \"componentType\": 5126, \"type\": \"VEC3\", \"count\": 3},\n"
     "{\"bufferView\": 1, \"componentType\": 5123, \"type\": \"SCALAR\", \"count\": 3}],\n"
+    "\"skins\": [{\"name\": \"s\", \"joints\": [1]}],\n"
     "\"bufferViews\": [{\"buffer\": 0, \"byteOffset\": 0, \"byteLength\": 36},\n"
     "{\"buffer\": 0, \"byteOffset\": 36, \"byteLength\": 12}],\n"
     "\"buffers\": [{\"byteLength\": 48, \"uri\": \"data:application/octet-stream;base64,"
@@ -87,6 +88,10 @@ static void what_assimp_passes_over_is_refused(void **state) {
         {"3,0,0,1]", "3,0,0]", FROE_E_FORMAT, "changed.gltf: node 0 ('a'): Its matrix is not 16 numbers, of"},
         {"[1, 2, 3]", "[1, 2]", FROE_E_FORMAT, "changed.gltf: node 1 ('b'): Its translation, rotation and scale are"},
         {"[1, 1, 1]", "[1, true, 1]", FROE_E_FORMAT, "changed.gltf: node 1 ('b'): Its translation, rotation and scale"},
+        {"\"scale\"", "\"rotation\": [0, 0, 1, 1], \"scale\"", FROE_E_FORMAT,
+         "changed.gltf: node 1 ('b'): The quaternion of its rotation does not have the length 1."},
+        {"\"mesh\": 0", "\"skin\": 0, \"mesh\": 0", FROE_E_UNSUPPORTED,
+         "changed.gltf: skin 0 ('s'): It has no matrix (inverseBindMatrices) for each of its joints."},
         {"\"mode\": 4", "\"mode\": 9", FROE_E_FORMAT, "changed.gltf: mesh 0 ('m'): Its modes are not each one of the"},
         {"\"mode\": 4", "\"mode\": -1", FROE_E_FORMAT, "changed.gltf: mesh 0 ('m'): Its modes are not each one of the"},
         {"\"mode\": 4", "\"mode\": 2.0", FROE_E_FORMAT,
