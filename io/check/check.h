@@ -51,6 +51,10 @@ froe_status io_stl_check(const formats_source *source, formats_sink *sink, size_
 bool io_is_lwo(const formats_source *source);
 /** Before the import: FROE_E_FORMAT where assimp would pass over polygons of it, or name points that do not exist. */
 froe_status io_lwo_check(const formats_source *source, formats_sink *sink);
+/** Is it IFC, by its first bytes and its extension? */
+bool io_is_ifc(const formats_source *source);
+/** Before the import: FROE_E_FORMAT or FROE_E_UNSUPPORTED where it names what assimp does not find. */
+froe_status io_ifc_check(const formats_source *source, formats_sink *sink);
 /** Is it COLLADA, by its extension? */
 bool io_is_collada(const formats_source *source);
 /** Before the import: FROE_E_UNSUPPORTED or FROE_E_FORMAT where a COLLADA file has what assimp passes over in silence.
