@@ -237,7 +237,7 @@ static bool is_among(const char *at, const char *const *names, size_t count) {
 static const char blanks[] = " \t\r\n";
 
 /* Behind a text, a comment or any other character. */
-static const char *pass(const char *at) {
+static const char *pass_token(const char *at) {
     if (*at == '\'') {
         at += 1 + strcspn(at + 1, "'");
     } else if (at[0] == '/' && at[1] == '*') {
@@ -262,7 +262,7 @@ static const char *find_type(const char *at, size_t *id) {
 }
 
 static froe_status list_entities(ifc_check *c, const char *text) {
-    for (const char *at = text; *at; at = pass(at)) {
+    for (const char *at = text; *at; at = pass_token(at)) {
         entity e;
         e.type = find_type(at, &e.id);
         if (e.type && !array_push(&c->sink->alloc, &c->entities, e)) return support_fail_memory(c->sink->diag);
@@ -271,16 +271,17 @@ static froe_status list_entities(ifc_check *c, const char *text) {
     return FROE_OK;
 }
 
-static froe_status fail(const ifc_check *c, const entity *by, size_t id, const entity *named) {
+static froe_status refuse_name(const ifc_check *c, const entity *by, size_t id, const entity *named) {
     char name[40], other[40];
     const char *path = support_short(c->source->path);
     copy_type(by->type, name);
     if (!named)
-        return support_fail(c->sink->diag, FROE_E_FORMAT, "%s: #%zu, which #%zu (IFC%s) names, is not in the file.",
-                            path, id, by->id, name);
+        return support_fail(c->sink->diag, FROE_E_FORMAT,
+                            "%s: Entity #%zu, which #%zu (IFC%s) names, is not in the file.", path, id, by->id, name);
     copy_type(named->type, other);
     return support_fail(c->sink->diag, FROE_E_UNSUPPORTED,
-                        "%s: #%zu is an IFC%s, which came with IFC4 and is not read. IFC2x3 is.", path, id, other);
+                        "%s: Entity #%zu is an IFC%s, which came with IFC4 and is not read. IFC2x3 is.", path, id,
+                        other);
 }
 
 /* Is everything there, and known, that an entity names? Parts of what is unknown are not looked for. */
@@ -288,14 +289,14 @@ static froe_status check_entity(const ifc_check *c, const entity *e) {
     char type[40];
     size_t count = 0;
     const bool parts = (copy_type(e->type, type), !strcmp(type, "RELAGGREGATES"));
-    for (const char *at = e->type; *at && *at != ';'; at = pass(at)) {
+    for (const char *at = e->type; *at && *at != ';'; at = pass_token(at)) {
         if (*at != '#') continue;
         const entity key = {.id = strtoul(at + 1, NULL, 10)};
         const entity *named =
             bsearch(&key, c->entities.data, c->entities.count, sizeof *c->entities.data, order_entities);
         const bool unknown = named && IS_AMONG(named->type, later);
         if (unknown && parts && count == 1) return FROE_OK; /* behind the owner stands what is divided */
-        if (!named || unknown) return fail(c, e, key.id, named);
+        if (!named || unknown) return refuse_name(c, e, key.id, named);
         count++;
     }
     return FROE_OK;

@@ -1,5 +1,5 @@
-/* log.c: what assimp tells in its log alone: that it leaves something out, or takes an index for another one. Its log is
- * one for the whole process, and a listener can neither be added nor removed while another thread writes into it. So
+/* log.c: what assimp tells in its log alone: that it leaves something out, or takes an index for another one. The log
+ * is one for the whole process, and a listener can neither be added nor removed while another thread writes into it. So
  * froe is added once and stays, and hears only those threads whose import is its own. */
 #include "check/check.h"
 #include <assimp/cimport.h>
