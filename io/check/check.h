@@ -5,6 +5,7 @@
 #include "formats/input/json.h"
 #include "readers.h"
 #include <assimp/scene.h>
+#include <expat.h>
 
 /** What assimp tells in its log of an import. What it leaves out is in the report. */
 typedef struct io_log {
@@ -55,6 +56,14 @@ froe_status io_lwo_check(const formats_source *source, formats_sink *sink);
 bool io_is_ifc(const formats_source *source);
 /** Before the import: FROE_E_FORMAT or FROE_E_UNSUPPORTED where it names what assimp does not find. */
 froe_status io_ifc_check(const formats_source *source, formats_sink *sink);
+/** Hands a text to a parser, as far as that goes. *whole becomes false where it has ended in the middle. FROE_E_IO,
+ * FROE_E_MEMORY, FROE_E_CANCELLED. */
+froe_status io_xml_parse(const formats_source *source, formats_sink *sink, XML_Parser parser, bool *whole);
+/** Is it X3D, by its extension? */
+bool io_is_x3d(const formats_source *source);
+/** Before the import: FROE_E_UNSUPPORTED or FROE_E_FORMAT where an X3D file has what assimp reads as something else.
+ * What it leaves out is in the report. */
+froe_status io_x3d_check(const formats_source *source, formats_sink *sink);
 /** Is it COLLADA, by its extension? */
 bool io_is_collada(const formats_source *source);
 /** Before the import: FROE_E_UNSUPPORTED or FROE_E_FORMAT where a COLLADA file has what assimp passes over in silence.

@@ -11,7 +11,6 @@
  * programs. Whatever assimp refuses by itself is left to it, and so is a text that is no XML. */
 #include "check/check.h"
 #include "support/decimal/decimal.h"
-#include <expat.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -175,20 +174,18 @@ static froe_status check_names(collada_check *c) {
     return c->status;
 }
 
-static froe_status parse(collada_check *c) {
+froe_status io_xml_parse(const formats_source *source, formats_sink *sink, XML_Parser parser, bool *whole) {
     enum { CHUNK = 1 << 20 };
     formats_text text = {0};
-    c->status = formats_load_part(c->source, c->sink, 0, (size_t)c->source->size, &text);
-    bool whole = !c->status;
-    for (size_t at = 0; at < text.count && whole && !c->status; at += CHUNK) {
+    froe_status status = formats_load_part(source, sink, 0, (size_t)source->size, &text);
+    for (size_t at = 0; at < text.count && *whole && !status; at += CHUNK) {
         const size_t size = text.count - at < CHUNK ? text.count - at : CHUNK;
-        whole = XML_Parse(c->parser, text.data + at, (int)size, at + size == text.count) != XML_STATUS_ERROR;
-        if (!whole && XML_GetErrorCode(c->parser) == XML_ERROR_NO_MEMORY)
-            c->status = support_fail_memory(c->sink->diag);
-        if (!c->status) c->status = formats_sink_progress(c->sink, 0);
+        *whole = XML_Parse(parser, text.data + at, (int)size, at + size == text.count) != XML_STATUS_ERROR;
+        if (!*whole && XML_GetErrorCode(parser) == XML_ERROR_NO_MEMORY) status = support_fail_memory(sink->diag);
+        if (!status) status = formats_sink_progress(sink, 0);
     }
-    array_free(&c->sink->alloc, &text);
-    return c->status || !whole ? c->status : check_names(c);
+    array_free(&sink->alloc, &text);
+    return status;
 }
 
 froe_status io_collada_check(const formats_source *source, formats_sink *sink) {
@@ -197,7 +194,9 @@ froe_status io_collada_check(const formats_source *source, formats_sink *sink) {
     XML_SetUserData(c.parser, &c);
     XML_SetElementHandler(c.parser, begin_element, end_element);
     XML_SetCharacterDataHandler(c.parser, read_text);
-    const froe_status status = parse(&c);
+    bool whole = true;
+    froe_status status = io_xml_parse(source, sink, c.parser, &whole);
+    if (!status) status = c.status || !whole ? c.status : check_names(&c);
     XML_ParserFree(c.parser);
     array_free(&sink->alloc, &c.text);
     array_free(&sink->alloc, &c.numbers);

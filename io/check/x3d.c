@@ -1,0 +1,103 @@
+/* x3d.c: what an X3D file (ISO/IEC 19776-1) may say that assimp passes over, so that the model would be another.
+ *
+ *     rotation, scaleOrientation   assimp stretches the model where the axis has another length than 1
+ *     Cone                         assimp turns it upside down, and its side is torn
+ *     Collision, LOD, Text, ...    assimp leaves out what it does not know, with all shapes in it: these are named
+ *
+ * A text that is no XML gives no model, and no reason. */
+#include "check/check.h"
+#include "support/decimal/decimal.h"
+#include <math.h>
+#include <string.h>
+
+typedef struct x3d_check {
+    formats_sink *sink;
+    froe_status status;
+    XML_Parser parser;
+    size_t depth, shape,
+        beyond;      /* of the element, from 1; of the Shape, or of what assimp passes over, it is in, or 0 */
+    char passed[32]; /* the name of that; "": what is in it is shown elsewhere, if anywhere */
+} x3d_check;
+
+bool io_is_x3d(const formats_source *source) {
+    return !strcmp(source->extension.text, "x3d");
+}
+
+static void fail_here(x3d_check *c, froe_status status, const char *sentence) {
+    c->status = support_fail(c->sink->diag, status, "%s: line %lu: %s", support_short(c->sink->path),
+                             (unsigned long)XML_GetCurrentLineNumber(c->parser), sentence);
+    XML_StopParser(c->parser, XML_FALSE);
+}
+
+static bool is_one_of(const char *name, const char *names) {
+    const size_t length = strlen(name);
+    for (const char *at = names; (at = strstr(at, name)); at++)
+        if ((at == names || at[-1] == ' ') && (!at[length] || at[length] == ' ')) return true;
+    return false;
+}
+
+/* Four numbers: an axis and an angle. Commas are blanks. */
+static bool is_turn(const char *given) {
+    double at[4] = {0};
+    char *end;
+    for (int i = 0; i < 4; i++, given = end) {
+        given += strspn(given, " \t\r\n,");
+        at[i] = support_decimal(given, &end);
+    }
+    const double length = at[0] * at[0] + at[1] * at[1] + at[2] * at[2];
+    return at[3] == 0 || fabs(length - 1) < 2e-3; /* it may have been rounded to three digits */
+}
+
+static void XMLCALL enter_element(void *user, const char *name, const char **attributes) {
+    static const char groups[] = "X3D Scene Group StaticGroup Transform Switch", elsewhere[] = "ProtoDeclare head";
+    static const char shapes[] =
+        "Appearance Arc2D ArcClose2D Box Circle2D Cone Cylinder Disk2D ElevationGrid Extrusion IndexedFaceSet "
+        "IndexedLineSet IndexedTriangleFanSet IndexedTriangleSet IndexedTriangleStripSet LineSet PointSet Polyline2D "
+        "Polypoint2D Rectangle2D Sphere TriangleFanSet TriangleSet TriangleSet2D MetadataBoolean MetadataDouble "
+        "MetadataFloat MetadataInteger MetadataSet MetadataString";
+    static const char others[] = "CoordinateDouble GeoCoordinate ProtoInstance"; /* wherever they are */
+    x3d_check *c = user;
+    if (c->status) return;
+    c->depth++;
+    if (c->beyond) {
+        if (is_one_of(name, "Shape ProtoInstance") && *c->passed) io_leave(c->sink, c->passed, strlen(c->passed));
+        return;
+    }
+    if (is_one_of(name, others) || (c->shape && c->depth == c->shape + 1 && !is_one_of(name, shapes)))
+        io_leave(c->sink, name, strlen(name));
+    if (c->shape && !strcmp(name, "Cone"))
+        fail_here(c, FROE_E_UNSUPPORTED, "Cones are not read. Faces of an IndexedFaceSet are.");
+    if (c->shape) return;
+    if (!strcmp(name, "Shape")) {
+        c->shape = c->depth;
+    } else if (!is_one_of(name, groups)) {
+        c->beyond = c->depth;
+        const size_t length = is_one_of(name, elsewhere) || strlen(name) >= sizeof c->passed ? 0 : strlen(name);
+        memcpy(c->passed, name, length);
+        c->passed[length] = '\0';
+    }
+    for (; *attributes && !strcmp(name, "Transform") && !c->status; attributes += 2)
+        if (is_one_of(attributes[0], "rotation scaleOrientation") && !is_turn(attributes[1]))
+            fail_here(c, FROE_E_FORMAT, "The axis of a rotation has not the length 1.");
+}
+
+static void XMLCALL leave_element(void *user, const char *name) {
+    (void)name;
+    x3d_check *c = user;
+    if (c->shape == c->depth) c->shape = 0;
+    if (c->beyond == c->depth) c->beyond = 0;
+    c->depth--;
+}
+
+froe_status io_x3d_check(const formats_source *source, formats_sink *sink) {
+    x3d_check c = {.sink = sink, .parser = XML_ParserCreate(NULL)};
+    if (!c.parser) return support_fail_memory(sink->diag);
+    XML_SetUserData(c.parser, &c);
+    XML_SetElementHandler(c.parser, enter_element, leave_element);
+    bool whole = true;
+    const froe_status status = io_xml_parse(source, sink, c.parser, &whole);
+    if (!status && !c.status && !whole && XML_GetErrorCode(c.parser) != XML_ERROR_UNKNOWN_ENCODING)
+        fail_here(&c, FROE_E_FORMAT, "The text is not well-formed XML.");
+    XML_ParserFree(c.parser);
+    return status ? status : c.status;
+}
