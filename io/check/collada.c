@@ -5,6 +5,8 @@
  *     rotate       assimp stretches the model where the axis has another length than 1
  *     matrix       assimp leaves out what the last row says
  *     p            assimp takes a negative index for 0
+ *     accessor     assimp reads beyond the numbers that there are, and without a z takes the next number for it
+ *     skew         assimp ends the program
  *     geometry     what is neither mesh nor instanced is counted: splines, and hulls of other meshes
  *
  * What assimp does not look at is not looked at either: libraries of other things, such as physics, and extras of
@@ -12,6 +14,7 @@
 #include "check/check.h"
 #include "support/decimal/decimal.h"
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -32,6 +35,9 @@ typedef struct collada_check {
     ARRAY(reference) named; /* what must be among them */
     size_t depth, geometry; /* of the element, from 1; of the geometry that it is in, or 0 */
     bool indices;           /* in an element p */
+    size_t floats;          /* in the last array */
+    char array[64];         /* its id, or the first letters of it */
+    bool has_x, has_z;      /* the accessor */
     bool turns, matrix;     /* in an element rotate; in a matrix */
     size_t beyond;          /* the depth of the element, in which nothing is looked at, that it is in, or 0 */
     bool nodes;             /* in the library of nodes, of which assimp finds those alone that are in no other one */
@@ -78,6 +84,31 @@ static void refer(collada_check *c, const char *element, const char *name) {
     if (!array_push(&c->sink->alloc, &c->named, r)) stop(c, support_fail_memory(c->sink->diag));
 }
 
+static size_t whole_number(const char **attributes, const char *name, size_t otherwise) {
+    const char *given = attribute(attributes, name);
+    return given ? strtoul(given, NULL, 10) : otherwise;
+}
+
+/* An array, and what says how its numbers are read. */
+static void check_source(collada_check *c, const char *name, const char **attributes) {
+    if (!strcmp(name, "float_array")) {
+        const char *id = attribute(attributes, "id");
+        c->floats = whole_number(attributes, "count", 0);
+        snprintf(c->array, sizeof c->array, "#%s", id ? id : "");
+    } else if (!strcmp(name, "accessor")) {
+        const char *from = attribute(attributes, "source");
+        const size_t count = whole_number(attributes, "count", 0), stride = whole_number(attributes, "stride", 1);
+        const size_t left = c->floats - whole_number(attributes, "offset", 0);
+        c->has_x = c->has_z = false;
+        if (from && !strcmp(from, c->array) && count && (left > c->floats || stride > left / count))
+            fail(c, FROE_E_FORMAT, "An accessor counts more numbers than its array has.");
+    } else if (!strcmp(name, "param") && attribute(attributes, "name")) {
+        const char *axis = attribute(attributes, "name");
+        c->has_x = c->has_x || !strcmp(axis, "X");
+        c->has_z = c->has_z || !strcmp(axis, "Z");
+    }
+}
+
 /* Does assimp look at nothing in it? */
 static bool is_beyond(const collada_check *c, const char *name) {
     static const char *const looked[] = {"library_geometries", "library_controllers", "library_nodes",
@@ -105,6 +136,7 @@ static void XMLCALL begin_element(void *user, const char *name, const char **att
         define(c, attribute(attributes, "name")); /* by which assimp finds it, too */
     for (size_t i = 0; i < sizeof naming / sizeof *naming && !c->status; i++)
         if (!strcmp(name, naming[i])) refer(c, naming[i], attribute(attributes, "url"));
+    if (!strcmp(name, "instance_controller")) io_leave(c->sink, "skins", 5);
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         c->sink->report.skipped += c->geometry && c->depth == c->geometry + 1 && !strcmp(name, others[i]);
     if (!strcmp(name, "geometry")) c->geometry = c->depth;
@@ -114,6 +146,8 @@ static void XMLCALL begin_element(void *user, const char *name, const char **att
     c->numbers.count = 0;
     if (!c->status && !strcmp(name, "trifans"))
         fail(c, FROE_E_UNSUPPORTED, "Fans of triangles (trifans) are not read.");
+    if (!c->status && !strcmp(name, "skew")) fail(c, FROE_E_UNSUPPORTED, "Skews are not read. A matrix is.");
+    if (!c->status) check_source(c, name, attributes);
 }
 
 /* An axis may have been rounded to three digits. The last number of a matrix may be 1 as single precision rounds it. */
@@ -129,8 +163,9 @@ static void check_numbers(collada_check *c) {
 }
 
 static void XMLCALL end_element(void *user, const char *name) {
-    (void)name;
     collada_check *c = user;
+    if (c->has_x && !c->has_z && !c->beyond && !c->status && !strcmp(name, "accessor"))
+        fail(c, FROE_E_UNSUPPORTED, "Points with an X and no Z are not read.");
     if (c->geometry == c->depth) c->geometry = 0;
     if (c->beyond == c->depth) c->beyond = 0;
     c->depth--;

@@ -22,6 +22,7 @@ static const rule rules[] = {
     {"primitive chunk (METABALL)", NULL, "metaballs"},
     {"primitive chunk (SPLINE)", NULL, "splines"},
     {"LWO2: Ignoring unknown polygon type", NULL, "unknown polygons"},
+    {"Collada: Unable to find geometry for ID", NULL, NULL},
     {"3DS: Vertex index overflow", NULL, NULL},
     {"3DS: Chunk overflow", NULL, NULL},
     {"AC3D: Invalid vertex reference", NULL, NULL},
