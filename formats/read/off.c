@@ -181,6 +181,8 @@ froe_status formats_read_off(const formats_source *source, formats_sink *sink) {
         if (!status && i % FACES_PER_REPORT == 0)
             status = formats_sink_progress(sink, (double)(o.at - o.begin) / (double)o.length);
     }
+    if (!status) skip_blanks(&o);
+    if (!status && *o.at) status = broken_off(&o, "There is more than its counts say.");
     array_free(alloc, &o.corners);
     array_free(alloc, &o.colours);
     array_free(alloc, &o.shades);

@@ -227,7 +227,8 @@ static froe_status read_item(ply *p, const element *e, double *by_role) {
 static froe_status add_corner(ply *p, double index) {
     const size_t vertices = p->sink->points.count / 3;
     if (!(index >= 0 && index < (double)vertices) || index != (double)(uint64_t)index)
-        return broken(p, "A face or edge names a vertex that does not exist (or comes later).");
+        return formats_sink_fail(p->sink, FROE_E_FORMAT,
+                                 "A face or edge names a vertex that does not exist (or comes later).");
     const bool coloured = p->colours.count == vertices;
     return array_push(&p->sink->alloc, &p->corners, (uint32_t)index) &&
                    (!coloured || array_push(&p->sink->alloc, &p->shades, p->colours.data[(size_t)index]))
@@ -303,6 +304,8 @@ froe_status formats_read_ply(const formats_source *source, formats_sink *sink) {
                 status = formats_sink_progress(sink, (double)p.done / (double)p.all);
         }
     }
+    if (!status && p.text && p.at[strspn(p.at, " \t\r\n")])
+        status = broken(&p, "There is more than its counts say.");
     array_free(alloc, &file);
     array_free(alloc, &p.elements);
     array_free(alloc, &p.corners);

@@ -194,7 +194,8 @@ static void broken_ply_is_refused_with_its_reason(void **state) {
         {PLY_VERTICES PLY_FACE PLY_CORNERS "2.5 0 1 2\n", "The length of a list is no whole number."},
         {PLY_VERTICES PLY_FACE PLY_CORNERS "nan 0 1 2\n", "The length of a list is no whole number."},
         {PLY_VERTICES PLY_FACE PLY_CORNERS "300 0 1 2\n", "A list is longer than the file."},
-        {PLY_VERTICES PLY_FACE PLY_CORNERS "3 0 1 3\n", "A face or edge names a vertex that does not exist"},
+        {PLY_VERTICES PLY_FACE PLY_CORNERS "3 0 1 2\n\n3 2 1 0\n", "There is more than its counts say."},
+        {PLY_VERTICES PLY_FACE PLY_CORNERS "3 0 1 3\n", "face 0: A face or edge names a vertex that does not exist"},
         {PLY_VERTICES PLY_FACE PLY_CORNERS "3 0 1 -1\n", "A face or edge names a vertex that does not exist"},
         {PLY_VERTICES PLY_FACE PLY_CORNERS "3 0 1 1.5\n", "A face or edge names a vertex that does not exist"},
         {PLY_VERTICES "element edge 1\nproperty int vertex1\nproperty int vertex2\n" PLY_CORNERS "7 1\n",
@@ -306,6 +307,8 @@ static void broken_off_is_refused_with_its_line(void **state) {
         {"OFF\n1 1 0\n0 0 0\none 0\n", FROE_E_FORMAT, "line 4: A count of corners is not a number."},
         {"OFF\n1 1 0\n0 0 0\n2 0\n", FROE_E_FORMAT, "line 5: Faces are missing."},
         {"OFF\n1 1 0\n0 0 0\n2 0 x\n", FROE_E_FORMAT, "line 4: An index is not a number."},
+        {"OFF\n1 1 0\n0 0 0\n1 0\n# two\n1 0\n", FROE_E_FORMAT, "line 6: There is more than its counts say."},
+        {"OFF\n1 0 0\n0 0 0\n1 1 1\n", FROE_E_FORMAT, "line 4: There is more than its counts say."},
         {"OFF\n1 1 0\n0 0 0\n2 0 1\n", FROE_E_FORMAT, "line 4: A face names a vertex that does not exist."},
     };
     check_refusals("broken.off", files, sizeof files / sizeof *files);
