@@ -153,7 +153,7 @@ static froe_status read_corners(obj *o, const char *at, size_t *count) {
     const froe_allocator *alloc = &o->sink->alloc;
     int64_t vertices = (int64_t)(o->sink->points.count / 3);
     o->indices.count = o->corners.count = o->own_shades.count = o->corner_places.count = 0;
-    for (*count = 0; at = pass_blanks(at), *at; ++*count) {
+    for (*count = 0; at = pass_blanks(at), *at && *at != '#'; ++*count) {
         char *end;
         int64_t index = read_index(at, &end);
         if (end == at) return broken_obj(o, "An index is not a number.");
@@ -167,7 +167,7 @@ static froe_status read_corners(obj *o, const char *at, size_t *count) {
             return out_of_memory(o);
         const froe_status status = read_place(o, end);
         if (status) return status;
-        for (at = end; *at && !is_blank(*at);) at++; /* texture and normal */
+        for (at = end; *at && *at != '#' && !is_blank(*at);) at++; /* texture and normal */
     }
     return FROE_OK;
 }
@@ -224,6 +224,14 @@ static froe_status read_libraries(obj *o, char *at) {
     return status;
 }
 
+/* Curves and surfaces, those of version 2 as well, and what is in another file. */
+static bool is_left_out(const char *line) {
+    static const char *const words[] = {"curv", "curv2", "surf", "bzp", "bsp", "cdc", "cdp", "call"};
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++)
+        if (*line == *words[i] && starts(line, words[i])) return true;
+    return false;
+}
+
 static froe_status read_line(obj *o) {
     char *line = o->line + strspn(o->line, " \t");
     if (starts(line, "v")) {
@@ -243,9 +251,9 @@ static froe_status read_line(obj *o) {
         return array_append(&o->sink->alloc, &o->places, place, 2) ? FROE_OK : out_of_memory(o);
     }
     if (starts(line, "f") || starts(line, "l") || starts(line, "p")) return read_element(o, *line, line + 1);
+    if (starts(line, "fo")) return read_element(o, 'f', line + 2); /* a face of version 2 */
     if (starts(line, "mtllib")) return read_libraries(o, line + 6);
-    if (starts(line, "curv") || starts(line, "curv2") || starts(line, "surf"))
-        return ++o->sink->report.skipped, FROE_OK;
+    if (is_left_out(line)) return ++o->sink->report.skipped, FROE_OK;
     const bool material = starts(line, "usemtl"), name = starts(line, "o") || starts(line, "g");
     if (material) o->material = words_after(line + 6);
     if (name) o->name = words_after(line + 1);

@@ -347,6 +347,19 @@ static void broken_obj_is_refused_with_its_line(void **state) {
 }
 
 /* Elements without enough corners, free forms, and words that only begin like others. */
+/* Faces of version 2, comments behind elements, and what version 2 and other files have. */
+static void faces_of_old_obj_are_read_and_its_surfaces_counted(void **state) {
+    (void)state;
+    froe_read_report report;
+    write_text("old.obj",
+               "v 0 0 0 # one\nv 1 0 0\nv 0 1 0\nfo 1 2 3\nf 1 2 3# three\nf 3 2 1 # one\nl 1 2 #3\np 1 # 2\n"
+               "bzp 1 2 3\nbsp 1\ncdc 1\ncdp 1\ncall other.obj\ncdq 1\nfoo 1 2 3\n");
+    froe_scene *scene = read_scene("old.obj", &report);
+    assert_int_equal(froe_scene_object_count(scene), 5);
+    assert_int_equal(report.skipped, 5);
+    froe_scene_free(scene);
+}
+
 static void what_obj_has_beside_elements_is_passed_over(void **state) {
     (void)state;
     froe_read_report report;
@@ -589,6 +602,7 @@ int main(void) {
         cmocka_unit_test(broken_off_is_refused_with_its_line),
         cmocka_unit_test(blanks_and_rests_of_off_are_passed_over),
         cmocka_unit_test(broken_obj_is_refused_with_its_line),
+        cmocka_unit_test(faces_of_old_obj_are_read_and_its_surfaces_counted),
         cmocka_unit_test(what_obj_has_beside_elements_is_passed_over),
         cmocka_unit_test(headers_of_csv_say_what_rows_are),
         cmocka_unit_test(broken_csv_is_refused_with_its_row),
