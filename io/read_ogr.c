@@ -116,7 +116,7 @@ static bool has_heights(OGRGeometryH geometry) {
 
 /* GDAL says nothing of a text in a table that is no geometry. Of several columns of geometry the first is read. */
 static froe_status check_absence(const map *m, OGRFeatureH feature) {
-    OGRGeomFieldDefnH read = OGR_F_GetGeomFieldDefnRef(feature, 0);
+    OGRGeomFieldDefnH read = OGR_F_GetGeomFieldCount(feature) ? OGR_F_GetGeomFieldDefnRef(feature, 0) : NULL;
     const char *wanted = read ? OGR_GFld_GetNameRef(read) : "";
     if (!*wanted) wanted = "WKT"; /* which has no name then */
     for (int i = 0; m->is_table && i < OGR_F_GetFieldCount(feature); ++i) {
@@ -285,6 +285,7 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
     static const char *const wkt[] = {"GEOM_POSSIBLE_NAMES=WKT,geometry,geom", NULL};
     static const char *const places[] = {"X_POSSIBLE_NAMES=x,lon,lng,long,longitude,easting",
                                          "Y_POSSIBLE_NAMES=y,lat,latitude,northing", NULL};
+    static const char *const no_notes[] = {"WRITE_GFS=NO", NULL}; /* a file beside GML, of what is in it */
     support_extension extension;
     const char *name = gdal_name(source, &extension);
     map m = {.source = source,
@@ -300,7 +301,10 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
     io_gdal_begin(&m.heard);
     status = refuse_virtual(&m, name);
     if (!status) {
-        const char *const *options = !is_table(name, extension) ? NULL : has_geometry(source, name) ? wkt : places;
+        const char *const *options = !strcmp(extension.text, "gml") ? no_notes
+                                     : !is_table(name, extension)   ? NULL
+                                     : has_geometry(source, name)   ? wkt
+                                                                    : places;
         m.data = GDALOpenEx(name, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL, options, NULL);
         if (!m.data) status = refuse_content(&m, name);
     }
