@@ -64,6 +64,10 @@ bool io_is_x3d(const formats_source *source);
 /** Before the import: FROE_E_UNSUPPORTED or FROE_E_FORMAT where an X3D file has what assimp reads as something else.
  * What it leaves out is in the report. */
 froe_status io_x3d_check(const formats_source *source, formats_sink *sink);
+/** Is it AMF, by its extension, and not in an archive? */
+bool io_is_amf(const formats_source *source);
+/** Before the import: FROE_E_UNSUPPORTED or FROE_E_FORMAT where an AMF file has what assimp reads as something else. */
+froe_status io_amf_check(const formats_source *source, formats_sink *sink);
 /** Is it COLLADA, by its extension? */
 bool io_is_collada(const formats_source *source);
 /** Before the import: FROE_E_UNSUPPORTED or FROE_E_FORMAT where a COLLADA file has what assimp passes over in silence.
