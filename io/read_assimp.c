@@ -227,7 +227,7 @@ static froe_status refuse_import(const formats_source *source, formats_sink *sin
 }
 
 /* A whole number that a file says about itself. */
-static int32_t number_of(const struct aiScene *scene, const char *name, int32_t otherwise) {
+static int32_t stated_number(const struct aiScene *scene, const char *name, int32_t otherwise) {
     for (unsigned i = 0; scene->mMetaData && i < scene->mMetaData->mNumProperties; ++i) {
         const struct aiMetadataEntry *entry = &scene->mMetaData->mValues[i];
         if (!strcmp(scene->mMetaData->mKeys[i].data, name) && entry->mType == AI_INT32)
@@ -263,7 +263,7 @@ static int up_of(const struct aiScene *scene, const char *format) {
                                        "Return To Castle Wolfenstein"};
     for (size_t i = 0; i < sizeof y_up / sizeof *y_up; ++i)
         if (!strncmp(format, y_up[i], strlen(y_up[i]))) return 1;
-    const int32_t axis = number_of(scene, "UpAxis", 2);
+    const int32_t axis = stated_number(scene, "UpAxis", 2);
     return axis >= 0 && axis <= 2 ? axis : 2;
 }
 
@@ -316,7 +316,7 @@ static froe_status read_scene(const formats_source *source, formats_sink *sink, 
     if (suffix) *suffix = '\0';
     formats_report_format(sink, "float32", "%s (assimp)", format);
     formats_sink_up(sink, up_of(scene, format));
-    if (number_of(scene, "UpAxisSign", 1) < 0) io_leave(sink, "UpAxisSign -1", 13);
+    if (stated_number(scene, "UpAxisSign", 1) < 0) io_leave(sink, "UpAxisSign -1", 13);
     w.linear = !strncmp(sink->report.format, "glTF", 4);
     sink->unit = "face";
     sink->report.layers = 1;

@@ -187,6 +187,42 @@ static froe_status add_features(map *m, OGRLayerH one) {
     return status;
 }
 
+static bool load_head(const char *name, unsigned char head[28]) {
+    VSILFILE *in = VSIFOpenL(name, "rb");
+    const bool is_there = in && VSIFReadL(head, 1, 28, in) == 28;
+    if (in) VSIFCloseL(in);
+    return is_there;
+}
+
+/* GDAL reads as many shapes of a Shapefile as its table of attributes has rows. An index (.shx) says its length in
+ * units of 2 bytes, the highest byte first: 100 bytes, and 8 a shape. A table (.dbf) says its rows, the lowest
+ * first. */
+static froe_status check_rows(const map *m, const char *index, const char *table) {
+    unsigned char x[28], t[28];
+    if (!load_head(index, x) || !load_head(table, t)) return FROE_OK;
+    const uint64_t words = (uint64_t)x[24] << 24 | (uint64_t)x[25] << 16 | (uint64_t)x[26] << 8 | x[27];
+    const uint64_t rows = (uint64_t)t[7] << 24 | (uint64_t)t[6] << 16 | (uint64_t)t[5] << 8 | t[4];
+    const uint64_t shapes = words < 50 ? 0 : (words - 50) / 4;
+    if (rows >= shapes) return FROE_OK;
+    return support_fail(m->sink->diag, FROE_E_FORMAT,
+                        "%.60s: The table '%.60s' has %llu row%s, and there are %llu shapes.",
+                        support_short(m->source->path), support_short(table), (unsigned long long)rows,
+                        support_plural(rows), (unsigned long long)shapes);
+}
+
+static froe_status check_tables(const map *m) {
+    char **files = GDALGetFileList(m->data);
+    froe_status status = FROE_OK;
+    for (char **index = files; index && *index; index++) {
+        const size_t stem = strlen(*index) < 3 ? 0 : strlen(*index) - 3;
+        for (char **table = files; *table && !status && support_equal_nocase(*index + stem, "shx"); table++)
+            if (!strncmp(*table, *index, stem) && support_equal_nocase(*table + stem, "dbf"))
+                status = check_rows(m, *index, *table);
+    }
+    CSLDestroy(files);
+    return status;
+}
+
 /* ----------------------------------------------------------------- layers -- */
 
 static froe_status filter(map *m, OGRLayerH layer) {
@@ -313,7 +349,8 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
         m.is_table = !strcmp(sink->report.format, "CSV");
         m.shapes.cuts = strstr(sink->report.format, "JSON") != NULL;
         m.crs.promise = io_crs_promise_of(m.data);
-        status = add_layers(&m);
+        if (!strcmp(sink->report.format, "ESRI Shapefile")) status = check_tables(&m);
+        if (!status) status = add_layers(&m);
     }
     io_crs_free(&m.crs);
     if (m.data) GDALClose(m.data);
