@@ -50,7 +50,11 @@ static const char *find_fault(const char *text, size_t *line) {
             stray = number;
         }
         if (facets) facet = true, vertices = 0;
-        if (is_word(at, length, "endfacet")) facet = false;
+        if (is_word(at, length, "endfacet")) {
+            if (inside && first && !facet) return "A facet ends here that has not begun.";
+            if (facet && vertices < 3) return "The facet has less than 3 vertices.";
+            facet = false;
+        }
         if (facet && is_word(at, length, "vertex") && ++vertices > 3) return "The facet has more than 3 vertices.";
     }
     *line = 0;
