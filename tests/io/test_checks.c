@@ -235,6 +235,55 @@ static void write_rich_3mf(const char *path) {
               more);
 }
 
+static const char x3d[] =
+    "<X3D><Scene><Transform rotation=\"0 0 1 1\"><Shape><IndexedFaceSet coordIndex=\"0 1 2\">"
+    "<Coordinate point=\"0 0 0, 1 0 0, 1 2 0\"/></IndexedFaceSet></Shape></Transform></Scene></X3D>";
+#define AMF_VERTEX(x, y) "<vertex><coordinates><x>" #x "</x><y>" #y "</y><z>0</z></coordinates></vertex>"
+static const char amf[] = "<amf><object id=\"0\"><mesh><vertices>" AMF_VERTEX(0, 0) AMF_VERTEX(1, 0)
+    AMF_VERTEX(0, 1) "</vertices><volume><triangle><v1>0</v1><v2>1</v2><v3>2</v3></triangle></volume></mesh>"
+                     "</object></amf>";
+/* A triangle in a layer of LightWave. */
+static const char lwo[] = "FORM\0\0\0\x76LWO2TAGS\0\0\0\2a\0LAYR\0\0\0\x12\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0a\0"
+                          "PNTS\0\0\0\x24\0\0\0\0\0\0\0\0\0\0\0\0\x3f\x80\0\0\0\0\0\0\0\0\0\0"
+                          "\0\0\0\0\x3f\x80\0\0\0\0\0\0POLS\0\0\0\x0c"
+                          "FACE\0\3\0\0\0\1\0\2SURF\0\0\0\4a\0\0";
+static const char ifc[] = "ISO-10303-21;\n"
+                          "HEADER;\n"
+                          "FILE_DESCRIPTION((''),'2;1');\n"
+                          "FILE_NAME('a','2020-01-01T00:00:00',(''),(''),'','','');\n"
+                          "FILE_SCHEMA(('IFC2X3'));\n"
+                          "ENDSEC;\n"
+                          "DATA;\n"
+                          "#2=IFCOWNERHISTORY(#3,#4,$,.ADDED.,$,$,$,0);\n"
+                          "#3=IFCPERSONANDORGANIZATION(#5,#6,$);\n"
+                          "#4=IFCAPPLICATION(#6,'1','a','a');\n"
+                          "#5=IFCPERSON($,'n',$,$,$,$,$,$);\n"
+                          "#6=IFCORGANIZATION($,'o',$,$,$);\n"
+                          "#1=IFCPROJECT('0YvctVUKr0kugbFTf53O9L',#2,'p',$,$,$,$,(#10),#20);\n"
+                          "#10=IFCGEOMETRICREPRESENTATIONCONTEXT($,'Model',3,1.E-05,#11,$);\n"
+                          "#11=IFCAXIS2PLACEMENT3D(#12,$,$);\n"
+                          "#12=IFCCARTESIANPOINT((0.,0.,0.));\n"
+                          "#20=IFCUNITASSIGNMENT((#21,#22));\n"
+                          "#21=IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.);\n"
+                          "#22=IFCSIUNIT(*,.PLANEANGLEUNIT.,$,.RADIAN.);\n"
+                          "#30=IFCSITE('1YvctVUKr0kugbFTf53O9L',#2,'s',$,$,#31,$,$,.ELEMENT.,$,$,$,$,$);\n"
+                          "#31=IFCLOCALPLACEMENT($,#11);\n"
+                          "#32=IFCRELAGGREGATES('2YvctVUKr0kugbFTf53O9L',#2,$,$,#1,(#30));\n"
+                          "#40=IFCBUILDINGELEMENTPROXY('3YvctVUKr0kugbFTf53O9L',#2,'box',$,$,#41,#50,$,$);\n"
+                          "#41=IFCLOCALPLACEMENT(#31,#42);\n"
+                          "#42=IFCAXIS2PLACEMENT3D(#43,$,$);\n"
+                          "#43=IFCCARTESIANPOINT((10.,0.,0.));\n"
+                          "#44=IFCRELCONTAINEDINSPATIALSTRUCTURE('4YvctVUKr0kugbFTf53O9L',#2,$,$,(#40),#30);\n"
+                          "#50=IFCPRODUCTDEFINITIONSHAPE($,$,(#51));\n"
+                          "#51=IFCSHAPEREPRESENTATION(#10,'Body','SweptSolid',(#60));\n"
+                          "#60=IFCEXTRUDEDAREASOLID(#61,#11,#63,3.);\n"
+                          "#61=IFCRECTANGLEPROFILEDEF(.AREA.,$,#64,2.,1.);\n"
+                          "#63=IFCDIRECTION((0.,0.,1.));\n"
+                          "#64=IFCAXIS2PLACEMENT2D(#65,$);\n"
+                          "#65=IFCCARTESIANPOINT((0.,0.));\n"
+                          "ENDSEC;\n"
+                          "END-ISO-10303-21;\n";
+
 static void memory_may_end_at_any_place(void **state) {
     (void)state;
     write_nodes("nodes.dae");
@@ -243,6 +292,14 @@ static void memory_may_end_at_any_place(void **state) {
     write_text("solids.stl", solids);
     assert_true(test_memory_each(read_with_memory, "rich.3mf") > 10);
     assert_true(test_memory_each(read_with_memory, "solids.stl") > 2);
+    write_text("turned.x3d", x3d);
+    assert_true(test_memory_each(read_with_memory, "turned.x3d") > 2);
+    write_text("one.amf", amf);
+    assert_true(test_memory_each(read_with_memory, "one.amf") > 2);
+    write_bytes("one.lwo", lwo, sizeof lwo);
+    assert_true(test_memory_each(read_with_memory, "one.lwo") > 2);
+    write_text("box.ifc", ifc);
+    assert_true(test_memory_each(read_with_memory, "box.ifc") > 2);
 }
 
 static bool count_down(void *user, double done) {
