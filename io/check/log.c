@@ -27,7 +27,8 @@ static const rule rules[] = {
     {"3DS: Chunk overflow", NULL, NULL},
     {"AC3D: Invalid vertex reference", NULL, NULL},
     {"AC3D: Unexpected ", NULL, NULL},
-    {"STEP: ignoring unexpected EOF", NULL, NULL}, /* IFC */
+    {"has an invalid index. It will be ignored", NULL, NULL}, /* ASE */
+    {"STEP: ignoring unexpected EOF", NULL, NULL},            /* IFC */
     {"an object with the id #", NULL, NULL},
     {"expected token ')'", NULL, NULL},
     {"error occurred while processing curve", NULL, "broken curves"},
