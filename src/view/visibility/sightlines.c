@@ -255,6 +255,40 @@ int view_compare_lines(view_sightlines *s, uint32_t a, uint32_t b, const double 
     return geom_line_compare(&s->context, &s->eye, &x, &y, axis_of(key));
 }
 
+/* An eye that looks along an axis, and not along the cut. */
+static geom_eye eye_across(view_sightlines *s, const geom_plane *cut) {
+    const froe_scene *scene = s->tree->scene;
+    geom_eye eye = {.axis = 0};
+    int side = 0;
+    for (int k = 0; k < 3 && !side; k++) {
+        const double at[3] = {k == 0, k == 1, k == 2};
+        eye = geom_eye_make(true, at, scene_vertex(scene, 0));
+        side = geom_side_of_eye(&s->context, cut, &eye);
+    }
+    geom_eye_set_extent(
+        &eye, fmax(fmax(scene->hi[0] - scene->lo[0], scene->hi[1] - scene->lo[1]), scene->hi[2] - scene->lo[2]));
+    return eye;
+}
+
+void view_cut_key(view_sightlines *s, uint32_t line, double key[3]) {
+    geom_plane planes[2];
+    const geom_line exact = resolve(s, line, planes);
+    const geom_plane cut = tree_plane_at(s->tree, s->lines.data[line].b);
+    const geom_eye eye = eye_across(s, &cut);
+    (void)geom_line_round(&s->context, &eye, &exact, key);
+    const bool turned = key[axis_of(key)] < 0;
+    for (int k = 0; k < 3 && turned; k++) key[k] = -key[k];
+}
+
+int view_compare_cuts(view_sightlines *s, uint32_t a, uint32_t b, const double key[3]) {
+    geom_plane planes[4];
+    if (a == b) return 0;
+    const geom_line x = resolve(s, a, planes), y = resolve(s, b, planes + 2);
+    const geom_plane cut = tree_plane_at(s->tree, s->lines.data[a].b);
+    const geom_eye eye = eye_across(s, &cut);
+    return geom_line_compare(&s->context, &eye, &x, &y, axis_of(key));
+}
+
 /* The point X = a(v) r(u) - a(u) r(v) (or its opposite, with a(v) < 0) and the axis e make the line X x e, and
  * l x (X x e) = X (l . e). */
 froe_status view_stop_edge(view_sightlines *s, uint32_t edge, uint32_t object, uint32_t line, view_mark *out) {

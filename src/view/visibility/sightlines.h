@@ -92,6 +92,10 @@ froe_status view_stop_edge(view_sightlines *sights, uint32_t edge, uint32_t obje
 bool view_line_key(view_sightlines *sights, uint32_t line, double key[3], bool *turned);
 /** Orders lines of equal keys: 0: they are equal. Exact. */
 int view_compare_lines(view_sightlines *sights, uint32_t a, uint32_t b, const double key[3]);
+/** The same for CUT lines of one node as lines of space, whatever the eye: where it lies in the cut, it sees them all
+ * as one. */
+void view_cut_key(view_sightlines *sights, uint32_t line, double key[3]);
+int view_compare_cuts(view_sightlines *sights, uint32_t a, uint32_t b, const double key[3]);
 /** Does the eye see an edge as a point? Exact. */
 bool view_is_point(view_sightlines *sights, uint32_t edge);
 
