@@ -77,14 +77,15 @@ typedef struct crossing_line {
     bool section, hidden;
 } crossing_line;
 
-/* A stretch in its final form. A patch that is seen edge-on is met in the section. */
+/* A stretch in its final form. */
 static bool put_crossing(froe_visibility *v, const view_end *from, const view_end *to, crossing_line on) {
+    const view_sightlines *s = &v->sights;
     froe_crossing x = {.patch = on.patch, .section = on.section, .hidden = on.hidden};
     const view_run run = {on.line, {view_mark_of(from), view_mark_of(to)}};
-    geom_plane plane = view_plane_of(&v->sights, x.patch);
-    if (!view_facing(&v->sights, surface_first(v->surface, x.patch))) plane = tree_plane_at(v->tree, 0);
-    view_point_on(&v->sights, &plane, from->ray.x, x.from);
-    view_point_on(&v->sights, &plane, to->ray.x, x.to);
+    const geom_plane plane = view_plane_of(s, x.patch),
+                     cut = view_plane_of_cut(s, x.section ? 0 : s->lines.data[on.line].b);
+    view_point_on_both(s, &plane, &cut, from->ray.x, x.from);
+    view_point_on_both(s, &plane, &cut, to->ray.x, x.to);
     return array_push(&v->alloc, &v->crossings, x) && array_push(&v->alloc, &v->crossing_runs, run);
 }
 

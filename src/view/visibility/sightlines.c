@@ -401,10 +401,18 @@ double view_share_round(view_sightlines *s, uint32_t line, uint32_t u, uint32_t 
     return geom_share_round(&s->context, &s->eye, &h, view_vertex(s, u), view_vertex(s, v));
 }
 
-/* By an exact multiplication. The normal has overflowed where its points are further from one another than 2^500. */
+/* By an exact multiplication. */
+static void shrink_normal(geom_plane *plane) {
+    int exponent;
+    frexp(plane->n_max, &exponent);
+    for (int k = 0; k < 3; k++) plane->n[k] = ldexp(plane->n[k], -exponent);
+    plane->n_max = ldexp(plane->n_max, -exponent);
+    plane->c = ldexp(plane->c, -exponent);
+}
+
+/* The normal has overflowed where its points are further from one another than 2^500. */
 geom_plane view_support(const froe_scene *scene, uint32_t object) {
     geom_plane plane;
-    int exponent;
     scene_support(scene, object, &plane);
     if (!(plane.n_max < INFINITY)) {
         double d[3], e[3];
@@ -416,9 +424,7 @@ geom_plane view_support(const froe_scene *scene, uint32_t object) {
         memcpy(plane.n, n.x, sizeof plane.n);
         plane.n_max = n.most;
     }
-    frexp(plane.n_max, &exponent);
-    for (int k = 0; k < 3; k++) plane.n[k] = ldexp(plane.n[k], -exponent);
-    plane.n_max = ldexp(plane.n_max, -exponent);
+    shrink_normal(&plane);
     return plane;
 }
 
@@ -426,18 +432,56 @@ geom_plane view_plane_of(const view_sightlines *s, uint32_t patch) {
     return view_support(s->tree->scene, surface_first(s->surface, patch));
 }
 
+geom_plane view_plane_of_cut(const view_sightlines *s, uint32_t node) {
+    geom_plane plane = tree_plane_at(s->tree, node);
+    shrink_normal(&plane);
+    return plane;
+}
+
 /* x = e - t r, or for a parallel eye x = y + t d with y the point of the ray in the plane w_k = 0. */
-void view_point_on(const view_sightlines *s, const geom_plane *plane, const double ray[3], double out[3]) {
+static void sight_of(const view_sightlines *s, const double ray[3], double start[3], double way[3]) {
     const geom_eye *eye = &s->eye;
-    double start[3], way[3], at = 0, slope = 0;
     for (int k = 0; k < 3; k++) {
         start[k] = eye->parallel ? eye->origin[k] : eye->at[k];
         way[k] = eye->parallel ? eye->at[k] : -ray[k];
     }
     for (int c = 0; c < 2 && eye->parallel; c++) start[(eye->axis + 1 + c) % 3] += ray[c] / ray[2] * eye->size;
+}
+
+/* How steeply a plane, of which the normal is about 1 long, meets a ray: n . r. *sure: that is more than rounding. */
+static double slope_of(const geom_plane *plane, const double way[3], bool *sure) {
+    double slope = 0, most = 0;
     for (int k = 0; k < 3; k++) {
-        at += plane->n[k] * (start[k] - plane->p[0][k]);
         slope += plane->n[k] * way[k];
+        most += fabs(plane->n[k] * way[k]);
     }
-    for (int k = 0; k < 3; k++) out[k] = start[k] - way[k] * (at / slope);
+    *sure = fabs(slope) > 0x1p-50 * most;
+    return slope;
+}
+
+void view_point_on(const view_sightlines *s, const geom_plane *plane, const double ray[3], double out[3]) {
+    const bool has_points = plane->form == GEOM_POINTS || plane->form == GEOM_VERTICAL;
+    double start[3], way[3], at = has_points ? 0 : -plane->c, back = 0, square = 0, most = 0;
+    bool sure;
+    sight_of(s, ray, start, way);
+    const double slope = slope_of(plane, way, &sure);
+    for (int k = 0; k < 3; k++) at += plane->n[k] * (start[k] - (has_points ? plane->p[0][k] : 0));
+    double t = at / slope;
+    for (int k = 0; k < 3 && !sure; k++) most = fmax(most, fabs(way[k]));
+    for (int k = 0; k < 3 && !sure;
+         k++) { /* seen all but edge-on: the point of the ray that is nearest to the plane's */
+        back += way[k] / most * (start[k] - (has_points ? plane->p[0][k] : start[k]));
+        square += way[k] / most * (way[k] / most);
+    }
+    if (!sure) t = back / square / most;
+    for (int k = 0; k < 3; k++) out[k] = start[k] - way[k] * t;
+}
+
+void view_point_on_both(const view_sightlines *s, const geom_plane *a, const geom_plane *b, const double ray[3],
+                        double out[3]) {
+    double start[3], way[3];
+    bool sure;
+    sight_of(s, ray, start, way);
+    const double steep_a = fabs(slope_of(a, way, &sure)), steep_b = fabs(slope_of(b, way, &sure));
+    view_point_on(s, steep_a >= steep_b ? a : b, ray, out);
 }
