@@ -401,20 +401,11 @@ double view_share_round(view_sightlines *s, uint32_t line, uint32_t u, uint32_t 
     return geom_share_round(&s->context, &s->eye, &h, view_vertex(s, u), view_vertex(s, v));
 }
 
-/* By an exact multiplication. */
-static void shrink_normal(geom_plane *plane) {
+/* By exact multiplications. The normal has overflowed where its points are further from one another than 2^500; what is
+ * not a number is not seen in n_max. */
+static geom_plane with_short_normal(geom_plane plane) {
     int exponent;
-    frexp(plane->n_max, &exponent);
-    for (int k = 0; k < 3; k++) plane->n[k] = ldexp(plane->n[k], -exponent);
-    plane->n_max = ldexp(plane->n_max, -exponent);
-    plane->c = ldexp(plane->c, -exponent);
-}
-
-/* The normal has overflowed where its points are further from one another than 2^500. */
-geom_plane view_support(const froe_scene *scene, uint32_t object) {
-    geom_plane plane;
-    scene_support(scene, object, &plane);
-    if (!(plane.n_max < INFINITY)) {
+    if (plane.form == GEOM_POINTS && !(fabs(plane.n[0]) + fabs(plane.n[1]) + fabs(plane.n[2]) < INFINITY)) {
         double d[3], e[3];
         for (int k = 0; k < 3; k++) {
             d[k] = ldexp(plane.p[1][k], -600) - ldexp(plane.p[0][k], -600);
@@ -424,8 +415,17 @@ geom_plane view_support(const froe_scene *scene, uint32_t object) {
         memcpy(plane.n, n.x, sizeof plane.n);
         plane.n_max = n.most;
     }
-    shrink_normal(&plane);
+    frexp(plane.n_max, &exponent);
+    for (int k = 0; k < 3; k++) plane.n[k] = ldexp(plane.n[k], -exponent);
+    plane.n_max = ldexp(plane.n_max, -exponent);
+    plane.c = ldexp(plane.c, -exponent);
     return plane;
+}
+
+geom_plane view_support(const froe_scene *scene, uint32_t object) {
+    geom_plane plane;
+    scene_support(scene, object, &plane);
+    return with_short_normal(plane);
 }
 
 geom_plane view_plane_of(const view_sightlines *s, uint32_t patch) {
@@ -433,9 +433,7 @@ geom_plane view_plane_of(const view_sightlines *s, uint32_t patch) {
 }
 
 geom_plane view_plane_of_cut(const view_sightlines *s, uint32_t node) {
-    geom_plane plane = tree_plane_at(s->tree, node);
-    shrink_normal(&plane);
-    return plane;
+    return with_short_normal(tree_plane_at(s->tree, node));
 }
 
 /* x = e - t r, or for a parallel eye x = y + t d with y the point of the ray in the plane w_k = 0. */
@@ -483,5 +481,5 @@ void view_point_on_both(const view_sightlines *s, const geom_plane *a, const geo
     bool sure;
     sight_of(s, ray, start, way);
     const double steep_a = fabs(slope_of(a, way, &sure)), steep_b = fabs(slope_of(b, way, &sure));
-    view_point_on(s, steep_a >= steep_b ? a : b, ray, out);
+    view_point_on(s, 16 * steep_a >= steep_b ? a : b, ray, out);
 }
