@@ -355,7 +355,7 @@ static void note_bar(const void *config) {
     const bar *b = config;
     build_job *job = b->job;
     if (job->option[GROWTH] > 0 && !b->points)
-        build_promise(job, "guard_fragments", 2 * job->option[GROWTH] * job->scene->object_count, 0);
+        build_promise(job, "guard_fragments", fmax(2 * job->option[GROWTH], 1) * job->scene->object_count, 0);
     if (b->cubes) return;
     build_promise(job, "aspect", job->option[ASPECT], atomic_load(&b->notes->aspect)); /* of zones by the audit */
     if (!b->points || atomic_load(&b->notes->unbalanced)) return;
