@@ -293,7 +293,8 @@ FROE_API bool froe_project(const froe_projection *view, const double *point, dou
 /** What shapes a picture is made of. */
 typedef enum froe_paint {
     FROE_PAINT_WHOLE = 0,     /**< whole patches in an order in which they paint each other over; few are clipped */
-    FROE_PAINT_REGIONS = 1,   /**< visible regions, which do not overlap: for plotters and cutters */
+    FROE_PAINT_REGIONS = 1,   /**< visible regions, which do not overlap, unless one sees through some: for plotters and
+                                   cutters */
     FROE_PAINT_FRAGMENTS = 2, /**< pieces of the tree that are visible anywhere, back to front */
     FROE_PAINT_COUNT = 3
 } froe_paint;

@@ -29,6 +29,7 @@
 #include <string.h>
 
 enum { DIRECTIONS, ASPECT, GUARDS, GROWTH, TUNING, K, STOP };
+enum { ZONE_ASPECT = 29 }; /* 20 sqrt 2, rounded up */
 enum {
     LONG = 32,        /* objects of a cell that takes long enough to ask whether to go on */
     STAR = 1024,      /* most objects of a cell that may be left when no cut balances its guards */
@@ -113,7 +114,7 @@ static void resolve_bar(const froe_scene *scene, uint32_t leaf, double *option) 
     const int zones = scene->dim * (scene->dim + 1) / 2;
     if (option[DIRECTIONS] < 0)
         option[DIRECTIONS] = !has_keys(scene) ? 0 : scene->dim == 2 ? 4 : scene->dim == 3 ? 7 : zones;
-    if (option[ASPECT] < 0) option[ASPECT] = scene->dim > 3 ? 29 : option[DIRECTIONS] == 4 ? 4 : 6;
+    if (option[ASPECT] < 0) option[ASPECT] = scene->dim > 3 ? ZONE_ASPECT : option[DIRECTIONS] == 4 ? 4 : 6;
     if (option[K] < 0) option[K] = points ? 1 : scene->dim == 2 ? 12 : scene->dim == 3 ? 32 : 4;
     if (option[STOP] < 0) option[STOP] = points ? 0 : 8;
     if (option[GROWTH] < 0) option[GROWTH] = scene->dim == 2 ? 4 : 16;
@@ -355,9 +356,11 @@ static void note_bar(const void *config) {
     const bar *b = config;
     build_job *job = b->job;
     if (job->option[GROWTH] > 0 && !b->points)
-        build_promise(job, "guard_fragments", 2 * job->option[GROWTH] * job->scene->object_count, 0);
+        build_promise(job, "guard_fragments", fmax(2 * job->option[GROWTH], 1) * job->scene->object_count, 0);
     if (b->cubes) return;
-    build_promise(job, "aspect", job->option[ASPECT], atomic_load(&b->notes->aspect)); /* of zones by the audit */
+    /* Cuts beside clusters are proven to keep zones as fat as that, and no fatter (docs/design/bar.md). */
+    if (!b->zones || job->option[ASPECT] >= ZONE_ASPECT)
+        build_promise(job, "aspect", job->option[ASPECT], atomic_load(&b->notes->aspect)); /* of zones by the audit */
     if (!b->points || atomic_load(&b->notes->unbalanced)) return;
     /* A sequence of cuts until a part has `share` of the points, and so on until there is one; with leaves of no object
      * one more, through that. */

@@ -318,7 +318,9 @@ static void promise(const void *config) {
     const split_books *books = &d->sums->books;
     const double n = job->scene->object_count, growth = job->option[GROWTH];
     build_promise(job, "guard_leaves", d->guard->promised, (double)d->guard->leaves);
-    if (growth > 0) build_promise(job, "guard_fragments", 2 * growth * n + books->beyond, (double)books->fragments);
+    /* Cells have grown by less than twice the growth; the first one by 1, whatever the growth. */
+    if (growth > 0)
+        build_promise(job, "guard_fragments", fmax(2 * growth, 1) * n + books->beyond, (double)books->fragments);
     if (job->root) return; /* then there is no guard stage */
     if (counts_pieces(job->scene)) build_promise(job, "fragments", books->pieces, 0);
     if (books->height + books->peels < n) build_promise(job, "height", books->height + books->peels, 0);

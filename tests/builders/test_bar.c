@@ -407,6 +407,24 @@ static void segments_of_no_length_end_in_cuts_as_low_as_promised(void **state) {
     }
 }
 
+/** A stage that ends at once leaves each object whole, in one cell. */
+static void a_growth_below_one_half_promises_a_piece_for_each_object(void **state) {
+    static const char *const methods[] = {"bar", "density"};
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        froe_scene *scene = generate("disjoint", 60);
+        froe_build_options o = froe_build_defaults();
+        froe_tree *tree;
+        o.method = methods[i];
+        o.settings = "growth=0.25";
+        assert_int_equal(froe_build(scene, &o, &tree, NULL), FROE_OK);
+        assert_true(promise_of(tree, "guard_fragments", false) >= 60);
+        audit(tree, methods[i]);
+        froe_tree_free(tree);
+        froe_scene_free(scene);
+    }
+}
+
 static void what_has_no_directions_says_so(void **state) {
     const double far[] = {0, 0, 1.7e308, -1.7e308, 1, 1};
     froe_scene *scene;
@@ -479,6 +497,7 @@ int main(void) {
         cmocka_unit_test(guards_are_as_many_as_sectors),
         cmocka_unit_test(cells_without_guards_meet_few_objects),
         cmocka_unit_test(segments_of_no_length_end_in_cuts_as_low_as_promised),
+        cmocka_unit_test(a_growth_below_one_half_promises_a_piece_for_each_object),
         cmocka_unit_test(what_has_no_directions_says_so),
         cmocka_unit_test(directions_that_do_not_exist_are_refused),
         cmocka_unit_test(a_build_survives_every_failing_allocation),

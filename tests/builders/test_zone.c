@@ -226,6 +226,23 @@ static void cells_are_exactly_as_fat_as_measured(void **state) {
         }
 }
 
+/** Cells fatter than what is proven may be asked for, and are not promised. */
+static void an_aspect_that_is_not_proven_is_not_promised(void **state) {
+    static const char *const settings[] = {"aspect=1.3", "aspect=2", "aspect=5", "aspect=28"};
+    (void)state;
+    for (int dim = 4; dim <= 5; dim++)
+        for (int shape = 0; shape < SHAPES; shape++)
+            for (size_t i = 0; i < sizeof settings / sizeof *settings; i++) {
+                froe_scene *scene = make_points((shape_of_points)shape, dim, 60);
+                froe_tree *tree = build(scene, settings[i]);
+                froe_diagnostic diag = {0};
+                if (froe_tree_audit(tree, NULL, &diag))
+                    fail_msg("%s, %dD, %s: %s", shape_names[shape], dim, settings[i], diag.message);
+                froe_tree_free(tree);
+                froe_scene_free(scene);
+            }
+}
+
 /** A builder that makes cells thinner than it promises. */
 static void the_audit_finds_thin_cells(void **state) {
     (void)state;
@@ -453,6 +470,7 @@ int main(void) {
         cmocka_unit_test(points_end_low_in_every_dimension),
         cmocka_unit_test(points_at_each_scale_end_low),
         cmocka_unit_test(cells_are_exactly_as_fat_as_measured),
+        cmocka_unit_test(an_aspect_that_is_not_proven_is_not_promised),
         cmocka_unit_test(the_audit_finds_thin_cells),
         cmocka_unit_test(every_sequence_of_cuts_is_short),
         cmocka_unit_test(small_objects_have_a_guard_in_every_fat_zone),

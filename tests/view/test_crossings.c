@@ -137,6 +137,36 @@ static void lines_of_crossing_triangles_are_found_where_they_are_seen(void **sta
     froe_tree_free(tree);
 }
 
+/* Pairs of triangles that cross, and above each pair a third in whose plane their crossing lies. Where that plane is
+ * cut first, it divides both, and neither is in the list of a cut of the other. */
+static void a_third_plane_through_a_crossing_takes_nothing_away(void **state) {
+    enum { SIDE = 4, TRIANGLES = 3 * SIDE * SIDE };
+    static const double three[3][3][3] = {
+        {{-1, -1, 0}, {1, 1, 0}, {0, 0, 2}}, {{-1, 2, -1}, {1, -2, -1}, {0, 0, 3}}, {{0, -2, 4}, {0, 2, 4}, {0, 0, 6}}};
+    (void)state;
+    double x[TRIANGLES][3][3];
+    size_t starts[TRIANGLES + 1];
+    uint32_t counts[2] = {0, 0};
+    for (size_t i = 0; i <= TRIANGLES; i++) starts[i] = 3 * i;
+    for (size_t i = 0; i < TRIANGLES; i++)
+        for (size_t k = 0; k < 3; k++) {
+            x[i][k][0] = 5 * (double)(i / 3 % SIDE) + three[i % 3][k][0];
+            x[i][k][1] = 7 * (double)(i / 3 / SIDE) + three[i % 3][k][1];
+            x[i][k][2] = three[i % 3][k][2];
+        }
+    for (int method = 0; method < 2; method++) {
+        froe_tree *tree = trees_of_polygons(x[0][0], starts, TRIANGLES, method ? "autopartition" : "density");
+        froe_surface *surface;
+        assert_int_equal(froe_surface_new(tree->scene, NULL, &surface, NULL), FROE_OK);
+        for (uint32_t e = 0; e < 12; e++)
+            for (int hidden = 0; hidden < 2; hidden++) check_eye(tree, surface, e, hidden, counts);
+        froe_surface_free(surface);
+        froe_tree_free(tree);
+    }
+    print_message("  %u points seen, %u hidden\n", counts[1], counts[0]);
+    assert_true(counts[0] > 50 && counts[1] > 50);
+}
+
 /* A sheet that ends on another, or passes beside it, crosses nothing. */
 static void touching_is_no_crossing(void **state) {
     (void)state;
@@ -162,6 +192,7 @@ static void touching_is_no_crossing(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lines_of_crossing_triangles_are_found_where_they_are_seen),
+        cmocka_unit_test(a_third_plane_through_a_crossing_takes_nothing_away),
         cmocka_unit_test(touching_is_no_crossing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

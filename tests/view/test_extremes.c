@@ -117,10 +117,36 @@ static void a_scene_as_large_as_the_least_double_is_no_point(void **state) {
     froe_scene_free(scene);
 }
 
+/* Two of the three components of its normal are 0, and the products of which the third is the difference overflow. */
+static void a_huge_face_across_an_axis_has_corners(void **state) {
+    (void)state;
+    double x[] = {1, 0, 2, 1, 1, 1, 1, 2, 1};
+    froe_scene *scene;
+    froe_surface *surface;
+    froe_visibility *v;
+    froe_visibility_options look = froe_visibility_defaults();
+    for (int k = 0; k < 9; k++) x[k] = ldexp(x[k], 900);
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    assert_int_equal(trees_add(scene, FROE_POLYGON, 1, x, NULL, NULL), FROE_OK);
+    froe_tree *tree = trees_build(scene, "density", 1);
+    assert_int_equal(froe_surface_new(scene, NULL, &surface, NULL), FROE_OK);
+    look.eye.at[0] = 0x1p903;
+    assert_int_equal(froe_visibility_new(tree, surface, &look, &v, NULL), FROE_OK);
+    assert_int_equal(froe_visibility_piece_count(v), 1);
+    double corners[9];
+    assert_int_equal(froe_visibility_corners(v, 0, corners, 3), 3);
+    for (int k = 0; k < 9; k++) assert_true(corners[k] > -0x1p880 && corners[k] < 0x1.0001p901);
+    froe_visibility_free(v);
+    froe_surface_free(surface);
+    froe_tree_free(tree);
+    froe_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_scene_times_a_power_of_two_looks_the_same),
         cmocka_unit_test(tiny_faces_beside_huge_ones_are_painted),
+        cmocka_unit_test(a_huge_face_across_an_axis_has_corners),
         cmocka_unit_test(scenes_beyond_cameras_are_refused),
         cmocka_unit_test(a_scene_as_large_as_the_least_double_is_no_point),
     };

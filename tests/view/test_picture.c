@@ -148,6 +148,8 @@ static void regions_and_fragments_show_the_same(void **state) {
     (void)state;
     check_tree(random_tree(), 5, 40, FROE_PAINT_REGIONS, false);
     check_tree(lattice_tree(), 5, 40, FROE_PAINT_REGIONS, false);
+    check_tree(random_tree(), 1, 40, FROE_PAINT_REGIONS, true); /* overlap then, in an order of their own */
+    check_tree(lattice_tree(), 1, 40, FROE_PAINT_REGIONS, true);
     check_tree(random_tree(), 5, 40, FROE_PAINT_FRAGMENTS, false);
     check_tree(lattice_tree(), 5, 40, FROE_PAINT_FRAGMENTS, false);
 }

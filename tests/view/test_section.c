@@ -105,6 +105,8 @@ static void sections_are_lines(void **state) {
         check_view(&p, 20, 1);
         for (size_t i = 0; i < froe_picture_stroke_count(p.picture); i++) {
             const froe_stroke s = froe_picture_stroke(p.picture, i);
+            for (size_t k = 0; s.kind == FROE_LINE_SECTION && k < s.count; k++)
+                assert_true(fabs(s.space[3 * k + 2] - 12) < 1e-9);
             if (s.hidden)
                 hidden += length_of(&s);
             else
@@ -142,6 +144,38 @@ static void sections_from_corner_to_corner_are_lines(void **state) {
         froe_picture_free(p.picture);
         close_page(&p);
     }
+    froe_tree_free(tree);
+    froe_tree_free(whole);
+}
+
+/* The direction of the eye is rounded, so that the eye is not in the plane of the sheet, but all but. */
+static void a_sheet_seen_all_but_edge_on_is_cut_where_the_section_is(void **state) {
+    (void)state;
+    const double sheet[] = {1, 3, -1, -1, 4, -2, -2, 2, -2, 0, 1, -1}, plane[4] = {0, 1, 0, 3};
+    const size_t starts[] = {0, 4};
+    froe_tree *whole = trees_of_polygons(sheet, starts, 1, "density"), *tree = section_of(whole, plane);
+    froe_visibility_options look = froe_visibility_defaults();
+    froe_surface *surface;
+    assert_int_equal(froe_surface_new(tree->scene, NULL, &surface, NULL), FROE_OK);
+    for (int exact = 0; exact < 2; exact++) {
+        froe_visibility *v;
+        size_t count;
+        const froe_eye all_but = {.at = {0x1.a20bd700c2c3fp-1, -0x1.a20bd700c2c4p-2, 0x1.a20bd700c2c4p-2}};
+        look.eye = exact ? (froe_eye){.at = {2, -1, 1}} : all_but;
+        look.eye.parallel = look.crossings = true;
+        look.section = 1;
+        assert_int_equal(froe_visibility_new(tree, surface, &look, &v, NULL), FROE_OK);
+        const froe_crossing *c = froe_visibility_crossings(v, &count);
+        assert_int_equal(count, 1);
+        assert_true(fabs(c->from[1] - 3) < 1e-9 && fabs(c->to[1] - 3) < 1e-9);
+        for (size_t i = 0; i < froe_visibility_piece_count(v); i++) {
+            double x[12];
+            const size_t corners = froe_visibility_corners(v, i, x, 4);
+            for (size_t k = 0; k < 3 * corners; k++) assert_true(fabs(x[k]) < 1e3);
+        }
+        froe_visibility_free(v);
+    }
+    froe_surface_free(surface);
     froe_tree_free(tree);
     froe_tree_free(whole);
 }
@@ -266,6 +300,7 @@ int main(void) {
         cmocka_unit_test(one_sees_through_what_is_left),
         cmocka_unit_test(sections_are_lines),
         cmocka_unit_test(sections_from_corner_to_corner_are_lines),
+        cmocka_unit_test(a_sheet_seen_all_but_edge_on_is_cut_where_the_section_is),
         cmocka_unit_test(a_section_outlives_the_file_it_comes_from),
         cmocka_unit_test(sections_of_degenerate_scenes_keep_their_promises),
         cmocka_unit_test(bad_sections_are_refused),

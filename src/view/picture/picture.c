@@ -89,12 +89,14 @@ static froe_status plan_fills(view_painter *p) {
     bool clear = false;
     for (uint32_t i = 0; p->options->clear && i < p->v->surface->patch_count; i++)
         clear = clear || p->options->clear[i];
-    if (p->options->paint == FROE_PAINT_WHOLE && clear) {
+    /* Visible regions overlap where one sees through some, and are then painted in an order of their own. */
+    const bool ordered = p->options->paint == FROE_PAINT_WHOLE || (p->options->paint == FROE_PAINT_REGIONS && clear);
+    if (ordered && clear) {
         p->places = support_calloc(&p->picture->alloc, (size_t)p->v->tree->piece_count + 1, sizeof *p->places);
         status = p->places ? view_find_places(p->v, p->options->priorities, p->places) : FROE_E_MEMORY;
     }
     if (!status) status = view_parts_new(&p->parts, p->v, p->options->view, p->places, p->options->cull_back);
-    if (!status && p->options->paint == FROE_PAINT_WHOLE) {
+    if (!status && ordered) {
         status = view_plan_whole(p);
         if (status == FROE_E_BUDGET) {
             report->paint = FROE_PAINT_FRAGMENTS;
@@ -128,7 +130,7 @@ static froe_status make_picture(view_painter *p, const froe_tree *tree, const fr
         if (!status) status = report(p, VIEW_PLANNED);
         const froe_paint paint = p->picture->report.paint;
         if (!status && !p->options->no_fills)
-            status = paint == FROE_PAINT_WHOLE     ? view_paint_whole(p)
+            status = p->order                      ? view_paint_whole(p)
                      : paint == FROE_PAINT_REGIONS ? view_paint_regions(p)
                                                    : view_paint_fragments(p);
         if (!status) status = report(p, VIEW_PAINTED);

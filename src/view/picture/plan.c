@@ -5,6 +5,7 @@
  * patches in front of it. There patches in cycles are divided into their pieces, and arcs are found anew. This ends
  * when all are pieces, at the latest, since the order of pieces by the tree has no cycles. */
 #include "view/picture/picture.h"
+#include <string.h>
 
 static froe_status find_graph(view_painter *p) {
     const froe_allocator *alloc = &p->picture->alloc;
@@ -69,13 +70,16 @@ froe_status view_plan_whole(view_painter *p) {
         const uint32_t patch = v->surface->patch_of[t->pieces[i].object]; /* may be cut by the section: */
         if (patch != FROE_NONE) p->parts.split[patch] = PARTS_REGION;     /* only its visible parts are painted */
     }
+    if (p->options->paint == FROE_PAINT_REGIONS)
+        memset(p->parts.split, PARTS_REGION, v->surface->patch_count * sizeof *p->parts.split);
     froe_status status = find_graph(p);
     while (!status && clear && split_late(p)) status = find_graph(p);
     if (!clear) p->picture->report.late = p->graph.late_count;
     if (status) return status;
     p->order = support_calloc(&p->picture->alloc, p->parts.nodes.count + 1, sizeof *p->order);
     if (!p->order) return FROE_E_MEMORY;
-    const bool among = p->options->interleave > 0 || p->options->interleave_points > 0;
+    const bool among =
+        p->options->paint == FROE_PAINT_WHOLE && (p->options->interleave > 0 || p->options->interleave_points > 0);
     status = among ? view_interleave(p) : view_sort_nodes(p, &p->graph, p->order);
     view_parts_drop(&p->parts);
     view_graph_drop(&p->picture->alloc, &p->graph);

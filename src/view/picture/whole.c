@@ -217,7 +217,7 @@ static froe_status begin_painting(whole_painter *g) {
         return FROE_E_MEMORY;
     for (uint32_t i = 0; i < n; i++) g->at[p->parts.tour.data[i]] = i;
     froe_status status = FROE_OK;
-    if (o->underlap > 0)
+    if (o->underlap > 0 && o->paint == FROE_PAINT_WHOLE)
         status = view_seams_new(&p->seams, &p->parts, p->order, p->breaks, o->styles, o->clear, o->underlap);
     if (status) return status;
     if (!pieces) view_drop_pieces(p->v); /* visible pieces are on the page now */

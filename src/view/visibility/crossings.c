@@ -1,5 +1,6 @@
 /* crossings.c: cut sides within the polygons of their cuts. */
 #include "view/visibility/crossings.h"
+#include "base/radix.h"
 #include "base/sort.h"
 #include "geom/predicates.h"
 #include "tree/list.h"
@@ -76,14 +77,15 @@ typedef struct crossing_line {
     bool section, hidden;
 } crossing_line;
 
-/* A stretch in its final form. A patch that is seen edge-on is met in the section. */
+/* A stretch in its final form. */
 static bool put_crossing(froe_visibility *v, const view_end *from, const view_end *to, crossing_line on) {
+    const view_sightlines *s = &v->sights;
     froe_crossing x = {.patch = on.patch, .section = on.section, .hidden = on.hidden};
     const view_run run = {on.line, {view_mark_of(from), view_mark_of(to)}};
-    geom_plane plane = view_plane_of(&v->sights, x.patch);
-    if (!view_facing(&v->sights, surface_first(v->surface, x.patch))) plane = tree_plane_at(v->tree, 0);
-    view_point_on(&v->sights, &plane, from->ray.x, x.from);
-    view_point_on(&v->sights, &plane, to->ray.x, x.to);
+    const geom_plane plane = view_plane_of(s, x.patch),
+                     cut = view_plane_of_cut(s, x.section ? 0 : s->lines.data[on.line].b);
+    view_point_on_both(s, &plane, &cut, from->ray.x, x.from);
+    view_point_on_both(s, &plane, &cut, to->ray.x, x.to);
     return array_push(&v->alloc, &v->crossings, x) && array_push(&v->alloc, &v->crossing_runs, run);
 }
 
@@ -125,6 +127,201 @@ froe_status view_look_along_section(froe_visibility *v, uint32_t object) {
     return put_crossing(v, &part.end[0], &part.end[1], (crossing_line){line, s->surface->patch_of[object], true, false})
                ? FROE_OK
                : FROE_E_MEMORY;
+}
+
+/* ------------------------------------------------------------------ between patches -- */
+
+/* Where a third cut runs along the line in which two patches cross, it divides both, and neither lies in its list. Then
+ * the sides that it makes of both lie on one line of space, and cross where they overlap. */
+typedef struct cut_line {
+    double key[3];
+    uint32_t line;  /* of a patch and a node; 0: this entry is none */
+    uint32_t first; /* of the lines that are one with it */
+    uint32_t plane; /* of its patch, among those of these lines */
+} cut_line;
+
+typedef struct between_patches {
+    froe_visibility *v;
+    ARRAY(cut_line) lines; /* by node, equal ones together */
+    size_t count;          /* of lines */
+    uint32_t *mate_of;     /* per line: 1 + its place in `lines`, if others cross on it; before, 1 for all that count */
+    view_stretches sides;  /* each on the first of the equal lines */
+    ARRAY(uint32_t) planes; /* of the sides */
+    view_ring ring;
+} between_patches;
+
+static bool is_cut_between(const between_patches *b, uint32_t line) {
+    const view_line *l = b->v->sights.lines.data + line;
+    return l->kind == VIEW_CUT && (l->b || !b->v->section);
+}
+
+/* Are two patches, which a cut divides along one line, in one plane? */
+static bool share_a_plane(view_sightlines *s, uint32_t a, uint32_t b) {
+    geom_plane plane, other;
+    bool same = true;
+    scene_support(s->tree->scene, surface_first(s->surface, a), &plane);
+    scene_support(s->tree->scene, surface_first(s->surface, b), &other);
+    for (int k = 0; k < 3 && same; k++) same = geom_side_vertex(&s->context, &plane, other.p[k]) == 0;
+    return same;
+}
+
+static int by_cut_line(void *user, uint32_t a, uint32_t b) {
+    const between_patches *t = user;
+    view_sightlines *s = &t->v->sights;
+    const cut_line *x = t->lines.data + a, *y = t->lines.data + b;
+    const uint32_t at = s->lines.data[x->line].b, of = s->lines.data[y->line].b;
+    if (at != of) return at < of ? -1 : 1;
+    for (int k = 0; k < 3; k++)
+        if (x->key[k] != y->key[k]) return x->key[k] < y->key[k] ? -1 : 1;
+    return view_compare_cuts(s, x->line, y->line, x->key);
+}
+
+/* Numbers the planes of equal lines, items[0 .. count), and keeps these if there are several. */
+static void keep_mates(between_patches *b, const uint32_t *items, size_t count) {
+    view_sightlines *s = &b->v->sights;
+    uint32_t planes = 0;
+    for (size_t i = 0; i < count; i++) {
+        cut_line *x = b->lines.data + items[i];
+        x->first = b->lines.data[items[0]].line;
+        x->plane = planes;
+        for (size_t j = 0; j < i && x->plane == planes; j++) {
+            const cut_line *y = b->lines.data + items[j];
+            if (share_a_plane(s, s->lines.data[y->line].a, s->lines.data[x->line].a)) x->plane = y->plane;
+        }
+        planes += x->plane == planes;
+    }
+    for (size_t i = 0; i < count; i++) b->mate_of[b->lines.data[items[i]].line] = planes > 1 ? items[i] + 1 : 0;
+}
+
+/* Of the lines that `mate_of` names, keeps those on which patches of several planes meet. *any: there are some. */
+static froe_status find_mates(between_patches *b, bool *any) {
+    view_sightlines *s = &b->v->sights;
+    const size_t count = s->lines.count;
+    base_pair *pairs = support_calloc(&s->alloc, 2 * count + 1, sizeof *pairs);
+    uint32_t *items = NULL;
+    size_t n = 0;
+    bool ok = pairs != NULL;
+    *any = false;
+    for (uint32_t i = 0; ok && i < count; i++)
+        if (b->mate_of[i]) pairs[n++] = (base_pair){s->lines.data[i].b, i}, b->mate_of[i] = 0;
+    if (ok) base_radix_sort(pairs, pairs + n, n);
+    for (size_t i = 0; ok && i < n; i++) { /* a node that divides one patch alone has no such lines */
+        if ((!i || pairs[i - 1].key != pairs[i].key) && (i + 1 == n || pairs[i + 1].key != pairs[i].key)) continue;
+        cut_line x = {.line = pairs[i].value};
+        view_cut_key(s, x.line, x.key);
+        ok = array_push(&s->alloc, &b->lines, x);
+    }
+    const size_t m = b->lines.count;
+    ok = ok && (items = support_calloc(&s->alloc, 2 * m + 1, sizeof *items)) != NULL;
+    for (uint32_t i = 0; ok && i < m; i++) items[i] = i;
+    if (ok) base_merge_sort(items, items + m, m, by_cut_line, b);
+    for (size_t i = 0, j; ok && i < m; i = j) {
+        for (j = i + 1; j < m && !by_cut_line(b, items[i], items[j]);) j++;
+        if (j > i + 1) keep_mates(b, items + i, j - i);
+        *any = *any || b->mate_of[b->lines.data[items[i]].line];
+    }
+    support_free(&s->alloc, items, (2 * m + 1) * sizeof *items);
+    support_free(&s->alloc, pairs, (2 * count + 1) * sizeof *pairs);
+    return ok ? FROE_OK : FROE_E_MEMORY;
+}
+
+/* Appends the sides of a ring that lie on such lines. */
+static bool put_sides(between_patches *b, uint32_t patch, bool clip) {
+    view_sightlines *s = &b->v->sights;
+    for (uint32_t i = 0; i < b->ring.count; i++) {
+        const uint32_t line = b->ring.data[i].way >> 1, mate = line < b->count ? b->mate_of[line] : 0;
+        if (!mate || s->lines.data[line].a != patch) continue;
+        const uint32_t first = b->lines.data[mate - 1].first;
+        view_stretch side = view_side_of_ring(b->ring.data, (uint32_t)b->ring.count, i);
+        if (clip && !view_cut_to_window(s, line, &side)) continue;
+        const double *x = s->lines.data[line].image.x, *y = s->lines.data[first].image.x;
+        side.edge = first;
+        if (x[0] * y[0] + x[1] * y[1] + x[2] * y[2] < 0) { /* the first one has the opposite direction */
+            const view_end from = side.end[0];
+            side.end[0] = side.end[1], side.end[1] = from;
+            side.end[0].way ^= 1, side.end[1].way ^= 1;
+        }
+        if (!array_push(&s->alloc, &b->sides, side) ||
+            !array_push(&s->alloc, &b->planes, b->lines.data[mate - 1].plane))
+            return false;
+    }
+    return true;
+}
+
+static int by_side(void *user, uint32_t a, uint32_t b) {
+    const between_patches *t = user;
+    const view_stretch *x = t->sides.data + a, *y = t->sides.data + b;
+    if (x->edge != y->edge) return x->edge < y->edge ? -1 : 1;
+    return view_compare_along(&t->v->sights, x->edge, &x->end[0], &y->end[0]);
+}
+
+/* Appends where sides of patches in different planes overlap. */
+static froe_status put_overlaps(between_patches *b, view_stretches *out) {
+    view_sightlines *s = &b->v->sights;
+    const size_t n = b->sides.count;
+    if (n > INT32_MAX) return FROE_E_LIMIT;
+    uint32_t *items = support_calloc(&s->alloc, 2 * n + 1, sizeof *items);
+    bool ok = items != NULL;
+    for (uint32_t i = 0; ok && i < n; i++) items[i] = i;
+    if (ok) base_merge_sort(items, items + n, n, by_side, b);
+    for (size_t i = 0; ok && i < n; i++) {
+        const view_stretch *x = b->sides.data + items[i];
+        for (size_t j = i + 1; ok && j < n; j++) {
+            const view_stretch *y = b->sides.data + items[j];
+            if (y->edge != x->edge || view_compare_along(s, x->edge, &y->end[0], &x->end[1]) >= 0) break;
+            if (b->planes.data[items[i]] == b->planes.data[items[j]]) continue;
+            const bool within = view_compare_along(s, x->edge, &y->end[1], &x->end[1]) < 0;
+            const view_stretch part = {x->edge, {y->end[0], within ? y->end[1] : x->end[1]}};
+            ok = array_push(&s->alloc, out, part);
+        }
+    }
+    support_free(&s->alloc, items, (2 * n + 1) * sizeof *items);
+    b->sides.count = b->planes.count = 0;
+    return ok ? FROE_OK : FROE_E_MEMORY;
+}
+
+/* The sides of all pieces, visible or not. */
+static bool put_all_sides(between_patches *b, bool cull_back) {
+    view_sightlines *s = &b->v->sights;
+    const froe_tree *t = s->tree;
+    const int section = b->v->section;
+    const uint32_t middle = section ? tree_first_piece(t, t->nodes->child + 1) : 0;
+    const uint32_t from = section > 0 ? middle : section ? tree_first_piece(t, t->nodes->child) : 0;
+    bool ok = true;
+    for (uint32_t i = from; ok && i < (section < 0 ? middle : t->piece_count); i++) {
+        const uint32_t object = t->pieces[i].object, patch = s->surface->patch_of[object];
+        const int facing = patch == FROE_NONE ? 0 : view_facing(s, object);
+        if (!facing || (cull_back && facing < 0)) continue;
+        ok = view_beam_of(s, i, &b->ring) && put_sides(b, patch, true);
+    }
+    return ok;
+}
+
+froe_status view_look_between_patches(froe_visibility *v, view_crosser *c, bool cull_back) {
+    view_sightlines *s = &v->sights;
+    const size_t count = s->lines.count;
+    between_patches b = {.v = v, .count = count, .mate_of = support_calloc(&s->alloc, count + 1, sizeof *b.mate_of)};
+    bool any = false;
+    froe_status status = b.mate_of ? FROE_OK : FROE_E_MEMORY;
+    for (uint32_t i = 0; !status && c->hidden && i < count; i++) b.mate_of[i] = is_cut_between(&b, i);
+    for (uint32_t i = 0; !status && i < v->piece_count; i++)
+        for (uint32_t k = 0; k < v->pieces[i].count; k++) {
+            const uint32_t line = v->corners.data[v->pieces[i].first + k].way >> 1;
+            if (is_cut_between(&b, line) && s->lines.data[line].a == v->pieces[i].patch) b.mate_of[line] = 1;
+        }
+    if (!status) status = find_mates(&b, &any);
+    for (uint32_t i = 0; !status && any && i < v->piece_count; i++)
+        if (!view_ring_of_visible(v, s, i, &b.ring) || !put_sides(&b, v->pieces[i].patch, false))
+            status = FROE_E_MEMORY;
+    if (!status) status = put_overlaps(&b, &c->seen);
+    if (!status && any && c->hidden && !put_all_sides(&b, cull_back)) status = FROE_E_MEMORY;
+    if (!status) status = put_overlaps(&b, &c->all);
+    support_free(&s->alloc, b.mate_of, (count + 1) * sizeof *b.mate_of);
+    array_free(&s->alloc, &b.lines);
+    array_free(&s->alloc, &b.sides);
+    array_free(&s->alloc, &b.planes);
+    array_free(&s->alloc, &b.ring);
+    return status;
 }
 
 /* ---------------------------------------------------------------------- joining -- */

@@ -25,6 +25,9 @@ froe_status view_look_at_crossings(view_crosser *crosser, uint32_t piece, const 
 /** Appends where the section cuts a polygon that is seen edge-on, to the crossings of the visibility: all of it, since
  * REQUIRES: the eye is on the side of the section that is left out. FROE_E_MEMORY. */
 froe_status view_look_along_section(froe_visibility *visibility, uint32_t object);
+/** Finds where patches cross in a line along which a third cut has divided both: neither is in the list of that. After
+ * all has been looked at. FROE_E_MEMORY, FROE_E_LIMIT. */
+froe_status view_look_between_patches(froe_visibility *visibility, view_crosser *crosser, bool cull_back);
 /** Joins what was found to the crossings of the visibility. FROE_E_MEMORY. */
 froe_status view_join_crossings(froe_visibility *v, view_crosser *crosser);
 void view_crosser_free(view_crosser *crosser);

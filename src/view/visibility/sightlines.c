@@ -255,6 +255,40 @@ int view_compare_lines(view_sightlines *s, uint32_t a, uint32_t b, const double 
     return geom_line_compare(&s->context, &s->eye, &x, &y, axis_of(key));
 }
 
+/* An eye that looks along an axis, and not along the cut. */
+static geom_eye eye_across(view_sightlines *s, const geom_plane *cut) {
+    const froe_scene *scene = s->tree->scene;
+    geom_eye eye = {.axis = 0};
+    int side = 0;
+    for (int k = 0; k < 3 && !side; k++) {
+        const double at[3] = {k == 0, k == 1, k == 2};
+        eye = geom_eye_make(true, at, scene_vertex(scene, 0));
+        side = geom_side_of_eye(&s->context, cut, &eye);
+    }
+    geom_eye_set_extent(
+        &eye, fmax(fmax(scene->hi[0] - scene->lo[0], scene->hi[1] - scene->lo[1]), scene->hi[2] - scene->lo[2]));
+    return eye;
+}
+
+void view_cut_key(view_sightlines *s, uint32_t line, double key[3]) {
+    geom_plane planes[2];
+    const geom_line exact = resolve(s, line, planes);
+    const geom_plane cut = tree_plane_at(s->tree, s->lines.data[line].b);
+    const geom_eye eye = eye_across(s, &cut);
+    (void)geom_line_round(&s->context, &eye, &exact, key);
+    const bool turned = key[axis_of(key)] < 0;
+    for (int k = 0; k < 3 && turned; k++) key[k] = -key[k];
+}
+
+int view_compare_cuts(view_sightlines *s, uint32_t a, uint32_t b, const double key[3]) {
+    geom_plane planes[4];
+    if (a == b) return 0;
+    const geom_line x = resolve(s, a, planes), y = resolve(s, b, planes + 2);
+    const geom_plane cut = tree_plane_at(s->tree, s->lines.data[a].b);
+    const geom_eye eye = eye_across(s, &cut);
+    return geom_line_compare(&s->context, &eye, &x, &y, axis_of(key));
+}
+
 /* The point X = a(v) r(u) - a(u) r(v) (or its opposite, with a(v) < 0) and the axis e make the line X x e, and
  * l x (X x e) = X (l . e). */
 froe_status view_stop_edge(view_sightlines *s, uint32_t edge, uint32_t object, uint32_t line, view_mark *out) {
@@ -367,12 +401,11 @@ double view_share_round(view_sightlines *s, uint32_t line, uint32_t u, uint32_t 
     return geom_share_round(&s->context, &s->eye, &h, view_vertex(s, u), view_vertex(s, v));
 }
 
-/* By an exact multiplication. The normal has overflowed where its points are further from one another than 2^500. */
-geom_plane view_support(const froe_scene *scene, uint32_t object) {
-    geom_plane plane;
+/* By exact multiplications. The normal has overflowed where its points are further from one another than 2^500; what is
+ * not a number is not seen in n_max. */
+static geom_plane with_short_normal(geom_plane plane) {
     int exponent;
-    scene_support(scene, object, &plane);
-    if (!(plane.n_max < INFINITY)) {
+    if (plane.form == GEOM_POINTS && !(fabs(plane.n[0]) + fabs(plane.n[1]) + fabs(plane.n[2]) < INFINITY)) {
         double d[3], e[3];
         for (int k = 0; k < 3; k++) {
             d[k] = ldexp(plane.p[1][k], -600) - ldexp(plane.p[0][k], -600);
@@ -385,25 +418,68 @@ geom_plane view_support(const froe_scene *scene, uint32_t object) {
     frexp(plane.n_max, &exponent);
     for (int k = 0; k < 3; k++) plane.n[k] = ldexp(plane.n[k], -exponent);
     plane.n_max = ldexp(plane.n_max, -exponent);
+    plane.c = ldexp(plane.c, -exponent);
     return plane;
+}
+
+geom_plane view_support(const froe_scene *scene, uint32_t object) {
+    geom_plane plane;
+    scene_support(scene, object, &plane);
+    return with_short_normal(plane);
 }
 
 geom_plane view_plane_of(const view_sightlines *s, uint32_t patch) {
     return view_support(s->tree->scene, surface_first(s->surface, patch));
 }
 
+geom_plane view_plane_of_cut(const view_sightlines *s, uint32_t node) {
+    return with_short_normal(tree_plane_at(s->tree, node));
+}
+
 /* x = e - t r, or for a parallel eye x = y + t d with y the point of the ray in the plane w_k = 0. */
-void view_point_on(const view_sightlines *s, const geom_plane *plane, const double ray[3], double out[3]) {
+static void sight_of(const view_sightlines *s, const double ray[3], double start[3], double way[3]) {
     const geom_eye *eye = &s->eye;
-    double start[3], way[3], at = 0, slope = 0;
     for (int k = 0; k < 3; k++) {
         start[k] = eye->parallel ? eye->origin[k] : eye->at[k];
         way[k] = eye->parallel ? eye->at[k] : -ray[k];
     }
     for (int c = 0; c < 2 && eye->parallel; c++) start[(eye->axis + 1 + c) % 3] += ray[c] / ray[2] * eye->size;
+}
+
+/* How steeply a plane, of which the normal is about 1 long, meets a ray: n . r. *sure: that is more than rounding. */
+static double slope_of(const geom_plane *plane, const double way[3], bool *sure) {
+    double slope = 0, most = 0;
     for (int k = 0; k < 3; k++) {
-        at += plane->n[k] * (start[k] - plane->p[0][k]);
         slope += plane->n[k] * way[k];
+        most += fabs(plane->n[k] * way[k]);
     }
-    for (int k = 0; k < 3; k++) out[k] = start[k] - way[k] * (at / slope);
+    *sure = fabs(slope) > 0x1p-50 * most;
+    return slope;
+}
+
+void view_point_on(const view_sightlines *s, const geom_plane *plane, const double ray[3], double out[3]) {
+    const bool has_points = plane->form == GEOM_POINTS || plane->form == GEOM_VERTICAL;
+    double start[3], way[3], at = has_points ? 0 : -plane->c, back = 0, square = 0, most = 0;
+    bool sure;
+    sight_of(s, ray, start, way);
+    const double slope = slope_of(plane, way, &sure);
+    for (int k = 0; k < 3; k++) at += plane->n[k] * (start[k] - (has_points ? plane->p[0][k] : 0));
+    double t = at / slope;
+    for (int k = 0; k < 3 && !sure; k++) most = fmax(most, fabs(way[k]));
+    for (int k = 0; k < 3 && !sure;
+         k++) { /* seen all but edge-on: the point of the ray that is nearest to the plane's */
+        back += way[k] / most * (start[k] - (has_points ? plane->p[0][k] : start[k]));
+        square += way[k] / most * (way[k] / most);
+    }
+    if (!sure) t = back / square / most;
+    for (int k = 0; k < 3; k++) out[k] = start[k] - way[k] * t;
+}
+
+void view_point_on_both(const view_sightlines *s, const geom_plane *a, const geom_plane *b, const double ray[3],
+                        double out[3]) {
+    double start[3], way[3];
+    bool sure;
+    sight_of(s, ray, start, way);
+    const double steep_a = fabs(slope_of(a, way, &sure)), steep_b = fabs(slope_of(b, way, &sure));
+    view_point_on(s, 16 * steep_a >= steep_b ? a : b, ray, out);
 }

@@ -92,6 +92,10 @@ froe_status view_stop_edge(view_sightlines *sights, uint32_t edge, uint32_t obje
 bool view_line_key(view_sightlines *sights, uint32_t line, double key[3], bool *turned);
 /** Orders lines of equal keys: 0: they are equal. Exact. */
 int view_compare_lines(view_sightlines *sights, uint32_t a, uint32_t b, const double key[3]);
+/** The same for CUT lines of one node as lines of space, whatever the eye: where it lies in the cut, it sees them all
+ * as one. */
+void view_cut_key(view_sightlines *sights, uint32_t line, double key[3]);
+int view_compare_cuts(view_sightlines *sights, uint32_t a, uint32_t b, const double key[3]);
 /** Does the eye see an edge as a point? Exact. */
 bool view_is_point(view_sightlines *sights, uint32_t edge);
 
@@ -129,7 +133,12 @@ int view_compare_vertices(view_sightlines *sights, uint32_t line, uint32_t u, ui
 double view_share_round(view_sightlines *sights, uint32_t line, uint32_t u, uint32_t v);
 /** The plane of a polygon, its normal to a largest component of 1/2 .. 1: products with coordinates do not overflow. */
 geom_plane view_support(const froe_scene *scene, uint32_t object);
-/** The plane of a patch in the same way, and the point of it that is seen along a ray, in doubles. */
+/** The plane of a patch, and that of the cut of a node, in the same way. */
 geom_plane view_plane_of(const view_sightlines *sights, uint32_t patch);
+geom_plane view_plane_of_cut(const view_sightlines *sights, uint32_t node);
+/** The point of such a plane that is seen along a ray, in doubles. */
 void view_point_on(const view_sightlines *sights, const geom_plane *plane, const double ray[3], double out[3]);
+/** The point of the line in which two planes meet: by b where a is seen much more edge-on. */
+void view_point_on_both(const view_sightlines *sights, const geom_plane *a, const geom_plane *b, const double ray[3],
+                        double out[3]);
 #endif

@@ -172,6 +172,7 @@ static froe_status look_from_eye(visibility_search *k, const geom_eye *eye) {
     array_free(&v->alloc, &k->pieces);
     if (!status) status = view_join_intervals(v, &k->stretches);
     array_free(&v->alloc, &k->stretches);
+    if (!status && k->options->crossings) status = view_look_between_patches(v, &k->crosser, k->options->cull_back);
     if (!status) status = view_join_crossings(v, &k->crosser);
     if (!status) v->report.lines = v->sights.lines.count;
     if (!status) status = view_keep_lines(v);
