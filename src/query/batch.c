@@ -218,32 +218,32 @@ static void expect_as_much(const batch *b, const froe_query *q, batch_found *fou
     if (b->value) (void)array_reserve(&q->alloc, &found->values, more);
 }
 
-/* Are the ranges windows on a packed tree of the plane? They are answered all at once, too. */
-static bool are_windows(const batch *b, const froe_query *q, size_t first, size_t end, const double **windows) {
-    for (size_t i = first; b->boxes && q->packed && i < end; i++) windows[i - first] = b->boxes + 4 * i;
-    if (b->boxes) return q->packed;
-    for (size_t i = first; i < end; i++) {
-        const froe_range range = range_of(b, i);
-        if (!query_range_is_packed_window(q, &range)) return false;
-        windows[i - first] = range.points;
+/* Are all ranges windows on a packed tree? They are answered all at once, too. The dimension; 0: they are not. */
+static int are_windows(const batch *b, const froe_query *q, size_t first, size_t end, const double **windows) {
+    const froe_range one = range_of(b, first);
+    int dim = query_range_window(q, &one);
+    for (size_t i = first; i < end && dim; i++) {
+        if (b->ranges) dim = query_range_window(q, b->ranges + i);
+        windows[i - first] = b->ranges ? b->ranges[i].points : b->boxes + 2 * i * (size_t)dim;
     }
-    return true;
+    return dim;
 }
 
-/* Is a box of the plane certainly a good range? */
-static bool is_plain(const double *box) {
-    return box[0] <= box[2] && box[1] <= box[3] && fabs(box[0]) < INFINITY && fabs(box[1]) < INFINITY &&
-           box[2] < INFINITY && box[3] < INFINITY;
+/* Is a box certainly a good range? */
+static bool is_plain(const double *box, int dim) {
+    bool good = true;
+    for (int k = 0; k < dim; k++) good &= box[k] <= box[dim + k] && fabs(box[k]) < INFINITY && box[dim + k] < INFINITY;
+    return good;
 }
 
 /* What the context finds goes to the thread's answers. */
 static froe_status answer_windows(const batch *b, froe_query *q, size_t first, size_t end, const double *const *windows,
-                                  batch_found *found, froe_diagnostic *diag) {
+                                  int dim, batch_found *found, froe_diagnostic *diag) {
     froe_status status = FROE_OK;
     for (size_t i = first; i < end && !status; i++) {
-        if (b->boxes && is_plain(windows[i - first])) continue;
+        if (b->boxes && is_plain(windows[i - first], dim)) continue;
         const froe_range range = range_of(b, i);
-        status = query_range_check(&range, 2, diag);
+        status = query_range_check(&range, dim, diag);
         if (status) diag->object = (uint32_t)i;
     }
     for (size_t count; first < end && !status; first += count, windows += count) {
@@ -251,7 +251,9 @@ static froe_status answer_windows(const batch *b, froe_query *q, size_t first, s
         expect_as_much(b, q, found);
         const query_ids own = q->found;
         q->found = found->ids;
-        if (packed_ranges(q, windows, count, b->starts + first + 1)) status = query_failed(q, diag);
+        size_t *counts = b->starts + first + 1;
+        if (dim == 2 ? packed_ranges(q, windows, count, counts) : space_ranges(q, windows, count, false, counts))
+            status = query_failed(q, diag);
         found->ids = q->found;
         q->found = own;
         q->found.count = 0;
@@ -330,8 +332,8 @@ static froe_status answer_chunk(void *user, unsigned worker, size_t job) {
                           b->hits ? b->hits + first : NULL, b->objects ? b->objects + first : NULL, &c->diag);
     if (upright) status = packed_vertical(q, points, end - first, b->direction, b->objects + first);
     if (upright) return status ? query_failed(q, &c->diag) : FROE_OK;
-    if (b->ask == ask_range && are_windows(b, q, first, end, windows))
-        return answer_windows(b, q, first, end, windows, found, &c->diag);
+    const int dim = b->ask == ask_range ? are_windows(b, q, first, end, windows) : 0;
+    if (dim) return answer_windows(b, q, first, end, windows, dim, found, &c->diag);
     if (near) return answer_near(b, q, first, end, found, &c->diag);
     return answer_one_by_one(b, q, first, end, found, &c->diag);
 }

@@ -42,13 +42,19 @@ typedef struct space_walk {
 
 typedef struct space_ray_state space_ray_state; /* space_rays.c */
 
+/** A node, linked to the window that may meet it; or a leaf, linked to the next one. */
+typedef struct space_visit {
+    uint32_t what, link;
+} space_visit;
+
 /** What a context has for packed trees of space. */
 typedef struct space_work {
     const space_kernels *kernels;
     space_walk walk;
-    space_ray_state *batch; /**< NULL until a batch of rays comes */
-    uint64_t turns_from[2]; /**< rays of batches take turns on trees of so many bytes: for any hit, the first */
-    ARRAY(uint32_t) objects, others; /**< from kernels */
+    space_ray_state *batch;  /**< NULL until a batch of rays comes */
+    uint64_t turns_from[2];  /**< rays of batches take turns on trees of so many bytes: for any hit, the first */
+    ARRAY(uint32_t) objects; /**< from kernels */
+    ARRAY(space_visit) nodes, leaves; /**< of windows */
     ARRAY(float) keys, ends;
 } space_work;
 
@@ -78,7 +84,8 @@ froe_status space_rays(froe_query *query, const double *origins, const double *d
                        froe_hit *hits, uint32_t *objects, froe_diagnostic *diag);
 void space_batch_free(space_ray_state *batch, const froe_allocator *alloc);
 
-/** Objects that meet a closed box, or, with `any`, some of them if there are any: they are query->found. The caller
- * has begun the query and called query_range_of_box(). FROE_E_MEMORY. */
-froe_status space_range(froe_query *query, const double *lo, const double *hi, bool any);
+/** Objects that meet each of several good boxes (lower corner, then upper), or, with `any`, of a single box some of
+ * them if there are any: appended to query->found, one after the other, with their numbers in counts. Begins each
+ * query. FROE_E_MEMORY. */
+froe_status space_ranges(froe_query *query, const double *const *boxes, size_t count, bool any, size_t *counts);
 #endif

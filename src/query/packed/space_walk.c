@@ -27,7 +27,8 @@ void space_work_free(space_work *work, const froe_allocator *alloc) {
     array_free(alloc, &work->walk.stack);
     array_free(alloc, &work->walk.hits);
     array_free(alloc, &work->objects);
-    array_free(alloc, &work->others);
+    array_free(alloc, &work->nodes);
+    array_free(alloc, &work->leaves);
     array_free(alloc, &work->keys);
     array_free(alloc, &work->ends);
     support_free(alloc, work, sizeof *work);

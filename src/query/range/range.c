@@ -10,23 +10,23 @@ static bool is_window(const froe_range *range) {
     return range->size == sizeof *range && range->shape == FROE_SHAPE_BOX && range->eps == 0 &&
            range->walk == FROE_WALK_AUTO;
 }
-bool query_range_is_packed_window(const froe_query *q, const froe_range *range) {
-    return q->packed && is_window(range);
+int query_range_window(const froe_query *q, const froe_range *range) {
+    return !is_window(range) ? 0 : q->packed ? 2 : q->space && q->tree->packed.wide ? 3 : 0;
 }
 froe_status query_range_ask(froe_query *q, const froe_range *range, bool any, froe_diagnostic *diag) {
-    const int dim = query_range_is_packed_window(q, range)                 ? 2
-                    : q->space && q->tree->packed.wide && is_window(range) ? 3
-                                                                           : 0;
+    const int dim = query_range_window(q, range);
     froe_status status = dim ? query_range_check(range, dim, diag) : query_range_take(q, range, diag);
     if (status) return status;
-    if (dim) { /* a window on a packed tree */
-        const double *lo = range->points, *hi = lo + dim;
-        query_begin(q);
-        if (dim == 3) query_range_of_box(q, range);
-        status = dim == 3 ? space_range(q, lo, hi, any) : any ? packed_any(q, lo, hi) : packed_range(q, lo, hi);
-        return status ? query_failed(q, diag) : FROE_OK;
+    if (dim == 3) {
+        size_t count;
+        q->found.count = 0;
+        return space_ranges(q, &range->points, 1, any, &count) ? query_failed(q, diag) : FROE_OK;
     }
     query_begin(q);
+    if (dim == 2) {
+        status = (any ? packed_any : packed_range)(q, range->points, range->points + 2);
+        return status ? query_failed(q, diag) : FROE_OK;
+    }
     q->range.any = any;
     if (q->range.walk == FROE_WALK_CLASSES) return query_classes_search(q, diag);
     status = query_range_walk(q);
@@ -44,7 +44,7 @@ froe_status froe_query_range(froe_query *query, const froe_range *range, froe_li
 froe_status froe_query_count(froe_query *query, const froe_range *range, uint64_t *out, froe_diagnostic *diag) {
     BASE_FLOATS_OWN;
     if (!query || !range || !out) return support_fail_null(diag, __func__);
-    if (!query_range_is_packed_window(query, range)) {
+    if (query_range_window(query, range) != 2) {
         const froe_status status = query_range_ask(query, range, false, diag);
         if (!status) *out = query->found.count;
         return status;

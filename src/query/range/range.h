@@ -36,8 +36,8 @@ void query_range_free(query_range *range, const froe_allocator *alloc);
 froe_status query_range_take(struct froe_query *query, const froe_range *range, froe_diagnostic *diag);
 /** Prepares query->range, for query_range_meets() only, for a box that has been checked and is taken exactly. */
 void query_range_of_box(struct froe_query *query, const froe_range *box);
-/** Is it a box on a packed tree of the plane, answered by query/packed/packed.h? It need not be checked. */
-bool query_range_is_packed_window(const struct froe_query *query, const froe_range *range);
+/** The dimension, if it is a box on a packed tree, answered by query/packed/; otherwise 0. It need not be checked. */
+int query_range_window(const struct froe_query *query, const froe_range *range);
 /** Only checks it. */
 froe_status query_range_check(const froe_range *range, int dim, froe_diagnostic *diag);
 /** Checks, prepares, walks: what meets the range is in query->found; at least one object of it with `any`. */
