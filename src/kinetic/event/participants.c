@@ -9,6 +9,7 @@ void participants_clear(participants_table *all) {
     all->stamp++;
     all->list.count = 0;
     all->places.count = 0;
+    all->pair = false;
 }
 
 bool participants_have(const participants_table *all, uint32_t segment) {
@@ -37,7 +38,7 @@ static double rise(now_state *now, uint32_t segment, double dx) {
     return rises < height ? rises : height; /* NaN, too */
 }
 
-static void enlarge(participants_place *place, now_spot spot, const double error[2]) {
+static inline void enlarge(participants_place *place, now_spot spot, const double error[2]) {
     place->low[0] = place->high[0] = spot.x, place->low[1] = place->high[1] = spot.y;
     for (int i = 0; i < 2; i++) {
         const double e = (error[i] + fabs(place->low[i]) * 0x1p-50) * 2;
@@ -45,11 +46,16 @@ static void enlarge(participants_place *place, now_spot spot, const double error
     }
 }
 
-static participants_place place_of_vertex(now_state *now, uint32_t vertex) {
-    participants_place out;
-    const now_spot spot = now_vertex_flight(now, vertex, &out.speed);
+static inline participants_place place_of_spot(now_spot spot, double speed) {
+    participants_place out = {.speed = speed};
     enlarge(&out, spot, (double[]){spot.error, spot.error});
     return out;
+}
+
+static participants_place place_of_vertex(now_state *now, uint32_t vertex) {
+    double speed;
+    const now_spot spot = now_vertex_flight(now, vertex, &speed);
+    return place_of_spot(spot, speed);
 }
 
 /* A box around p. Around a crossing it reaches along the lines as far as x, where the other point is. */
@@ -68,7 +74,7 @@ static double margin(double speed, double other) {
     return 4 * (speed + other);
 }
 
-static bool places_meet(const participants_place *a, const participants_place *b) {
+static inline bool places_meet(const participants_place *a, const participants_place *b) {
     double far = margin(a->speed, b->speed);
     for (int i = 0; i < 2; i++)
         if (a->low[i] > b->high[i] + far || b->low[i] > a->high[i] + far) return false;
@@ -77,20 +83,22 @@ static bool places_meet(const participants_place *a, const participants_place *b
 
 /* -------------------------------------------------------------------- near -- */
 
-typedef struct line {
-    double at[2][2], error, speed;
-} line;
+typedef participants_line line;
 
-static line line_of_segment(now_state *now, uint32_t segment) {
+static inline line line_of_segment(now_state *now, uint32_t segment) {
     const uint32_t *end = now->segments.data[segment].end;
-    double speed[2];
-    const now_spot a = now_vertex_flight(now, end[0], speed), b = now_vertex_flight(now, end[1], speed + 1);
-    return (line){
-        {{a.x, a.y}, {b.x, b.y}}, a.error > b.error ? a.error : b.error, speed[0] > speed[1] ? speed[0] : speed[1]};
+    line s;
+    for (int i = 0; i < 2; i++) {
+        s.spot[i] = now_vertex_flight(now, end[i], s.speeds + i);
+        s.at[i][0] = s.spot[i].x, s.at[i][1] = s.spot[i].y;
+    }
+    s.error = s.spot[0].error > s.spot[1].error ? s.spot[0].error : s.spot[1].error;
+    s.speed = s.speeds[0] > s.speeds[1] ? s.speeds[0] : s.speeds[1];
+    return s;
 }
 
 /* May a segment meet a place, enlarged on all sides by what both move? Most are far above or below. */
-static bool comes_near(const line *s, const participants_place *place) {
+static inline bool comes_near(const line *s, const participants_place *place) {
     double half[2], far = margin(place->speed, s->speed);
     far += 2 * s->error;
     for (int i = 1; i >= 0; i--) {
@@ -171,8 +179,51 @@ static void add_flop(froe_kinetic *k, uint32_t surface) {
     }
 }
 
+/* ------------------------------------------------------------------- pairs -- */
+
+/* Where two vertices pass that belong to a segment each, as almost always, each end is looked at once. False: it is not
+ * so. */
+static bool add_pair(froe_kinetic *k, const slab_item *item) {
+    participants_table *all = &k->participants;
+    const ktree *tree = &k->tree;
+    const uint32_t end[2] = {tree->vertices.data[item->claim.p.a], tree->vertices.data[item->claim.q.a]};
+    for (int i = 0; i < 2; i++)
+        if (end[i] == FROE_NONE || ktree_next_end(tree, end[i]) != FROE_NONE ||
+            !ktree_segment_at(tree, end[i] / 2)->here)
+            return false;
+    if (!call_reserve(&k->call, &all->places, 2)) return false;
+    for (int i = 0; i < 2; i++) {
+        const uint32_t which = all->which[i] = end[i] % 2;
+        line *s = all->line + i;
+        add_segment(all, end[i] / 2);
+        *s = line_of_segment(&k->now, end[i] / 2);
+        all->places.data[i] = place_of_spot(s->spot[which], s->speeds[which]);
+    }
+    all->places.count = 2;
+    return all->pair = true;
+}
+
+static bool is_pair_apart(const participants_table *all) {
+    const participants_place *place = all->places.data;
+    return !places_meet(place, place + 1) && !comes_near(all->line, place + 1) && !comes_near(all->line + 1, place) &&
+           !(is_upright(all->line, place) && is_upright(all->line + 1, place + 1));
+}
+
+static bool has_pair_loose_ends(const participants_table *all) {
+    const participants_place *place = all->places.data;
+    for (int i = 0; i < 2; i++) {
+        const uint32_t other = 1 - all->which[i];
+        const participants_place at = place_of_spot(all->line[i].spot[other], all->line[i].speeds[other]);
+        if (places_meet(&at, place) || places_meet(&at, place + 1)) return true;
+    }
+    return false;
+}
+
+/* ------------------------------------------------------------------- items -- */
+
 bool participants_add_item(froe_kinetic *k, const slab_item *item) {
     participants_table *all = &k->participants;
+    if (item->event == FROE_EVENT_VERTICES && !all->places.count && add_pair(k, item)) return is_pair_apart(all);
     if (item->kind == CERT_FLOP) {
         add_flop(k, item->cert);
         return false;
@@ -196,6 +247,7 @@ bool participants_add_item(froe_kinetic *k, const slab_item *item) {
 bool participants_have_loose_ends(froe_kinetic *k, const slab_item *item) {
     const participants_table *all = &k->participants;
     name_point p = item->claim.p, q = item->claim.q;
+    if (all->pair && all->list.count == 2) return has_pair_loose_ends(all);
     for (size_t i = 0; i < 2 * all->list.count; i++) {
         const uint32_t vertex = k->now.segments.data[all->list.data[i / 2]].end[i % 2];
         if ((name_is_vertex(p) && p.a == vertex) || (name_is_vertex(q) && q.a == vertex)) continue;

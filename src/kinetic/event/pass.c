@@ -353,7 +353,9 @@ pass_outcome pass_wall(froe_kinetic *k, const slab_item *item) {
     surgery_begin(k);
     if (!list_crossing(k, &p)) return PASS_REFUSED;
     if (k->call.stopped) return PASS_DONE;
-    bool more = participants_add_near(k, (uint32_t[]){near->top, near->bottom, far->top, far->bottom}, 4);
+    const uint32_t border[4] = {near->top, near->bottom, far->top == near->top ? FROE_NONE : far->top,
+                                far->bottom == near->bottom ? FROE_NONE : far->bottom};
+    bool more = participants_add_near(k, border, 4);
     more = participants_add_near(k, tree->list.data, tree->list.count) || more;
     if (more) return PASS_NEIGHBOURS;
     if (!list_crossing_after(tree, &p, point) || k->now.lost) return PASS_REFUSED;
