@@ -44,9 +44,8 @@ static void sink(queue_heap *queue, size_t place) {
     put_entry(queue, place, entry);
 }
 
-void queue_remove(queue_heap *queue, uint32_t id) {
+void queue_take_out(queue_heap *queue, uint32_t id) {
     const uint32_t place = queue->places.data[id];
-    if (place == FROE_NONE) return;
     const queue_entry last = queue->entries.data[--queue->entries.count];
     queue->places.data[id] = FROE_NONE;
     if (last.id == id) return;

@@ -360,11 +360,14 @@ pass_outcome pass_wall(froe_kinetic *k, const slab_item *item) {
     if (more) return PASS_NEIGHBOURS;
     if (!list_crossing_after(tree, &p, point) || k->now.lost) return PASS_REFUSED;
     k->counts.surgeries++;
+    k->certs.forgets = !tree->augmented; /* there a tick may be that of a turn */
     move_segment(k, &p);
-    if (k->call.stopped) return PASS_DONE;
-    know_neighbours(k, &p, point);
-    certify_sites(k, (const ktree_site *const[]){&p.near.site, &p.far.site}, 2);
-    k->certs.known_count = 0;
-    turn_certify_halves(k);
+    if (!k->call.stopped) {
+        know_neighbours(k, &p, point);
+        certify_sites(k, (const ktree_site *const[]){&p.near.site, &p.far.site}, 2);
+        k->certs.known_count = 0;
+        turn_certify_halves(k);
+    }
+    k->certs.forgets = false;
     return PASS_DONE;
 }

@@ -25,7 +25,7 @@ typedef struct straight_claim {
 typedef double straight_value(const straight_claim *c, double s);
 
 /* Looks up the pieces of some vertices. False: not all fly straight. */
-static bool find_courses(now_state *now, const uint32_t *vertex, int count, int64_t *last, straight_claim *out) {
+static inline bool find_courses(now_state *now, const uint32_t *vertex, int count, int64_t *last, straight_claim *out) {
     for (int i = 0; i < count; i++) {
         const now_course *c = now_course_of(now, vertex[i]);
         if (c->degree > 1) return false;
@@ -48,7 +48,7 @@ static double order_at(const straight_claim *c, double s) {
 }
 
 /* Where the first `count` vertices are then. */
-static void places_at(const straight_claim *c, int count, double s, double at[][2]) {
+static inline void places_at(const straight_claim *c, int count, double s, double at[][2]) {
     for (int i = 0; i < count; i++) {
         const now_course *v = c->course[i];
         const double t = c->start[i] + s;
