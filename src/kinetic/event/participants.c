@@ -88,27 +88,31 @@ typedef participants_line line;
 static inline line line_of_segment(now_state *now, uint32_t segment) {
     const uint32_t *end = now->segments.data[segment].end;
     line s;
-    for (int i = 0; i < 2; i++) {
-        s.spot[i] = now_vertex_flight(now, end[i], s.speeds + i);
-        s.at[i][0] = s.spot[i].x, s.at[i][1] = s.spot[i].y;
-    }
+    for (int i = 0; i < 2; i++) s.spot[i] = now_vertex_flight(now, end[i], s.speeds + i);
     s.error = s.spot[0].error > s.spot[1].error ? s.spot[0].error : s.spot[1].error;
     s.speed = s.speeds[0] > s.speeds[1] ? s.speeds[0] : s.speeds[1];
     return s;
 }
 
+/* Is it beside a range in one coordinate? */
+static inline bool is_beside(double a, double b, const participants_place *place, int i, double slack) {
+    return (a < b ? b : a) < place->low[i] - slack || (a < b ? a : b) > place->high[i] + slack;
+}
+
 /* May a segment meet a place, enlarged on all sides by what both move? Most are far above or below. */
 static inline bool comes_near(const line *s, const participants_place *place) {
-    double half[2], far = margin(place->speed, s->speed);
+    const now_spot a = s->spot[0], b = s->spot[1];
+    double far = margin(place->speed, s->speed);
     far += 2 * s->error;
-    for (int i = 1; i >= 0; i--) {
-        const double a = s->at[0][i], b = s->at[1][i], slack = far + (fabs(a) + fabs(b)) * 0x1p-50;
-        if ((a < b ? b : a) < place->low[i] - slack || (a < b ? a : b) > place->high[i] + slack) return false;
-        half[i] = 0.5 * place->high[i] - 0.5 * place->low[i] + slack;
-    }
-    const double d[2] = {s->at[1][0] - s->at[0][0], s->at[1][1] - s->at[0][1]};
-    const double u = 0.5 * place->low[0] + 0.5 * place->high[0] - s->at[0][0];
-    const double v = 0.5 * place->low[1] + 0.5 * place->high[1] - s->at[0][1];
+    const double up = far + (fabs(a.y) + fabs(b.y)) * 0x1p-50;
+    if (is_beside(a.y, b.y, place, 1, up)) return false;
+    const double over = far + (fabs(a.x) + fabs(b.x)) * 0x1p-50;
+    if (is_beside(a.x, b.x, place, 0, over)) return false;
+    const double half[2] = {0.5 * place->high[0] - 0.5 * place->low[0] + over,
+                            0.5 * place->high[1] - 0.5 * place->low[1] + up};
+    const double d[2] = {b.x - a.x, b.y - a.y};
+    const double u = 0.5 * place->low[0] + 0.5 * place->high[0] - a.x;
+    const double v = 0.5 * place->low[1] + 0.5 * place->high[1] - a.y;
     double reach = fabs(d[0]) * half[1] + fabs(d[1]) * half[0];
     double off = fabs(d[0] * v - d[1] * u), slack = (fabs(d[0] * v) + fabs(d[1] * u)) * 0x1p-48;
     return !(off > reach * (1 + 0x1p-40) + slack);
@@ -139,7 +143,7 @@ bool participants_add_near(froe_kinetic *k, const uint32_t *segments, size_t cou
 
 /* Is the other end of a segment, as good as, above or below a place at which it ends? */
 static bool is_upright(const line *s, const participants_place *place) {
-    const double width = fabs(s->at[1][0] - s->at[0][0]);
+    const double width = fabs(s->spot[1].x - s->spot[0].x);
     return !(width > margin(s->speed, place->speed) + 2 * s->error + (place->high[0] - place->low[0]));
 }
 
@@ -262,9 +266,9 @@ bool participants_have_loose_ends(froe_kinetic *k, const slab_item *item) {
 
 /* The part of s that is near the line of t, as shares of the way along s. False: there is none. */
 static bool near_line(const line *s, const line *t, double far, double share[2]) {
-    double d[2] = {t->at[1][0] - t->at[0][0], t->at[1][1] - t->at[0][1]}, off[2], slack = 0;
+    double d[2] = {t->spot[1].x - t->spot[0].x, t->spot[1].y - t->spot[0].y}, off[2], slack = 0;
     for (int e = 0; e < 2; e++) {
-        double u = s->at[e][0] - t->at[0][0], v = s->at[e][1] - t->at[0][1];
+        double u = s->spot[e].x - t->spot[0].x, v = s->spot[e].y - t->spot[0].y;
         off[e] = d[0] * v - d[1] * u;
         slack += (fabs(d[0] * v) + fabs(d[1] * u)) * 0x1p-48;
     }
@@ -284,11 +288,11 @@ void participants_reach_pair(now_state *now, double slab[2], uint32_t s, uint32_
     const line a = line_of_segment(now, s), b = line_of_segment(now, t);
     double share[2], far = margin(a.speed, b.speed) + 2 * (a.error + b.error);
     if (!near_line(&b, &a, far, share) || !near_line(&a, &b, far, share)) return;
-    double x[2] = {a.at[0][0] + share[0] * (a.at[1][0] - a.at[0][0]),
-                   a.at[0][0] + share[1] * (a.at[1][0] - a.at[0][0])};
+    double x[2] = {a.spot[0].x + share[0] * (a.spot[1].x - a.spot[0].x),
+                   a.spot[0].x + share[1] * (a.spot[1].x - a.spot[0].x)};
     double slack = far + (fabs(x[0]) + fabs(x[1])) * 0x1p-40;
-    double low = fmax(fmin(x[0], x[1]), fmin(b.at[0][0], b.at[1][0])) - slack;
-    double high = fmin(fmax(x[0], x[1]), fmax(b.at[0][0], b.at[1][0])) + slack;
+    double low = fmax(fmin(x[0], x[1]), fmin(b.spot[0].x, b.spot[1].x)) - slack;
+    double high = fmin(fmax(x[0], x[1]), fmax(b.spot[0].x, b.spot[1].x)) + slack;
     if (low > high) return;
     slab[0] = fmin(slab[0], low), slab[1] = fmax(slab[1], high);
     slab_reach(now, slab, name_crossing(s, t));

@@ -17,7 +17,6 @@ typedef struct participants_place {
 
 /** A segment: its ends, how far off and how fast they are, and at most one of them. */
 typedef struct participants_line {
-    double at[2][2];
     now_spot spot[2];
     double speeds[2], error, speed;
 } participants_line;
