@@ -14,7 +14,8 @@ static void set_cert(froe_kinetic *k, uint32_t *cert, cert_kind kind, uint32_t o
     if (*cert != FROE_NONE) {
         const cert_record *c = k->certs.all.data + *cert;
         if (claim && claim_is(&c->claim, claim) && c->tick > k->now.tick) return;
-        cert_forget(&k->certs, cert);
+        cert_drop(&k->certs, *cert);
+        *cert = FROE_NONE;
     }
     if (claim) *cert = cert_new(&k->certs, kind, owner, certify_fail_tick(k, claim), claim);
 }
