@@ -355,13 +355,12 @@ void certify_passing(froe_kinetic *k, const certify_side both[2], uint32_t commo
     ktree *tree = &k->tree;
     for (const certify_side *b = both; b < both + 2; b++) {
         for (size_t i = 0; i < b->count; i++) certify_beside(k, b->nodes[i], b->side, b->wall);
-        if (!b->root) continue;
+        if (b->own < 0) continue;
         const uint32_t node = ktree_node_at(tree, b->site->parent)->child[b->site->slot];
         const ktree_node *n = ktree_node_at(tree, node);
         tree->nodes.data[node].cut = find_cut(tree, node);
-        certify_regions(k, node, &b->site->cell, ALL_REGIONS);
-        for (int side = 0; side < 2; side++)
-            if (ktree_is_end(n->wall[side])) certify_end(k, node, &b->site->cell, side);
+        certify_regions(k, node, &b->site->cell, region_around((uint8_t)b->own) | 1u << CERT_MIDDLE);
+        if (ktree_is_end(n->wall[b->own])) certify_end(k, node, &b->site->cell, b->own);
     }
     call_poll(&k->call);
     for (int i = 0; i < 2; i++) certify_above(k, both[i].site, common);

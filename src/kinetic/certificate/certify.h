@@ -37,7 +37,7 @@ typedef struct certify_side {
     name_point wall;       /**< this one */
     const uint32_t *nodes; /**< those with walls next to it, children before parents */
     size_t count;
-    bool root; /**< the node at the site has got a wall, or lost one */
+    int own; /**< on which side the node at the site has got a wall, or lost one; -1: it has not */
 } certify_side;
 /** Does what certify_sites() does after a passing, of which all is known that changed. `common`: the lowest node above
  * both sites. REQUIRES: the tree is in the plane and not augmented. */

@@ -359,8 +359,9 @@ static void certify_both(froe_kinetic *k, const passing *p, name_point point) {
     const name_point wall = p->near.site.cell.wall[p->near.side];
     if (know_neighbours(k, p, point) && !k->tree.augmented) {
         const uint32_t *beside = k->surgery.beside.data;
-        const certify_side both[2] = {{&p->near.site, p->near.side, wall, beside + far, all - far, p->grows},
-                                      {&p->far.site, p->far.side, point, beside, far, true}};
+        const int near = p->near.side, other = p->far.side;
+        const certify_side both[2] = {{&p->near.site, near, wall, beside + far, all - far, p->grows ? near : -1},
+                                      {&p->far.site, other, point, beside, far, p->grows ? near : other}};
         certify_passing(k, both, p->owner);
     } else {
         certify_sites(k, (const ktree_site *const[]){&p->near.site, &p->far.site}, 2);
