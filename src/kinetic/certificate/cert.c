@@ -61,7 +61,8 @@ static cert_recent *recent_at(const cert_table *certs, const now_claim *c) {
 void cert_drop(cert_table *certs, uint32_t cert) {
     cert_record *c = certs->all.data + cert;
     queue_remove(&certs->queue, cert);
-    if (c->kind <= CERT_BELOW && !certs->forgets) *recent_at(certs, &c->claim) = (cert_recent){c->claim, certs->stamp, c->tick};
+    if (c->kind <= CERT_BELOW && !certs->forgets)
+        *recent_at(certs, &c->claim) = (cert_recent){c->claim, certs->stamp, c->tick};
     c->kind = CERT_FREE;
     c->next = certs->first_free;
     certs->first_free = cert;

@@ -292,8 +292,7 @@ static void gather_failed_certs(froe_kinetic *k, bool known) {
     gather_flops(k);
     for (size_t i = 0; i < events->turning.count; i++) {
         const uint32_t s = events->turning.data[i], *end = k->now.segments.data[s].end;
-        slab_item item = {
-            .cert = s, .kind = CERT_TURN, .claim = {{end[0], NAME_VERTEX}, {end[1], NAME_VERTEX}, 0}};
+        slab_item item = {.cert = s, .kind = CERT_TURN, .claim = {{end[0], NAME_VERTEX}, {end[1], NAME_VERTEX}, 0}};
         slab_locate(&k->now, &item);
         slab_find(&k->tree, &item);
         call_push(&k->call, &events->items, item);
@@ -362,7 +361,8 @@ static bool repair(froe_kinetic *k, event_group *g, const event_summary *event, 
     set_lines(&k->now, g);
     for (size_t i = 0; i < g->count && !outcome && is_sound(k); i++) { /* if walls are passed, and that is all */
         const slab_item *item = item_of(k, g, i);
-        if (g->first + i == 0 || is_current(k, item)) outcome = slab_is_one_place(item) ? PASS_REFUSED : pass_wall(k, item);
+        if (g->first + i == 0 || is_current(k, item))
+            outcome = slab_is_one_place(item) ? PASS_REFUSED : pass_wall(k, item);
     }
     const bool crowd = outcome && !operate(k, g, simple && outcome == PASS_REFUSED);
     if (crowd) {

@@ -139,7 +139,7 @@ bool participants_add_near(froe_kinetic *k, const uint32_t *segments, size_t cou
     return k->participants.list.count > before;
 }
 
-/* ------------------------------------------------------------------- items -- */
+/* ------------------------------------------------------------------- apart -- */
 
 /* Is the other end of a segment, as good as, above or below a place at which it ends? */
 static bool is_upright(const line *s, const participants_place *place) {
