@@ -254,6 +254,7 @@ void froe_kinetic_free(froe_kinetic *k) {
     array_free(&alloc, &k->surgery.tasks);
     array_free(&alloc, &k->surgery.cuttings);
     array_free(&alloc, &k->surgery.scratch);
+    array_free(&alloc, &k->surgery.beside);
     array_free(&alloc, &k->surgery.kept);
     array_free(&alloc, &k->surgery.parts);
     array_free(&alloc, &k->surgery.orders);

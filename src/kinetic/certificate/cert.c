@@ -45,8 +45,9 @@ uint32_t cert_new(cert_table *certs, cert_kind kind, uint32_t owner, int64_t tic
                                           .next = FROE_NONE,
                                           .kind = kind,
                                           .claim = claim ? *claim : nothing,
-                                          .covered = {FROE_NONE, FROE_NONE}};
-    cert_set_tick(certs, cert, tick);
+                                          .covered = {FROE_NONE, FROE_NONE},
+                                          .tick = tick};
+    if (tick != NOW_NEVER) queue_set(&certs->queue, cert, tick);
     return cert;
 }
 
@@ -60,7 +61,8 @@ static cert_recent *recent_at(const cert_table *certs, const now_claim *c) {
 void cert_drop(cert_table *certs, uint32_t cert) {
     cert_record *c = certs->all.data + cert;
     queue_remove(&certs->queue, cert);
-    if (c->kind <= CERT_BELOW) *recent_at(certs, &c->claim) = (cert_recent){c->claim, certs->stamp, c->tick};
+    if (c->kind <= CERT_BELOW && !certs->forgets)
+        *recent_at(certs, &c->claim) = (cert_recent){c->claim, certs->stamp, c->tick};
     c->kind = CERT_FREE;
     c->next = certs->first_free;
     certs->first_free = cert;
@@ -75,6 +77,7 @@ void cert_forget(cert_table *certs, uint32_t *cert) {
 }
 
 int64_t cert_recall(const cert_table *certs, const now_claim *claim) {
+    if (certs->forgets) return -1;
     const cert_recent *r = recent_at(certs, claim);
     bool known = r->stamp == certs->stamp && claim_is(&r->claim, claim);
     return known && r->tick > certs->now->tick ? r->tick : -1;

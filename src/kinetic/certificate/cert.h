@@ -64,6 +64,7 @@ typedef struct cert_table {
     unsigned known_count;
     cert_recent *recent;
     uint32_t stamp; /**< of the present surgery */
+    bool forgets;   /**< `recent` is not used in it: hardly any claim is made again */
 } cert_table;
 
 /** FROE_E_MEMORY. */

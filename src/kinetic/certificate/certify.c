@@ -14,7 +14,8 @@ static void set_cert(froe_kinetic *k, uint32_t *cert, cert_kind kind, uint32_t o
     if (*cert != FROE_NONE) {
         const cert_record *c = k->certs.all.data + *cert;
         if (claim && claim_is(&c->claim, claim) && c->tick > k->now.tick) return;
-        cert_forget(&k->certs, cert);
+        cert_drop(&k->certs, *cert);
+        *cert = FROE_NONE;
     }
     if (claim) *cert = cert_new(&k->certs, kind, owner, certify_fail_tick(k, claim), claim);
 }
@@ -62,8 +63,10 @@ void certify_borders(const ktree *tree, uint32_t node, const ktree_cell *cell, c
     for (int side = 0; side < 2; side++) {
         const bool outer = region == (side == KTREE_LEFT ? CERT_LEFT : CERT_RIGHT);
         const int own = region == CERT_MIDDLE ? side : 1 - side;
-        out[side] =
-            outer || n->wall[own] == KTREE_NO_WALL ? cell->wall[side] : ktree_wall_name(tree, n->segment, n->wall[own]);
+        if (!outer && n->wall[own] != KTREE_NO_WALL)
+            out[side] = ktree_wall_name(tree, n->segment, n->wall[own]);
+        else
+            out[side] = cell ? cell->wall[side] : ktree_wall_beside(tree, node, side);
     }
 }
 
@@ -86,17 +89,23 @@ static bool has_region(const ktree *tree, const ktree_node *n, cert_kind region)
     return !has_cut(tree, child[KTREE_UP]) && !has_cut(tree, child[KTREE_DOWN]);
 }
 
-/* The regions of a node. cell NULL: its walls have stayed, and nothing but what is inside of its regions has changed.
- */
-static void certify_regions(froe_kinetic *k, uint32_t node, const ktree_cell *cell) {
+static bool is_due(const froe_kinetic *k, uint32_t cert) {
+    return cert != FROE_NONE && k->certs.all.data[cert].tick <= k->now.tick;
+}
+
+enum { ALL_REGIONS = 7 };
+
+/* The regions of a node, of which only those in `some`, as bits, and those that are due, can have changed. cell NULL:
+ * its walls have stayed, and nothing but what is inside of its regions has changed. */
+static void certify_regions(froe_kinetic *k, uint32_t node, const ktree_cell *cell, unsigned some) {
     static const cert_kind order[3] = {CERT_LEFT, CERT_RIGHT, CERT_MIDDLE};
     const ktree *tree = &k->tree;
     ktree_node *n = ktree_node_at(tree, node);
-    ktree_cell own;
     if (!has_walls(n) && !has_certs(n)) return;
     for (int i = 0; i < 3; i++) {
         const cert_kind region = order[i];
         uint32_t *cert = n->cert + region;
+        if (!(some >> region & 1) && !is_due(k, *cert)) continue;
         bool wanted = has_region(tree, n, region);
         if (!wanted && *cert == FROE_NONE) continue;
         if (wanted && !cell && !tree->augmented && *cert != FROE_NONE && k->certs.all.data[*cert].tick > k->now.tick)
@@ -104,7 +113,6 @@ static void certify_regions(froe_kinetic *k, uint32_t node, const ktree_cell *ce
         now_claim claim = {{0, NAME_NONE}, {0, NAME_NONE}, 0};
         if (wanted) {
             name_point border[2];
-            if (!cell) own = ktree_cell_of(tree, node), cell = &own;
             certify_borders(tree, node, cell, region, border);
             claim.p = border[KTREE_LEFT], claim.q = border[KTREE_RIGHT];
             wanted = name_exists(claim.p) && name_exists(claim.q);
@@ -263,34 +271,36 @@ static void certify_touched(froe_kinetic *k, uint32_t root, ktree_cell cell) {
         const ktree_node *n = ktree_node_at(tree, node);
         ktree_node_at(tree, node)->cut = find_cut(tree, node);
         if (!has_walls(n) && !has_certs(n)) continue;
-        certify_regions(k, node, &cell);
+        certify_regions(k, node, &cell, ALL_REGIONS);
         for (int side = 0; side < 2; side++)
             if (ktree_is_end(ktree_node_at(tree, node)->wall[side])) certify_end(k, node, &cell, side);
     }
 }
 
-/* The regions of the nodes above a subtree, as far as these tell whether there is a wall in it. */
-static void certify_above(froe_kinetic *k, const ktree_site *site) {
+/* The region of a node that has a child in it, as a bit. */
+static unsigned region_around(uint8_t slot) {
+    return 1u << (slot == KTREE_LEFT ? CERT_LEFT : slot == KTREE_RIGHT ? CERT_RIGHT : CERT_MIDDLE);
+}
+
+/* The regions of the nodes above a subtree, as far as these tell whether there is a wall in it. Nodes above `common`
+ * and below have changed in the subtree alone; KTREE_LEAF: there may be more. */
+static void certify_above(froe_kinetic *k, const ktree_site *site, uint32_t common) {
     ktree *tree = &k->tree;
-    bool changed = has_cut(tree, ktree_node_at(tree, site->parent)->child[site->slot]) != site->cut;
+    uint8_t slot = site->slot;
+    bool changed = has_cut(tree, ktree_node_at(tree, site->parent)->child[slot]) != site->cut;
     for (uint32_t n = site->parent; changed && n != KTREE_ROOT; n = ktree_node_at(tree, n)->parent) {
         bool cut = find_cut(tree, n);
         changed = cut != ktree_node_at(tree, n)->cut;
         ktree_node_at(tree, n)->cut = cut;
-        certify_regions(k, n, NULL);
+        certify_regions(k, n, NULL, !common || n == common ? ALL_REGIONS : region_around(slot));
+        slot = ktree_slot_of(tree, n);
     }
 }
 
-void certify_sites(froe_kinetic *k, const ktree_site *const sites[], int count) {
+/* Ends that were touched, outside of the subtrees, and those without a wall. */
+static void certify_touched_ends(froe_kinetic *k) {
     ktree *tree = &k->tree;
-    if (k->call.stopped) return; /* parts may have no parent */
-    for (int i = 0; i < count; i++) {
-        const uint32_t root = ktree_node_at(tree, sites[i]->parent)->child[sites[i]->slot];
-        if (root && ktree_node_at(tree, root)->stamp == tree->stamp) certify_touched(k, root, sites[i]->cell);
-    }
-    for (int i = 0; i < count; i++) certify_above(k, sites[i]); /* a node may be above several */
-    if (k->call.stopped) return;
-    for (size_t i = 0; i < tree->touched.count; i++) { /* ends outside of the subtree, and those without a wall */
+    for (size_t i = 0; i < tree->touched.count; i++) {
         uint32_t segment = tree->touched.data[i] / 2, which = tree->touched.data[i] % 2;
         const ktree_end *end = ktree_segment_at(tree, segment)->end + which;
         if (!end->node) {
@@ -304,8 +314,57 @@ void certify_sites(froe_kinetic *k, const ktree_site *const sites[], int count) 
     tree->touched.count = 0;
 }
 
+void certify_sites(froe_kinetic *k, const ktree_site *const sites[], int count) {
+    ktree *tree = &k->tree;
+    if (k->call.stopped) return; /* parts may have no parent */
+    for (int i = 0; i < count; i++) {
+        const uint32_t root = ktree_node_at(tree, sites[i]->parent)->child[sites[i]->slot];
+        if (root && ktree_node_at(tree, root)->stamp == tree->stamp) certify_touched(k, root, sites[i]->cell);
+    }
+    for (int i = 0; i < count; i++) certify_above(k, sites[i], KTREE_LEAF); /* a node may be above several */
+    if (!k->call.stopped) certify_touched_ends(k);
+}
+
 void certify_site(froe_kinetic *k, const ktree_site *site) {
     certify_sites(k, &site, 1);
+}
+
+/* ---------------------------------------------------------------- passings -- */
+
+/* The region between a node and the wall beside it, which has become another one. */
+static void certify_beside(froe_kinetic *k, uint32_t node, int side, name_point wall) {
+    const ktree *tree = &k->tree;
+    ktree_node *n = ktree_node_at(tree, node);
+    const bool ends = n->wall[side] != KTREE_NO_WALL;
+    const cert_kind region = !ends ? CERT_MIDDLE : side == KTREE_LEFT ? CERT_LEFT : CERT_RIGHT;
+    for (int i = 0; i < 3; i++)
+        if (i != (int)region && is_due(k, n->cert[i])) { /* in the usual order */
+            const ktree_cell cell = ktree_cell_of(tree, node);
+            certify_regions(k, node, &cell, ALL_REGIONS);
+            return;
+        }
+    now_claim claim = {wall, wall, 0};
+    *(side == KTREE_LEFT ? &claim.q : &claim.p) = ktree_wall_name(tree, n->segment, n->wall[ends ? side : 1 - side]);
+    if (has_region(tree, n, region))
+        set_cert(k, n->cert + region, region, node, &claim);
+    else if (n->cert[region] != FROE_NONE)
+        set_cert(k, n->cert + region, region, node, NULL);
+}
+
+void certify_passing(froe_kinetic *k, const certify_side both[2], uint32_t common) {
+    ktree *tree = &k->tree;
+    for (const certify_side *b = both; b < both + 2; b++) {
+        for (size_t i = 0; i < b->count; i++) certify_beside(k, b->nodes[i], b->side, b->wall);
+        if (b->own < 0) continue;
+        const uint32_t node = ktree_node_at(tree, b->site->parent)->child[b->site->slot];
+        const ktree_node *n = ktree_node_at(tree, node);
+        tree->nodes.data[node].cut = find_cut(tree, node);
+        certify_regions(k, node, &b->site->cell, region_around((uint8_t)b->own) | 1u << CERT_MIDDLE);
+        if (ktree_is_end(n->wall[b->own])) certify_end(k, node, &b->site->cell, b->own);
+    }
+    call_poll(&k->call);
+    for (int i = 0; i < 2; i++) certify_above(k, both[i].site, common);
+    if (!k->call.stopped) certify_touched_ends(k);
 }
 
 /* --------------------------------------------------------- turns and flops -- */

@@ -30,6 +30,18 @@ now_claim certify_claim_of(const froe_kinetic *k, uint32_t cert);
 void certify_again(froe_kinetic *k, uint32_t cert);
 /** When a claim fails. */
 int64_t certify_fail_tick(froe_kinetic *k, const now_claim *claim);
-/** The names of the walls of a region: CERT_LEFT, CERT_MIDDLE, CERT_RIGHT. */
+/** What a passing has changed on one side of the wall. */
+typedef struct certify_side {
+    const ktree_site *site;
+    int side;              /**< of its cell, on which the wall has become */
+    name_point wall;       /**< this one */
+    const uint32_t *nodes; /**< those with walls next to it, children before parents */
+    size_t count;
+    int own; /**< on which side the node at the site has got a wall, or lost one; -1: it has not */
+} certify_side;
+/** Does what certify_sites() does after a passing, of which all is known that changed. `common`: the lowest node above
+ * both sites. REQUIRES: the tree is in the plane and not augmented. */
+void certify_passing(froe_kinetic *k, const certify_side both[2], uint32_t common);
+/** The names of the walls of a region: CERT_LEFT, CERT_MIDDLE, CERT_RIGHT. cell NULL: they are found. */
 void certify_borders(const ktree *tree, uint32_t node, const ktree_cell *cell, cert_kind region, name_point out[2]);
 #endif

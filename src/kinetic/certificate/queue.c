@@ -29,14 +29,24 @@ static bool rise(queue_heap *queue, size_t place) {
     return place < before;
 }
 
+/* The first of the earliest children, of which there are any. Of four, and so almost always, without a jump. */
+static inline size_t earliest(const queue_entry *entries, size_t child, size_t count) {
+    if (child + 4 <= count) {
+        const queue_entry *e = entries + child;
+        const size_t a = e[1].tick < e[0].tick, b = 2 + (size_t)(e[3].tick < e[2].tick);
+        return child + (e[b].tick < e[a].tick ? b : a);
+    }
+    size_t best = child;
+    while (++child < count)
+        if (entries[child].tick < entries[best].tick) best = child;
+    return best;
+}
+
 static void sink(queue_heap *queue, size_t place) {
     const queue_entry entry = queue->entries.data[place], *entries = queue->entries.data;
     const size_t count = queue->entries.count;
     for (size_t child = 4 * place + 1; child < count; child = 4 * place + 1) {
-        const size_t end = child + 4 < count ? child + 4 : count;
-        size_t best = child;
-        while (++child < end)
-            if (entries[child].tick < entries[best].tick) best = child;
+        const size_t best = earliest(entries, child, count);
         if (entries[best].tick >= entry.tick) break;
         put_entry(queue, place, entries[best]);
         place = best;
@@ -44,9 +54,8 @@ static void sink(queue_heap *queue, size_t place) {
     put_entry(queue, place, entry);
 }
 
-void queue_remove(queue_heap *queue, uint32_t id) {
+void queue_take_out(queue_heap *queue, uint32_t id) {
     const uint32_t place = queue->places.data[id];
-    if (place == FROE_NONE) return;
     const queue_entry last = queue->entries.data[--queue->entries.count];
     queue->places.data[id] = FROE_NONE;
     if (last.id == id) return;

@@ -21,7 +21,10 @@ void queue_free(const froe_allocator *alloc, queue_heap *queue);
 bool queue_reserve(const froe_allocator *alloc, queue_heap *queue, size_t ids);
 /** A number falls due at a tick, from now on. REQUIRES: there is room for it. */
 void queue_set(queue_heap *queue, uint32_t id, int64_t tick);
-void queue_remove(queue_heap *queue, uint32_t id);
+void queue_take_out(queue_heap *queue, uint32_t id);
+static inline void queue_remove(queue_heap *queue, uint32_t id) {
+    if (queue->places.data[id] != FROE_NONE) queue_take_out(queue, id);
+}
 /** The numbers that fall due until a tick, as queue->due. False: no memory. */
 bool queue_find_due(const froe_allocator *alloc, queue_heap *queue, int64_t tick);
 #endif

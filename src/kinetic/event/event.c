@@ -271,32 +271,43 @@ static void gather_flops(froe_kinetic *k) {
         const uint32_t surface = events->flopping.data[i];
         now_claim was = k->certs.all.data[k->certs.segments.data[surface].turn].claim;
         was.above = -was.above;
-        slab_item item = {surface, CERT_FLOP, was, {0, 0}, FROE_EVENT_FLOP};
+        slab_item item = {.cert = surface, .kind = CERT_FLOP, .claim = was};
         slab_find(&k->tree, &item);
         call_push(&k->call, &events->items, item);
     }
     events->flopping.count = 0;
 }
 
-static void gather_failed_certs(froe_kinetic *k) {
+/* Does the claim of an item hold just after the tick? */
+static bool still_holds(froe_kinetic *k, const slab_item *item) {
+    const now_claim *claim = &item->claim;
+    const int order = claim->above ? NUM_UNSURE : now_order_of_spots(item->spot[0], item->spot[1]);
+    return order == NUM_UNSURE ? now_holds(&k->now, claim) >= 0 : order < 0;
+}
+
+/* With `known` those certificates are known that are due. */
+static void gather_failed_certs(froe_kinetic *k, bool known) {
     event_state *events = &k->events;
     events->items.count = 0;
     gather_flops(k);
     for (size_t i = 0; i < events->turning.count; i++) {
         const uint32_t s = events->turning.data[i], *end = k->now.segments.data[s].end;
-        slab_item item = {s, CERT_TURN, {{end[0], NAME_VERTEX}, {end[1], NAME_VERTEX}, 0}, {0, 0}, FROE_EVENT_TURN};
+        slab_item item = {.cert = s, .kind = CERT_TURN, .claim = {{end[0], NAME_VERTEX}, {end[1], NAME_VERTEX}, 0}};
+        slab_locate(&k->now, &item);
         slab_find(&k->tree, &item);
         call_push(&k->call, &events->items, item);
     }
     events->turning.count = 0;
-    cert_find_due(&k->certs, k->now.tick);
+    if (!known) cert_find_due(&k->certs, k->now.tick);
     const size_t count = k->certs.queue.due.count;
     for (size_t i = 0; i < count && !k->call.stopped; i++) {
         const uint32_t cert = k->certs.queue.due.data[i];
         if (k->certs.all.data[cert].kind < CERT_TURN) {
-            const now_claim claim = certify_claim_of(k, cert);
-            slab_item item = {cert, certify_kind(&k->tree, &k->certs, cert), claim, {0, 0}, FROE_EVENT_CONTACT};
-            if (now_holds(&k->now, &claim) >= 0) { /* since the last tick it failed and became true again */
+            slab_item item;
+            item.cert = cert, item.claim = certify_claim_of(k, cert);
+            item.kind = certify_kind(&k->tree, &k->certs, cert);
+            slab_locate(&k->now, &item);
+            if (still_holds(k, &item)) { /* since the last tick it failed and became true again */
                 certify_again(k, cert);
             } else {
                 slab_find(&k->tree, &item);
@@ -350,7 +361,8 @@ static bool repair(froe_kinetic *k, event_group *g, const event_summary *event, 
     set_lines(&k->now, g);
     for (size_t i = 0; i < g->count && !outcome && is_sound(k); i++) { /* if walls are passed, and that is all */
         const slab_item *item = item_of(k, g, i);
-        if (is_current(k, item)) outcome = slab_is_one_place(item) ? PASS_REFUSED : pass_wall(k, item);
+        if (g->first + i == 0 || is_current(k, item))
+            outcome = slab_is_one_place(item) ? PASS_REFUSED : pass_wall(k, item);
     }
     const bool crowd = outcome && !operate(k, g, simple && outcome == PASS_REFUSED);
     if (crowd) {
@@ -365,12 +377,13 @@ static bool is_settled(const froe_kinetic *k) {
     return cert_next_tick(&k->certs) > k->now.tick && !k->events.turning.count && !k->events.flopping.count;
 }
 
-/* So many rounds, or until nothing is due any more. The first one tells what happens. */
-static bool settle_tick(froe_kinetic *k, unsigned rounds, const event_watcher *watcher) {
+/* So many rounds, or until nothing is due any more. The first one tells what happens. With `known` those certificates
+ * are known that are due in it. */
+static bool settle_tick(froe_kinetic *k, unsigned rounds, bool known, const event_watcher *watcher) {
     bool go_on = true;
     for (unsigned round = 0; round < rounds && !k->call.stopped; round++) {
         if (is_settled(k)) break;
-        gather_failed_certs(k);
+        gather_failed_certs(k, known && !round);
         const size_t count = k->events.items.count;
         if (!count || k->call.stopped) break;
         if (round >= RESTART_ROUND) {
@@ -560,7 +573,7 @@ bool event_step(froe_kinetic *k, int64_t tick, const event_watcher *watcher) {
     }
     events->phase = EVENT_BEFORE;
     /* Where all is made anew, edges of which plans go on are in the tree until then, and may have turned in between. */
-    bool go_on = settle_tick(k, all ? 1 : LAST_ROUND + 1, watcher);
+    bool go_on = settle_tick(k, all ? 1 : LAST_ROUND + 1, usual, watcher);
     if (all && !k->call.stopped) {
         triangle_enroll_all(k);
         if (!k->call.stopped) surgery_restart(k);
@@ -568,7 +581,7 @@ bool event_step(froe_kinetic *k, int64_t tick, const event_watcher *watcher) {
     events->phase = EVENT_CHANGE;
     go_on &= enter_tree(k, watcher);
     events->phase = EVENT_AFTER;
-    go_on &= settle_tick(k, LAST_ROUND + 1, watcher);
+    go_on &= settle_tick(k, LAST_ROUND + 1, false, watcher);
     events->phase = EVENT_MEETING;
     return tell_meetings(k, watcher) && go_on;
 }

@@ -9,6 +9,7 @@ void participants_clear(participants_table *all) {
     all->stamp++;
     all->list.count = 0;
     all->places.count = 0;
+    all->pair = false;
 }
 
 bool participants_have(const participants_table *all, uint32_t segment) {
@@ -37,7 +38,7 @@ static double rise(now_state *now, uint32_t segment, double dx) {
     return rises < height ? rises : height; /* NaN, too */
 }
 
-static void enlarge(participants_place *place, now_spot spot, const double error[2]) {
+static inline void enlarge(participants_place *place, now_spot spot, const double error[2]) {
     place->low[0] = place->high[0] = spot.x, place->low[1] = place->high[1] = spot.y;
     for (int i = 0; i < 2; i++) {
         const double e = (error[i] + fabs(place->low[i]) * 0x1p-50) * 2;
@@ -45,11 +46,16 @@ static void enlarge(participants_place *place, now_spot spot, const double error
     }
 }
 
-static participants_place place_of_vertex(now_state *now, uint32_t vertex) {
-    participants_place out;
-    const now_spot spot = now_vertex_flight(now, vertex, &out.speed);
+static inline participants_place place_of_spot(now_spot spot, double speed) {
+    participants_place out = {.speed = speed};
     enlarge(&out, spot, (double[]){spot.error, spot.error});
     return out;
+}
+
+static participants_place place_of_vertex(now_state *now, uint32_t vertex) {
+    double speed;
+    const now_spot spot = now_vertex_flight(now, vertex, &speed);
+    return place_of_spot(spot, speed);
 }
 
 /* A box around p. Around a crossing it reaches along the lines as far as x, where the other point is. */
@@ -68,7 +74,7 @@ static double margin(double speed, double other) {
     return 4 * (speed + other);
 }
 
-static bool places_meet(const participants_place *a, const participants_place *b) {
+static inline bool places_meet(const participants_place *a, const participants_place *b) {
     double far = margin(a->speed, b->speed);
     for (int i = 0; i < 2; i++)
         if (a->low[i] > b->high[i] + far || b->low[i] > a->high[i] + far) return false;
@@ -77,30 +83,36 @@ static bool places_meet(const participants_place *a, const participants_place *b
 
 /* -------------------------------------------------------------------- near -- */
 
-typedef struct line {
-    double at[2][2], error, speed;
-} line;
+typedef participants_line line;
 
-static line line_of_segment(now_state *now, uint32_t segment) {
+static inline line line_of_segment(now_state *now, uint32_t segment) {
     const uint32_t *end = now->segments.data[segment].end;
-    double speed[2];
-    const now_spot a = now_vertex_flight(now, end[0], speed), b = now_vertex_flight(now, end[1], speed + 1);
-    return (line){
-        {{a.x, a.y}, {b.x, b.y}}, a.error > b.error ? a.error : b.error, speed[0] > speed[1] ? speed[0] : speed[1]};
+    line s;
+    for (int i = 0; i < 2; i++) s.spot[i] = now_vertex_flight(now, end[i], s.speeds + i);
+    s.error = s.spot[0].error > s.spot[1].error ? s.spot[0].error : s.spot[1].error;
+    s.speed = s.speeds[0] > s.speeds[1] ? s.speeds[0] : s.speeds[1];
+    return s;
+}
+
+/* Is it beside a range in one coordinate? */
+static inline bool is_beside(double a, double b, const participants_place *place, int i, double slack) {
+    return (a < b ? b : a) < place->low[i] - slack || (a < b ? a : b) > place->high[i] + slack;
 }
 
 /* May a segment meet a place, enlarged on all sides by what both move? Most are far above or below. */
-static bool comes_near(const line *s, const participants_place *place) {
-    double half[2], far = margin(place->speed, s->speed);
+static inline bool comes_near(const line *s, const participants_place *place) {
+    const now_spot a = s->spot[0], b = s->spot[1];
+    double far = margin(place->speed, s->speed);
     far += 2 * s->error;
-    for (int i = 1; i >= 0; i--) {
-        const double a = s->at[0][i], b = s->at[1][i], slack = far + (fabs(a) + fabs(b)) * 0x1p-50;
-        if ((a < b ? b : a) < place->low[i] - slack || (a < b ? a : b) > place->high[i] + slack) return false;
-        half[i] = 0.5 * place->high[i] - 0.5 * place->low[i] + slack;
-    }
-    const double d[2] = {s->at[1][0] - s->at[0][0], s->at[1][1] - s->at[0][1]};
-    const double u = 0.5 * place->low[0] + 0.5 * place->high[0] - s->at[0][0];
-    const double v = 0.5 * place->low[1] + 0.5 * place->high[1] - s->at[0][1];
+    const double up = far + (fabs(a.y) + fabs(b.y)) * 0x1p-50;
+    if (is_beside(a.y, b.y, place, 1, up)) return false;
+    const double over = far + (fabs(a.x) + fabs(b.x)) * 0x1p-50;
+    if (is_beside(a.x, b.x, place, 0, over)) return false;
+    const double half[2] = {0.5 * place->high[0] - 0.5 * place->low[0] + over,
+                            0.5 * place->high[1] - 0.5 * place->low[1] + up};
+    const double d[2] = {b.x - a.x, b.y - a.y};
+    const double u = 0.5 * place->low[0] + 0.5 * place->high[0] - a.x;
+    const double v = 0.5 * place->low[1] + 0.5 * place->high[1] - a.y;
     double reach = fabs(d[0]) * half[1] + fabs(d[1]) * half[0];
     double off = fabs(d[0] * v - d[1] * u), slack = (fabs(d[0] * v) + fabs(d[1] * u)) * 0x1p-48;
     return !(off > reach * (1 + 0x1p-40) + slack);
@@ -127,11 +139,11 @@ bool participants_add_near(froe_kinetic *k, const uint32_t *segments, size_t cou
     return k->participants.list.count > before;
 }
 
-/* ------------------------------------------------------------------- items -- */
+/* ------------------------------------------------------------------- apart -- */
 
 /* Is the other end of a segment, as good as, above or below a place at which it ends? */
 static bool is_upright(const line *s, const participants_place *place) {
-    const double width = fabs(s->at[1][0] - s->at[0][0]);
+    const double width = fabs(s->spot[1].x - s->spot[0].x);
     return !(width > margin(s->speed, place->speed) + 2 * s->error + (place->high[0] - place->low[0]));
 }
 
@@ -171,8 +183,51 @@ static void add_flop(froe_kinetic *k, uint32_t surface) {
     }
 }
 
+/* ------------------------------------------------------------------- pairs -- */
+
+/* Where two vertices pass that belong to a segment each, as almost always, each end is looked at once. False: it is not
+ * so. */
+static bool add_pair(froe_kinetic *k, const slab_item *item) {
+    participants_table *all = &k->participants;
+    const ktree *tree = &k->tree;
+    const uint32_t end[2] = {tree->vertices.data[item->claim.p.a], tree->vertices.data[item->claim.q.a]};
+    for (int i = 0; i < 2; i++)
+        if (end[i] == FROE_NONE || ktree_next_end(tree, end[i]) != FROE_NONE ||
+            !ktree_segment_at(tree, end[i] / 2)->here)
+            return false;
+    if (!call_reserve(&k->call, &all->places, 2)) return false;
+    for (int i = 0; i < 2; i++) {
+        const uint32_t which = all->which[i] = end[i] % 2;
+        line *s = all->line + i;
+        add_segment(all, end[i] / 2);
+        *s = line_of_segment(&k->now, end[i] / 2);
+        all->places.data[i] = place_of_spot(s->spot[which], s->speeds[which]);
+    }
+    all->places.count = 2;
+    return all->pair = true;
+}
+
+static bool is_pair_apart(const participants_table *all) {
+    const participants_place *place = all->places.data;
+    return !places_meet(place, place + 1) && !comes_near(all->line, place + 1) && !comes_near(all->line + 1, place) &&
+           !(is_upright(all->line, place) && is_upright(all->line + 1, place + 1));
+}
+
+static bool has_pair_loose_ends(const participants_table *all) {
+    const participants_place *place = all->places.data;
+    for (int i = 0; i < 2; i++) {
+        const uint32_t other = 1 - all->which[i];
+        const participants_place at = place_of_spot(all->line[i].spot[other], all->line[i].speeds[other]);
+        if (places_meet(&at, place) || places_meet(&at, place + 1)) return true;
+    }
+    return false;
+}
+
+/* ------------------------------------------------------------------- items -- */
+
 bool participants_add_item(froe_kinetic *k, const slab_item *item) {
     participants_table *all = &k->participants;
+    if (item->event == FROE_EVENT_VERTICES && !all->places.count && add_pair(k, item)) return is_pair_apart(all);
     if (item->kind == CERT_FLOP) {
         add_flop(k, item->cert);
         return false;
@@ -196,6 +251,7 @@ bool participants_add_item(froe_kinetic *k, const slab_item *item) {
 bool participants_have_loose_ends(froe_kinetic *k, const slab_item *item) {
     const participants_table *all = &k->participants;
     name_point p = item->claim.p, q = item->claim.q;
+    if (all->pair && all->list.count == 2) return has_pair_loose_ends(all);
     for (size_t i = 0; i < 2 * all->list.count; i++) {
         const uint32_t vertex = k->now.segments.data[all->list.data[i / 2]].end[i % 2];
         if ((name_is_vertex(p) && p.a == vertex) || (name_is_vertex(q) && q.a == vertex)) continue;
@@ -210,9 +266,9 @@ bool participants_have_loose_ends(froe_kinetic *k, const slab_item *item) {
 
 /* The part of s that is near the line of t, as shares of the way along s. False: there is none. */
 static bool near_line(const line *s, const line *t, double far, double share[2]) {
-    double d[2] = {t->at[1][0] - t->at[0][0], t->at[1][1] - t->at[0][1]}, off[2], slack = 0;
+    double d[2] = {t->spot[1].x - t->spot[0].x, t->spot[1].y - t->spot[0].y}, off[2], slack = 0;
     for (int e = 0; e < 2; e++) {
-        double u = s->at[e][0] - t->at[0][0], v = s->at[e][1] - t->at[0][1];
+        double u = s->spot[e].x - t->spot[0].x, v = s->spot[e].y - t->spot[0].y;
         off[e] = d[0] * v - d[1] * u;
         slack += (fabs(d[0] * v) + fabs(d[1] * u)) * 0x1p-48;
     }
@@ -232,11 +288,11 @@ void participants_reach_pair(now_state *now, double slab[2], uint32_t s, uint32_
     const line a = line_of_segment(now, s), b = line_of_segment(now, t);
     double share[2], far = margin(a.speed, b.speed) + 2 * (a.error + b.error);
     if (!near_line(&b, &a, far, share) || !near_line(&a, &b, far, share)) return;
-    double x[2] = {a.at[0][0] + share[0] * (a.at[1][0] - a.at[0][0]),
-                   a.at[0][0] + share[1] * (a.at[1][0] - a.at[0][0])};
+    double x[2] = {a.spot[0].x + share[0] * (a.spot[1].x - a.spot[0].x),
+                   a.spot[0].x + share[1] * (a.spot[1].x - a.spot[0].x)};
     double slack = far + (fabs(x[0]) + fabs(x[1])) * 0x1p-40;
-    double low = fmax(fmin(x[0], x[1]), fmin(b.at[0][0], b.at[1][0])) - slack;
-    double high = fmin(fmax(x[0], x[1]), fmax(b.at[0][0], b.at[1][0])) + slack;
+    double low = fmax(fmin(x[0], x[1]), fmin(b.spot[0].x, b.spot[1].x)) - slack;
+    double high = fmin(fmax(x[0], x[1]), fmax(b.spot[0].x, b.spot[1].x)) + slack;
     if (low > high) return;
     slab[0] = fmin(slab[0], low), slab[1] = fmax(slab[1], high);
     slab_reach(now, slab, name_crossing(s, t));

@@ -15,12 +15,21 @@ typedef struct participants_place {
     double low[2], high[2], speed;
 } participants_place;
 
+/** A segment: its ends, how far off and how fast they are, and at most one of them. */
+typedef struct participants_line {
+    now_spot spot[2];
+    double speeds[2], error, speed;
+} participants_line;
+
 typedef struct participants_table {
     kinetic_call *call;
     ARRAY(uint32_t) list;   /**< segments that take part */
     ARRAY(uint32_t) stamps; /**< of each segment: of the last event that it takes part in */
     uint32_t stamp;
     ARRAY(participants_place) places; /**< where things happen */
+    bool pair;                        /**< they are two segments, and two ends of these that pass: */
+    participants_line line[2];
+    uint32_t which[2]; /**< number of the end that passes */
 } participants_table;
 
 /** Empties the lists of participants and places. */

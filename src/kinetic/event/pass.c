@@ -8,11 +8,13 @@
 typedef struct passing {
     strip near, far;
     uint32_t node, segment; /* of s, in the near cell */
+    uint32_t owner;         /* of the wall: the lowest node above both cells */
     uint32_t wall;          /* an end, or the segment that it crosses at the point */
     bool grows;             /* it gets longer: the point goes to the far cell, and s comes after it from the near one */
     bool above;             /* the point is above the one that the wall belongs to */
     size_t across;          /* how many on the list cross the wall in the far cell, from below */
     size_t below;           /* how many of these are below the point */
+    size_t beside;          /* how many nodes with walls are next to the wall in the far cell */
 } passing;
 
 /* ----------------------------------------------------------------- two cells -- */
@@ -66,6 +68,7 @@ static bool find_far(ktree *tree, name_point point, passing *p) {
     const uint32_t owner = ktree_wall_owner(tree, p->node, side, &slot);
     const name_point wall = p->near.site.cell.wall[side];
     if (!owner) return false;
+    p->owner = owner;
     const now_spot a = now_spot_of(tree->now, point), b = now_spot_of(tree->now, wall);
     const double d = a.y - b.y, error = (a.error + b.error) * 2;
     if (!(d > error) && !(d < -error)) return false; /* which one is higher is undecided */
@@ -89,23 +92,29 @@ static bool find_far(ktree *tree, name_point point, passing *p) {
 
 /* --------------------------------------------------------- what crosses the wall -- */
 
-static void push_half_visit(froe_kinetic *k, uint32_t node, unsigned back) {
+enum { VISIT, LIST, LEAVE };
+
+static void push_half_visit(froe_kinetic *k, uint32_t node, unsigned what) {
     if (!node) return;
     __builtin_prefetch(k->tree.nodes.data + node);
-    call_push(&k->call, &k->surgery.scratch, 2 * node + back);
+    call_push(&k->call, &k->surgery.scratch, 4 * node + what);
 }
 
 /* Lists the segments that cross a subtree of a half along the passed wall, from the bottom up, and stamps nodes at
- * that wall. False: something has a wall in the thin part. */
+ * that wall. Those with walls are in surgery.beside, children before parents. False: something has a wall in the thin
+ * part. */
 static bool walk_half(froe_kinetic *k, const strip *h, uint32_t node) {
     ktree *tree = &k->tree;
     k->surgery.scratch.count = 0;
-    push_half_visit(k, node, 0);
+    push_half_visit(k, node, VISIT);
     while (k->surgery.scratch.count && !k->call.stopped) {
-        const uint32_t top = k->surgery.scratch.data[--k->surgery.scratch.count], x = top / 2;
+        const uint32_t top = k->surgery.scratch.data[--k->surgery.scratch.count], x = top / 4;
         ktree_node *n = ktree_node_at(tree, x);
-        if (top % 2) {
-            ktree_list(tree, n->segment);
+        if (top % 4) {
+            if (top % 4 == LIST)
+                ktree_list(tree, n->segment);
+            else
+                call_push(&k->call, &k->surgery.beside, x);
             continue;
         }
         const uint32_t *end = k->now.segments.data[n->segment].end;
@@ -116,13 +125,14 @@ static bool walk_half(froe_kinetic *k, const strip *h, uint32_t node) {
         const bool ends = n->wall[h->side] != KTREE_NO_WALL;
         if (!strip_ends_before(&k->now, h, ktree_wall_name(tree, n->segment, n->wall[ends ? h->side : 1 - h->side])))
             return false;
+        if (ends || n->wall[1 - h->side] != KTREE_NO_WALL) push_half_visit(k, x, LEAVE);
         if (ends) {
-            push_half_visit(k, n->child[h->side], 0);
+            push_half_visit(k, n->child[h->side], VISIT);
             continue;
         }
-        push_half_visit(k, n->child[KTREE_UP], 0);
-        push_half_visit(k, x, 1);
-        push_half_visit(k, n->child[KTREE_DOWN], 0);
+        push_half_visit(k, n->child[KTREE_UP], VISIT);
+        push_half_visit(k, x, LIST);
+        push_half_visit(k, n->child[KTREE_DOWN], VISIT);
     }
     return true;
 }
@@ -142,10 +152,12 @@ static bool list_crossing(froe_kinetic *k, passing *p) {
     const ktree_node *n = ktree_node_at(tree, p->node), *r = ktree_node_at(tree, root);
     const int side = p->near.side;
     ktree_new_list(tree);
+    k->surgery.beside.count = 0;
     bool thin = p->grows ? walk_half(k, &p->far, root)
                          : strip_ends_before(&k->now, &p->far, ktree_wall_name(tree, p->segment, r->wall[side])) &&
                                walk_past(k, &p->far, root);
     p->across = tree->list.count;
+    p->beside = k->surgery.beside.count;
     if (!thin) return false;
     if (!p->grows) return walk_half(k, &p->near, n->child[1 - side]);
     return strip_ends_before(&k->now, &p->near, ktree_wall_name(tree, p->segment, n->wall[1 - side])) &&
@@ -321,8 +333,9 @@ static void know_owner(froe_kinetic *k, const passing *p, name_point point, name
     if (!known) ktree_touch_wall(&k->tree, wall);
 }
 
-/* What is next to both ends, where nothing else ends with them. Of s that is what is next to it on the list. */
-static void know_neighbours(froe_kinetic *k, const passing *p, name_point point) {
+/* What is next to both ends, where nothing else ends with them. Of s that is what is next to it on the list. False:
+ * something else may. */
+static bool know_neighbours(froe_kinetic *k, const passing *p, name_point point) {
     const ktree *tree = &k->tree;
     const ktree_cell *far = &p->far.site.cell;
     const name_point wall = p->near.site.cell.wall[p->near.side];
@@ -333,10 +346,27 @@ static void know_neighbours(froe_kinetic *k, const passing *p, name_point point)
         out->next[0] = p->below < p->across ? tree->list.data[p->below] : far->top;
         out->next[1] = p->below ? tree->list.data[p->below - 1] : far->bottom;
     }
-    if (single && is_single_end(tree, wall))
+    if (single && is_single_end(tree, wall)) {
         know_owner(k, p, point, wall);
-    else
-        ktree_touch_wall(&k->tree, wall);
+        return true;
+    }
+    ktree_touch_wall(&k->tree, wall);
+    return false;
+}
+
+static void certify_both(froe_kinetic *k, const passing *p, name_point point) {
+    const size_t far = p->beside, all = k->surgery.beside.count;
+    const name_point wall = p->near.site.cell.wall[p->near.side];
+    if (know_neighbours(k, p, point) && !k->tree.augmented) {
+        const uint32_t *beside = k->surgery.beside.data;
+        const int near = p->near.side, other = p->far.side;
+        const certify_side both[2] = {{&p->near.site, near, wall, beside + far, all - far, p->grows ? near : -1},
+                                      {&p->far.site, other, point, beside, far, p->grows ? near : other}};
+        certify_passing(k, both, p->owner);
+    } else {
+        certify_sites(k, (const ktree_site *const[]){&p->near.site, &p->far.site}, 2);
+    }
+    k->certs.known_count = 0;
 }
 
 pass_outcome pass_wall(froe_kinetic *k, const slab_item *item) {
@@ -353,16 +383,19 @@ pass_outcome pass_wall(froe_kinetic *k, const slab_item *item) {
     surgery_begin(k);
     if (!list_crossing(k, &p)) return PASS_REFUSED;
     if (k->call.stopped) return PASS_DONE;
-    bool more = participants_add_near(k, (uint32_t[]){near->top, near->bottom, far->top, far->bottom}, 4);
+    const uint32_t border[4] = {near->top, near->bottom, far->top == near->top ? FROE_NONE : far->top,
+                                far->bottom == near->bottom ? FROE_NONE : far->bottom};
+    bool more = participants_add_near(k, border, 4);
     more = participants_add_near(k, tree->list.data, tree->list.count) || more;
     if (more) return PASS_NEIGHBOURS;
     if (!list_crossing_after(tree, &p, point) || k->now.lost) return PASS_REFUSED;
     k->counts.surgeries++;
+    k->certs.forgets = !tree->augmented; /* there a tick may be that of a turn */
     move_segment(k, &p);
-    if (k->call.stopped) return PASS_DONE;
-    know_neighbours(k, &p, point);
-    certify_sites(k, (const ktree_site *const[]){&p.near.site, &p.far.site}, 2);
-    k->certs.known_count = 0;
-    turn_certify_halves(k);
+    if (!k->call.stopped) {
+        certify_both(k, &p, point);
+        turn_certify_halves(k);
+    }
+    k->certs.forgets = false;
     return PASS_DONE;
 }

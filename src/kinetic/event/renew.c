@@ -126,6 +126,26 @@ static int by_segment(const void *a, const void *b) {
     return (x > y) - (x < y);
 }
 
+/* Puts those that leave into the order of segments: by a look at all segments where they are many. */
+static void sort_leaving(froe_kinetic *k) {
+    enum { MANY = 32 }; /* one in so many */
+    event_state *events = &k->events;
+    uint32_t *leaving = events->leaving.data;
+    const size_t count = events->leaving.count;
+    if (!count || count < k->tree.segments.count / MANY) {
+        base_sort(leaving, count, sizeof *leaving, by_segment);
+        return;
+    }
+    if (!call_reserve(&k->call, &events->staying, count)) return;
+    uint32_t *sorted = events->staying.data;
+    for (size_t i = 0; i < count; i++) ktree_segment_at(&k->tree, leaving[i] / 2)->leaving = (uint32_t)i;
+    for (size_t s = 0, at = 0; s < k->tree.segments.count; s++) {
+        const uint32_t i = k->tree.segments.data[s].leaving;
+        if (i < count && leaving[i] / 2 == s) sorted[at++] = leaving[i];
+    }
+    memcpy(leaving, sorted, count * sizeof *leaving);
+}
+
 void renew_apply(froe_kinetic *k) {
     event_state *events = &k->events;
     if (events->staying.count)
@@ -134,5 +154,5 @@ void renew_apply(froe_kinetic *k) {
     for (size_t i = 0; i < events->staying.count; i++)
         call_push(&k->call, &events->leaving, 2 * events->staying.data[i] + 1);
     events->staying.count = events->renewed.count = 0;
-    base_sort(events->leaving.data, events->leaving.count, sizeof *events->leaving.data, by_segment);
+    sort_leaving(k);
 }

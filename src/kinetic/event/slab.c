@@ -10,19 +10,23 @@ static froe_event_kind kind_of(const ktree *tree, const slab_item *item) {
     name_point third;
     if (item->kind == CERT_TURN) return FROE_EVENT_TURN;
     if (item->kind == CERT_FLOP) return FROE_EVENT_FLOP;
-    if (item->kind > CERT_RIGHT || now_met_segment(tree->now, p, q) != FROE_NONE) return FROE_EVENT_CONTACT;
-    if (ktree_is_one_segment(tree, p, q)) return FROE_EVENT_TURN;
-    if (name_is_vertex(p) && name_is_vertex(q)) return FROE_EVENT_VERTICES;
+    if (item->kind > CERT_RIGHT) return FROE_EVENT_CONTACT;
+    if (name_is_vertex(p) && name_is_vertex(q))
+        return ktree_is_one_segment(tree, p, q) ? FROE_EVENT_TURN : FROE_EVENT_VERTICES;
+    if (now_met_segment(tree->now, p, q) != FROE_NONE) return FROE_EVENT_CONTACT;
     if (name_is_vertex(p) || name_is_vertex(q)) return FROE_EVENT_VERTEX_CROSSING;
     return name_third_crossing(p, q, &third) ? FROE_EVENT_TRIPLE : FROE_EVENT_CROSSINGS;
 }
 
-void slab_reach(now_state *now, double slab[2], name_point p) {
-    now_spot spot = now_spot_of(now, p);
+static void reach_spot(double slab[2], now_spot spot) {
     double error = 2 * spot.error + fabs(spot.x) * 0x1p-51 + 0x1p-1060;
     if (!(error < (double)INFINITY)) return;
     if (spot.x - error < slab[0]) slab[0] = spot.x - error;
     if (spot.x + error > slab[1]) slab[1] = spot.x + error;
+}
+
+void slab_reach(now_state *now, double slab[2], name_point p) {
+    reach_spot(slab, now_spot_of(now, p));
 }
 
 /* Where the segments at a vertex cross another one. */
@@ -30,6 +34,11 @@ static void reach_crossings(ktree *tree, double slab[2], uint32_t vertex, uint32
     for (uint32_t e = tree->vertices.data[vertex]; e != FROE_NONE; e = ktree_next_end(tree, e))
         if (ktree_segment_at(tree, e / 2)->here && e / 2 != other)
             participants_reach_pair(tree->now, slab, e / 2, other);
+}
+
+void slab_locate(now_state *now, slab_item *item) {
+    if (item->claim.p.b != NAME_SEGMENT) item->spot[0] = now_spot_of(now, item->claim.p);
+    item->spot[1] = now_spot_of(now, item->claim.q);
 }
 
 void slab_find(ktree *tree, slab_item *item) {
@@ -41,12 +50,13 @@ void slab_find(ktree *tree, slab_item *item) {
             slab_reach(tree->now, item->slab, (name_point){now_face_of(tree->now, item->cert)->vertex[i], NAME_VERTEX});
         return;
     }
-    slab_reach(tree->now, item->slab, q);
+    reach_spot(item->slab, item->spot[1]);
     if (p.b == NAME_SEGMENT) {
         reach_crossings(tree, item->slab, q.a, p.a);
         return;
     }
-    slab_reach(tree->now, item->slab, p);
+    reach_spot(item->slab, item->spot[0]);
+    if (item->event == FROE_EVENT_VERTICES) return;
     uint32_t met = now_met_segment(tree->now, p, q);
     if (met != FROE_NONE) reach_crossings(tree, item->slab, name_is_vertex(p) ? p.a : q.a, met);
     if (name_is_crossing(p) && name_is_crossing(q) && name_third_crossing(p, q, &third))

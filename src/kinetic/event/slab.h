@@ -10,13 +10,16 @@ typedef struct slab_item {
     uint32_t cert; /**< CERT_TURN: the segment; CERT_FLOP: the surface */
     cert_kind kind;
     now_claim claim;
+    now_spot spot[2];      /**< where the points of the claim are; of a segment nothing */
     double slab[2];        /**< of x */
     froe_event_kind event; /**< by itself */
 } slab_item;
 
 /** Widens a slab by a point. Lines without a crossing: not at all. */
 void slab_reach(now_state *now, double slab[2], name_point p);
-/** Finds that and the kind of event that it is by itself. */
+/** Finds where the points of an item are. */
+void slab_locate(now_state *now, slab_item *item);
+/** Of an item with that: finds the slab and the kind of event that it is by itself. */
 void slab_find(ktree *tree, slab_item *item);
 /** Are its points about the same segments, so that they meet in one place? */
 static inline bool slab_is_one_place(const slab_item *item) {

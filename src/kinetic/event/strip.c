@@ -3,13 +3,7 @@
 #include "kinetic/certificate/certify.h"
 #include "kinetic/kinetic.h"
 
-bool strip_ends_before(now_state *now, const strip *s, name_point wall) {
-    if (!name_exists(wall)) return true;
-    if (name_is_vertex(wall)) {
-        const now_spot spot = now_vertex_spot(now, wall.a);
-        const double off = spot.x - now->line[1 - s->side], error = spot.error + fabs(off) * 0x1p-52;
-        if (fabs(off) > error) return s->side == KTREE_RIGHT ? off < 0 : off > 0;
-    }
+bool strip_point_ends_before(now_state *now, const strip *s, name_point wall) {
     const int order = now_compare(now, wall, (name_point){(uint32_t)(1 - s->side), NAME_LINE});
     return s->side == KTREE_RIGHT ? order < 0 : order > 0;
 }

@@ -16,8 +16,18 @@ typedef struct strip {
     int side;
 } strip;
 
-/** Is a wall, if there is one, beyond the line that bounds a strip? */
-bool strip_ends_before(now_state *now, const strip *s, name_point wall);
+/** Is a wall beyond the line that bounds a strip? */
+bool strip_point_ends_before(now_state *now, const strip *s, name_point wall);
+/** The same of a wall, if there is one; of a vertex in doubles, where these are sure. */
+static inline bool strip_ends_before(now_state *now, const strip *s, name_point wall) {
+    if (!name_exists(wall)) return true;
+    if (name_is_vertex(wall)) {
+        const now_spot spot = now_vertex_spot(now, wall.a);
+        const double off = spot.x - now->line[1 - s->side], error = spot.error + fabs(off) * 0x1p-52;
+        if (fabs(off) > error) return (s->side == KTREE_RIGHT) == (off < 0);
+    }
+    return strip_point_ends_before(now, s, wall);
+}
 /** Makes both strips anew, where one of them has `point` inside. Refused where another wall is in one. */
 pass_outcome strip_pass(froe_kinetic *k, const strip both[2], name_point point);
 #endif

@@ -15,6 +15,7 @@ void surgery_free_node(froe_kinetic *k, uint32_t node) {
 }
 
 void surgery_free_tree(froe_kinetic *k, uint32_t node) {
+    if (!node) return;
     ktree_walk(&k->tree, node);
     for (uint32_t n; (n = ktree_walk_next(&k->tree));) surgery_free_node(k, n);
 }

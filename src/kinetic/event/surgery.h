@@ -47,7 +47,8 @@ typedef struct surgery_work {
     ARRAY(surgery_task) tasks;
     ARRAY(surgery_cutting) cuttings;
     ARRAY(uint32_t) scratch;
-    ARRAY(uint32_t) kept; /**< segments that are listed twice */
+    ARRAY(uint32_t) beside; /**< nodes with walls that are next to a wall that is passed */
+    ARRAY(uint32_t) kept;   /**< segments that are listed twice */
     ARRAY(surgery_part) parts;
     ARRAY(surgery_orders) orders; /**< of those of one cell */
 } surgery_work;

@@ -308,9 +308,7 @@ static int64_t first_pole(now_state *now, const now_claim *claim, int64_t last, 
  * to where its lines are parallel from outside of its segments, and the claim is gone by then, if ticks are short. If
  * they are not, it may leave its segments, pass infinity and be back within one. So then the claim is tested, too.
  */
-int64_t now_first_failure(now_state *now, const now_claim *claim) {
-    int64_t straight;
-    if (straight_first_failure(now, claim, &straight)) return straight;
+static int64_t any_first_failure(now_state *now, const now_claim *claim) {
     const int64_t last = named_last(now, claim->q, named_last(now, claim->p, now->motion->last_tick | 1));
     const bool along = claim->above == NOW_ALONG, some = last - now->tick >= 2;
     near_claim near;
@@ -328,4 +326,9 @@ int64_t now_first_failure(now_state *now, const now_claim *claim) {
     if (pole == NOW_NEVER) return first;
     const int64_t before = first_change_until(now, claim, pole - 2);
     return before < pole ? before : pole;
+}
+
+int64_t now_first_failure(now_state *now, const now_claim *claim) {
+    int64_t straight;
+    return straight_first_failure(now, claim, &straight) ? straight : any_first_failure(now, claim);
 }

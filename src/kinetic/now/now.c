@@ -5,7 +5,7 @@
 #include <math.h>
 
 froe_status now_new(froe_motion *motion, const froe_allocator *alloc, now_state *out) {
-    now_state now = {.motion = motion};
+    now_state now = {.motion = motion, .duration = ldexp(1, motion->power)};
     froe_status status = geom_context_new(alloc, &now.context);
     if (status) return status;
     now.memories = support_calloc(&now.context.alloc, NOW_MEMORIES, sizeof *now.memories);
@@ -35,6 +35,8 @@ static void forget(now_state *now) {
     for (size_t i = 0; i < NOW_MEMORIES; i++) now->memories[i].tick = -1;
     now->edition = now->motion->edition;
     now->lift = now->motion->top == INT16_MIN ? 0 : NOW_TOP - now->motion->top;
+    const int first = now->lift < 600 ? now->lift : 600;
+    now->lifts[0] = ldexp(1, first), now->lifts[1] = ldexp(1, now->lift - first);
 }
 
 void now_catch_up(now_state *now) {
@@ -152,8 +154,7 @@ static now_spot crossing_spot(now_state *now, name_point p) {
     return spot;
 }
 
-now_spot now_spot_of(now_state *now, name_point p) {
-    if (p.b == NAME_VERTEX) return now_vertex_spot(now, p.a);
+now_spot now_crossing_spot(now_state *now, name_point p) {
     if (now_is_question(now, (uint32_t)p.b)) return crossing_spot(now, p);
     uint64_t hash = ((uint64_t)p.a << 32 | (uint32_t)p.b) * 0x9e3779b97f4a7c15u;
     now_memory *known = now->memories + (hash >> (64 - NOW_MEMORY_BITS));
@@ -197,10 +198,10 @@ int now_compare(now_state *now, name_point p, name_point q) {
     if (q.b == NAME_LINE) return compare_to_line(now, p, now->line[q.a]);
     if (p.b == NAME_LINE) return -compare_to_line(now, q, now->line[p.a]);
     now_spot a = now_spot_of(now, p), b = now_spot_of(now, q);
-    double d = a.x - b.x, error = (a.error + b.error + fabs(d) * 0x1p-52) * NUM_BALL_UP;
-    if (fabs(d) > error) return d < 0 ? -1 : 1;
+    const int quick = now_order_of_spots(a, b);
+    if (quick != NUM_UNSURE) return quick;
     if (name_is_vertex(p) && name_is_vertex(q) && is_above_for_good(now, p.a, q.a)) {
-        d = a.y - b.y, error = (a.error + b.error + fabs(d) * 0x1p-52) * NUM_BALL_UP;
+        const double d = a.y - b.y, error = (a.error + b.error + fabs(d) * 0x1p-52) * NUM_BALL_UP;
         now->tied = true;
         if (fabs(d) > error) return d < 0 ? -1 : 1;
     }

@@ -84,6 +84,9 @@ typedef struct now_state {
     uint64_t edition; /**< of the motion when courses, bends and memories were computed */
     int lift;         /**< all places in doubles, those of `line` too, are times 2^lift, and less than 2^NOW_TOP so;
                            exact numbers are as they are */
+    double lifts[2];  /**< powers of two whose product is 2^lift, which may be beyond all doubles; the second is not
+                           less than 1 */
+    double duration;  /**< of a tick, a power of two */
     int64_t tick;
     double line[2];
     ARRAY(now_course) courses;   /**< [vertex]; the last two are ends of a question */
@@ -170,7 +173,7 @@ static inline num_ball now_divide(num_ball a, num_ball b) {
 }
 /** A tick as a time. */
 static inline double now_time_of(const now_state *now, int64_t tick) {
-    return now->motion->begin + ldexp((double)tick, now->motion->power);
+    return now->motion->begin + (double)tick * now->duration;
 }
 
 /* face.c */
@@ -231,7 +234,7 @@ static inline double now_speed(now_state *now, uint32_t vertex) {
 }
 /** A coordinate times 2^lift; of little ones what is lost is less than NUM_BALL_TINY. */
 static inline double now_lifted(const now_state *now, double x) {
-    return ldexp(x, now->lift);
+    return x * now->lifts[0] * now->lifts[1];
 }
 /** A coordinate from one times 2^lift. */
 static inline double now_lowered(const now_state *now, double x) {
@@ -266,8 +269,16 @@ static inline int now_side_of_spots(now_spot a, now_spot b, now_spot q) {
     double bound = (fabs(p) + fabs(r)) * 0x1p-50 + (sum_u * f + sum_v * e + 2 * e * f) * (1 + 0x1p-40) + NUM_BALL_TINY;
     return d > bound ? 1 : d < -bound ? -1 : NUM_UNSURE;
 }
+/** -1 or 1 as a is left or right of b; NUM_UNSURE where rounding or their errors may matter. */
+static inline int now_order_of_spots(now_spot a, now_spot b) {
+    const double d = a.x - b.x, error = (a.error + b.error + fabs(d) * 0x1p-52) * NUM_BALL_UP;
+    return fabs(d) > error ? d < 0 ? -1 : 1 : NUM_UNSURE;
+}
+now_spot now_crossing_spot(now_state *now, name_point p);
 /** REQUIRES: a vertex or a crossing. */
-now_spot now_spot_of(now_state *now, name_point p);
+static inline now_spot now_spot_of(now_state *now, name_point p) {
+    return p.b == NAME_VERTEX ? now_vertex_spot(now, p.a) : now_crossing_spot(now, p);
+}
 /** -1, 0, 1 as p is before, at or behind q just after now. 0: for as long as the pieces last. */
 int now_compare(now_state *now, name_point p, name_point q);
 /** 1, 0, -1: the vertex is above, on or below the line of a segment just after now. */

@@ -25,7 +25,7 @@ typedef struct straight_claim {
 typedef double straight_value(const straight_claim *c, double s);
 
 /* Looks up the pieces of some vertices. False: not all fly straight. */
-static bool find_courses(now_state *now, const uint32_t *vertex, int count, int64_t *last, straight_claim *out) {
+static inline bool find_courses(now_state *now, const uint32_t *vertex, int count, int64_t *last, straight_claim *out) {
     for (int i = 0; i < count; i++) {
         const now_course *c = now_course_of(now, vertex[i]);
         if (c->degree > 1) return false;
@@ -42,13 +42,13 @@ static double larger(double a, double b) {
 /* ------------------------------------------------------------------- values -- */
 
 /* So many ticks from now. */
-static double order_at(const straight_claim *c, double s) {
+static inline double order_at(const straight_claim *c, double s) {
     const now_course *p = c->course[0], *q = c->course[1];
     return q->x[0] + (c->start[1] + s) * q->x[1] - (p->x[0] + (c->start[0] + s) * p->x[1]);
 }
 
 /* Where the first `count` vertices are then. */
-static void places_at(const straight_claim *c, int count, double s, double at[][2]) {
+static inline void places_at(const straight_claim *c, int count, double s, double at[][2]) {
     for (int i = 0; i < count; i++) {
         const now_course *v = c->course[i];
         const double t = c->start[i] + s;
@@ -112,13 +112,16 @@ static int64_t confirm(const straight_claim *c, straight_value *value, double gu
     return 0;
 }
 
-static bool find_order(now_state *now, const uint32_t vertex[2], int64_t *out) {
-    int64_t last = now->motion->last_tick | 1;
+static inline bool find_order(now_state *now, const uint32_t vertex[2], int64_t *out) {
+    const now_course *p = now_course_of(now, vertex[0]), *q = now_course_of(now, vertex[1]);
+    const int64_t first = p->last < q->last ? p->last : q->last, end = now->motion->last_tick | 1;
+    const int64_t last = first < end ? first : end, span = last > now->tick ? last - now->tick : 0;
     straight_claim c;
-    if (!find_courses(now, vertex, 2, &last, &c)) return false;
-    const int64_t span = last > now->tick ? last - now->tick : 0;
+    if ((p->degree | q->degree) > 1) return false;
+    c.course[0] = p, c.start[0] = (double)(now->tick - p->base);
+    c.course[1] = q, c.start[1] = (double)(now->tick - q->base);
     const double b0 = order_at(&c, 0), b1 = order_at(&c, (double)span);
-    c.error = (c.course[0]->error + c.course[1]->error + larger(fabs(b0), fabs(b1)) * 0x1p-52) * NUM_BALL_UP;
+    c.error = (p->error + q->error + larger(fabs(b0), fabs(b1)) * 0x1p-52) * NUM_BALL_UP;
     if (!(b0 > c.error)) return false;
     *out = NOW_NEVER;
     if (span < 2 || b1 > c.error) return true;
@@ -288,9 +291,10 @@ static bool find_crossing(now_state *now, const now_claim *claim, int64_t *out) 
 
 bool straight_first_failure(now_state *now, const now_claim *claim, int64_t *out) {
     const name_point p = claim->p, q = claim->q;
-    if (claim->above == NOW_ALONG) return false;
+    if (name_is_vertex(p) && name_is_vertex(q))
+        return claim->above != NOW_ALONG && find_order(now, (const uint32_t[]){p.a, q.a}, out);
     if (p.b == NAME_SEGMENT) return find_side(now, claim, out);
-    if (name_is_vertex(p) && name_is_vertex(q)) return find_order(now, (const uint32_t[]){p.a, q.a}, out);
+    if (claim->above == NOW_ALONG) return false;
     if ((name_is_crossing(p) && name_is_vertex(q)) || (name_is_vertex(p) && name_is_crossing(q)))
         return find_crossing(now, claim, out);
     return false;

@@ -228,6 +228,14 @@ uint32_t ktree_wall_owner(const ktree *tree, uint32_t node, int side, uint8_t *s
     }
 }
 
+name_point ktree_wall_beside(const ktree *tree, uint32_t node, int side) {
+    uint8_t slot;
+    const uint32_t owner = ktree_wall_owner(tree, node, side, &slot);
+    if (!owner) return (name_point){0, NAME_NONE};
+    const ktree_node *n = ktree_node_at(tree, owner);
+    return ktree_wall_name(tree, n->segment, n->wall[slot < KTREE_UP ? 1 - side : side]);
+}
+
 /* ------------------------------------------------------------------- walks -- */
 
 void ktree_walk(ktree *tree, uint32_t node) {

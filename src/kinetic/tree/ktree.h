@@ -173,6 +173,8 @@ ktree_site ktree_site_of(const ktree *tree, uint32_t node);
 /** The ancestor that gives a node's cell its wall on a side, and below which child of it the node is. KTREE_LEAF:
  * none. */
 uint32_t ktree_wall_owner(const ktree *tree, uint32_t node, int side, uint8_t *slot);
+/** The wall of a node's cell on a side. */
+name_point ktree_wall_beside(const ktree *tree, uint32_t node, int side);
 
 /* ------------------------------------------------------------------- walks -- */
 
