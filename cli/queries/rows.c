@@ -44,7 +44,7 @@ static bool end_lines(cli_rows *rows, char **text, size_t *capacity, ssize_t *le
 /* Is the first line that of a file of another kind, such as a map: JSON, or with bytes that no text has? */
 static bool is_foreign(const char *text, size_t length) {
     for (size_t i = 0; i < length; i++)
-        if ((unsigned char)text[i] < ' ' && !memchr("\t\n\v\f\r", text[i], 5)) return true;
+        if ((unsigned char)text[i] < ' ' && !(text[i] >= '\t' && text[i] <= '\r')) return true;
     text += strncmp(text, "\xef\xbb\xbf", 3) ? 0 : 3;
     text += strspn(text, " \t");
     if (*text != '{') return false;

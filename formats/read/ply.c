@@ -304,8 +304,7 @@ froe_status formats_read_ply(const formats_source *source, formats_sink *sink) {
                 status = formats_sink_progress(sink, (double)p.done / (double)p.all);
         }
     }
-    if (!status && p.text && p.at[strspn(p.at, " \t\r\n")])
-        status = broken(&p, "There is more than its counts say.");
+    if (!status && p.text && p.at[strspn(p.at, " \t\r\n")]) status = broken(&p, "There is more than its counts say.");
     array_free(alloc, &file);
     array_free(alloc, &p.elements);
     array_free(alloc, &p.corners);
