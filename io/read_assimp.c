@@ -274,18 +274,21 @@ froe_status io_read_assimp(const formats_source *source, formats_sink *sink) {
     return status;
 }
 
-/* Of the file the first `part` bytes alone; 0: all of it. */
-static froe_status import(const formats_source *source, formats_sink *sink, size_t part, const struct aiScene **scene) {
+/* Of the file the first `part` bytes alone; 0: all of it, with that mask. */
+static froe_status import(const formats_source *source, formats_sink *sink, size_t part, const io_mask *mask,
+                          const struct aiScene **scene) {
     formats_text bytes = {0};
     froe_status status = part ? formats_load_part(source, sink, 0, part, &bytes) : FROE_OK;
     if (status) return array_free(&sink->alloc, &bytes), status;
     io_log log = {.sink = sink};
+    bool memory = true;
     pthread_mutex_lock(&import_lock);
     io_log_begin(&log);
-    *scene = part ? aiImportFileFromMemory(bytes.data, (unsigned)part, 0, source->extension.text)
-                  : aiImportFile(source->file, 0);
+    *scene = part          ? aiImportFileFromMemory(bytes.data, (unsigned)part, 0, source->extension.text)
+             : mask->count ? io_import_masked(source->file, mask, &sink->alloc, &memory)
+                           : aiImportFile(source->file, 0);
     io_log_end();
-    status = *scene ? FROE_OK : refuse_import(source, sink);
+    status = !memory ? support_fail_memory(sink->diag) : *scene ? FROE_OK : refuse_import(source, sink);
     pthread_mutex_unlock(&import_lock);
     if (!status && *log.damage)
         status = support_fail(sink->diag, FROE_E_FORMAT, "%s: The reader assimp reports '%s'.",
@@ -350,9 +353,10 @@ froe_status io_read_arranged(const formats_source *source, formats_sink *sink, i
     if (!status && io_is_x3d(source)) status = io_x3d_check(source, sink);
     if (!status && io_is_collada(source)) status = io_collada_check(source, sink);
     const struct aiScene *scene = NULL;
-    if (!status) status = import(source, sink, part, &scene);
+    if (!status) status = import(source, sink, part, &found.masked, &scene);
     if (!status) status = io_gltf_is_whole(sink, scene, &found);
     array_free(&sink->alloc, &found.parts);
+    array_free(&sink->alloc, &found.masked);
     if (!status) status = read_scene(source, sink, scene, nodes, arrange, user);
     if (scene) aiReleaseImport(scene);
     return status;

@@ -18,6 +18,12 @@ void io_log_end(void);
 /** Puts a name of that length among the sorts in the report that are left out, where it fits and is not yet there. */
 void io_leave(formats_sink *sink, const char *name, size_t length);
 
+/** Places in a file of bytes for which assimp gets '_'. */
+typedef ARRAY(size_t) io_mask;
+/** Imports a file so. NULL: assimp has failed, or there is no memory, as *memory says. */
+const struct aiScene *io_import_masked(const char *path, const io_mask *mask, const froe_allocator *alloc,
+                                       bool *memory);
+
 /** Is it glTF, of any version? */
 bool io_is_gltf(const formats_source *source);
 enum { IO_GLB_HEADER = 12, IO_GLB_CHUNK = 8 }; /**< bytes before the chunks of a .glb, and before those of each */
@@ -35,11 +41,12 @@ typedef struct io_gltf_part {
 typedef struct io_gltf_found {
     bool still; /**< set before: nodes stand as they are at rest, and no keys replace their rotations */
     ARRAY(io_gltf_part) parts;
+    io_mask masked;           /**< names of members that assimp is not to find */
     formats_json_error error; /**< of a text that is no JSON; line 0: there is none */
 } io_gltf_found;
 
 /** Before the import: FROE_E_UNSUPPORTED or FROE_E_FORMAT where a glTF file says something about the places of faces
- * that assimp passes over in silence. The parts are the caller's. */
+ * that assimp passes over in silence. The parts and the mask are the caller's. */
 froe_status io_gltf_check(const formats_source *source, formats_sink *sink, io_gltf_found *found);
 /** After it: FROE_E_FORMAT where assimp has left out faces, or has read a text that could not be looked through. */
 froe_status io_gltf_is_whole(formats_sink *sink, const struct aiScene *scene, const io_gltf_found *found);

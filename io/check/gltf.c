@@ -14,6 +14,8 @@ typedef ARRAY(const formats_json *) gltf_list; /* the items of an array of the f
 
 typedef struct gltf_check {
     formats_sink *sink;
+    const char *text; /* in which strings are decoded */
+    size_t begin;     /* of it in the file */
     const formats_json *root;
     gltf_list accessors, meshes, skins;
 } gltf_check;
@@ -198,13 +200,8 @@ static bool are_moved(const formats_json *weights) {
     return false;
 }
 
-/* Skins and morph targets are not applied. Of a skin without a matrix for each joint assimp reads beyond the last one,
- * wherever that is. */
-static froe_status check_shape(const gltf_check *c, const formats_json *node, const formats_json *mesh) {
-    const formats_json *weights = formats_json_get(node, "weights"), *skin = item_of(&c->skins, node, "skin");
-    if (are_moved(weights ? weights : formats_json_get(mesh, "weights"))) io_leave(c->sink, "morph targets", 13);
-    if (!skin) return FROE_OK;
-    io_leave(c->sink, "skins", 5);
+/* Of a skin without a matrix for each joint assimp reads beyond the last one, wherever that is. */
+static froe_status check_skin(const gltf_check *c, const formats_json *node, const formats_json *skin) {
     const formats_json *count = formats_json_get(item_of(&c->accessors, skin, "inverseBindMatrices"), "count");
     const double joints = (double)formats_json_size(formats_json_get(skin, "joints"));
     if (formats_json_is(count, FORMATS_JSON_NUMBER) && count->number >= joints) return FROE_OK;
@@ -212,7 +209,28 @@ static froe_status check_shape(const gltf_check *c, const formats_json *node, co
                    "It has no matrix (inverseBindMatrices) for each of its joints.");
 }
 
-static froe_status check_nodes(const gltf_check *c, bool still) {
+/* Masks the members of a node that are called "skin", of which there may be several. */
+static froe_status mask_skin(const gltf_check *c, const formats_json *node, io_gltf_found *found) {
+    const formats_json *name = node + 1;
+    for (size_t i = 0; i < node->count; i++, name = formats_json_next(name + 1)) {
+        const size_t place = c->begin + (size_t)(name->text - c->text);
+        if (!strcmp(name->text, "skin") && !array_push(&c->sink->alloc, &found->masked, place))
+            return support_fail_memory(c->sink->diag);
+    }
+    return FROE_OK;
+}
+
+/* Skins and morph targets are not applied. Nodes that stand still are not skinned for assimp either. */
+static froe_status check_shape(const gltf_check *c, const formats_json *node, const formats_json *mesh,
+                               io_gltf_found *found) {
+    const formats_json *weights = formats_json_get(node, "weights"), *skin = item_of(&c->skins, node, "skin");
+    if (are_moved(weights ? weights : formats_json_get(mesh, "weights"))) io_leave(c->sink, "morph targets", 13);
+    if (!skin) return FROE_OK;
+    io_leave(c->sink, "skins", 5);
+    return found->still ? mask_skin(c, node, found) : check_skin(c, node, skin);
+}
+
+static froe_status check_nodes(const gltf_check *c, io_gltf_found *found) {
     size_t number = 0;
     FORMATS_JSON_EACH(node, formats_json_get(c->root, "nodes")) {
         if (formats_json_get(formats_json_get(node, "extensions"), "EXT_mesh_gpu_instancing"))
@@ -225,11 +243,11 @@ static froe_status check_nodes(const gltf_check *c, bool still) {
             !is_numbers(formats_json_get(node, "rotation"), 4) || !is_numbers(formats_json_get(node, "scale"), 3))
             return fail_at(c, FROE_E_FORMAT, "node", number, node,
                            "Its translation, rotation and scale are not 3, 4 and 3 numbers.");
-        if (still && !is_unit(formats_json_get(node, "rotation")))
+        if (found->still && !is_unit(formats_json_get(node, "rotation")))
             return fail_at(c, FROE_E_FORMAT, "node", number, node,
                            "The quaternion of its rotation does not have the length 1.");
         const formats_json *mesh = item_of(&c->meshes, node, "mesh");
-        const froe_status status = mesh ? check_shape(c, node, mesh) : FROE_OK;
+        const froe_status status = mesh ? check_shape(c, node, mesh, found) : FROE_OK;
         if (status) return status;
         number++;
     }
@@ -246,6 +264,8 @@ froe_status io_gltf_check(const formats_source *source, formats_sink *sink, io_g
         is_there ? formats_json_read(&sink->alloc, text.data, text.count, &values, &found->error) : FROE_E_FORMAT;
     if (read == FROE_E_MEMORY) status = support_fail_memory(sink->diag);
     c.root = values.data;
+    c.text = text.data;
+    c.begin = strncmp(source->head, "glTF", 4) ? 0 : IO_GLB_HEADER + IO_GLB_CHUNK;
     const char *version =
         read ? NULL : formats_json_string(formats_json_get(formats_json_get(c.root, "asset"), "version"));
     if (version && *version == '2') {
@@ -253,7 +273,7 @@ froe_status io_gltf_check(const formats_source *source, formats_sink *sink, io_g
         sink->report.layers_left = scenes ? scenes - 1 : 0;
         status = check_extensions(&c);
         if (!status) status = check_meshes(&c, found);
-        if (!status) status = check_nodes(&c, found->still);
+        if (!status) status = check_nodes(&c, found);
     }
     array_free(&sink->alloc, &c.accessors);
     array_free(&sink->alloc, &c.meshes);

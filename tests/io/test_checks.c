@@ -284,6 +284,13 @@ static const char ifc[] = "ISO-10303-21;\n"
                           "ENDSEC;\n"
                           "END-ISO-10303-21;\n";
 
+static const char skinned[] =
+    "{\"asset\": {\"version\": \"2.0\"}, \"scenes\": [{\"nodes\": [0]}], \"nodes\": [{\"mesh\": 0, \"skin\": 0}],"
+    "\"skins\": [{\"joints\": [0]}], \"meshes\": [{\"primitives\": [{\"attributes\": {\"POSITION\": 0}}]}],"
+    "\"accessors\": [{\"bufferView\": 0, \"componentType\": 5126, \"type\": \"VEC3\", \"count\": 3}],"
+    "\"bufferViews\": [{\"buffer\": 0, \"byteLength\": 36}],\"buffers\": [{\"byteLength\": 36, \"uri\": "
+    "\"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}]}";
+
 static void memory_may_end_at_any_place(void **state) {
     (void)state;
     write_nodes("nodes.dae");
@@ -298,6 +305,8 @@ static void memory_may_end_at_any_place(void **state) {
     assert_true(test_memory_each(read_with_memory, "one.amf") > 2);
     write_bytes("one.lwo", lwo, sizeof lwo);
     assert_true(test_memory_each(read_with_memory, "one.lwo") > 2);
+    write_text("skinned.gltf", skinned);
+    assert_true(test_memory_each(read_with_memory, "skinned.gltf") > 5);
     write_text("box.ifc", ifc);
     assert_true(test_memory_each(read_with_memory, "box.ifc") > 2);
 }

@@ -90,8 +90,6 @@ static void what_assimp_passes_over_is_refused(void **state) {
         {"[1, 1, 1]", "[1, true, 1]", FROE_E_FORMAT, "changed.gltf: node 1 ('b'): Its translation, rotation and scale"},
         {"\"scale\"", "\"rotation\": [0, 0, 1, 1], \"scale\"", FROE_E_FORMAT,
          "changed.gltf: node 1 ('b'): The quaternion of its rotation does not have the length 1."},
-        {"\"mesh\": 0", "\"skin\": 0, \"mesh\": 0", FROE_E_UNSUPPORTED,
-         "changed.gltf: skin 0 ('s'): It has no matrix (inverseBindMatrices) for each of its joints."},
         {"\"mode\": 4", "\"mode\": 9", FROE_E_FORMAT, "changed.gltf: mesh 0 ('m'): Its modes are not each one of the"},
         {"\"mode\": 4", "\"mode\": -1", FROE_E_FORMAT, "changed.gltf: mesh 0 ('m'): Its modes are not each one of the"},
         {"\"mode\": 4", "\"mode\": 2.0", FROE_E_FORMAT,
@@ -105,6 +103,28 @@ static void what_assimp_passes_over_is_refused(void **state) {
         write_changed("changed.gltf", changes[i].word, changes[i].other);
         refuse("changed.gltf", changes[i].status, changes[i].sentence);
     }
+}
+
+/* The matrices of a skin are optional, and there may be too few. In a .glb the text does not begin the file. */
+static void skins_without_matrices_are_read(void **state) {
+    (void)state;
+    static const char *const nodes[] = {"\"skin\": 0, \"mesh\": 0", "\"s\\u006bin\": 0, \"mesh\": 0",
+                                        "\"\\u0073kin\": 0, \"skin\": 0, \"mesh\": 0"};
+    char text[MOST];
+    for (size_t i = 0; i < sizeof nodes / sizeof *nodes; i++)
+        for (int binary = 0; binary < 2; binary++) {
+            froe_read_report report;
+            const size_t length = change(text, "\"mesh\": 0", nodes[i]);
+            if (binary)
+                write_chunks("skin.glb", text, length, ' ');
+            else
+                write_text("skin.gltf", text);
+            froe_scene *scene = read_scene(binary ? "skin.glb" : "skin.gltf", &report);
+            assert_int_equal(froe_scene_object_count(scene), 1);
+            assert_true(corner(scene, 0, 0)[0] == 3 && corner(scene, 0, 1)[0] == 5);
+            assert_string_equal(report.sorts_left, "skins");
+            froe_scene_free(scene);
+        }
 }
 
 /* assimp takes the text up to its first zero, and names of any bytes. */
@@ -185,6 +205,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_scene_to_be_shown_is_read_and_others_are_counted),
         cmocka_unit_test(what_assimp_passes_over_is_refused),
+        cmocka_unit_test(skins_without_matrices_are_read),
         cmocka_unit_test(texts_that_only_assimp_takes_are_checked_too),
         cmocka_unit_test(what_is_no_json_and_no_gltf_is_not_refused_for_it),
         cmocka_unit_test(what_does_not_change_the_scene_is_read),
