@@ -355,7 +355,6 @@ froe_status io_read_arranged(const formats_source *source, formats_sink *sink, i
     const struct aiScene *scene = NULL;
     if (!status) status = import(source, sink, part, &found.masked, &scene);
     if (!status) status = io_gltf_is_whole(sink, scene, &found);
-    array_free(&sink->alloc, &found.parts);
     array_free(&sink->alloc, &found.masked);
     if (!status) status = read_scene(source, sink, scene, nodes, arrange, user);
     if (scene) aiReleaseImport(scene);

@@ -32,21 +32,17 @@ size_t io_word_at(const char *at);
 /** Do `size` bytes that begin as a .glb go on as version 2, by a chunk of JSON? */
 bool io_glb_is_2(const char *bytes, size_t size);
 
-/** A primitive of a mesh of glTF, which assimp makes a mesh of its own: the number of its mesh, and how many points,
- * edges or triangles it has. */
-typedef struct io_gltf_part {
-    size_t mesh, faces;
-} io_gltf_part;
 /** What is found before the import and looked at after it. */
 typedef struct io_gltf_found {
-    bool still; /**< set before: nodes stand as they are at rest, and no keys replace their rotations */
-    ARRAY(io_gltf_part) parts;
+    bool still;               /**< set before: nodes stand as they are at rest, and no keys replace their rotations */
+    size_t primitives;        /**< of meshes: assimp makes a mesh of each, in the order in which nodes name them */
+    size_t faces;             /**< points, edges and triangles of them all */
     io_mask masked;           /**< names of members that assimp is not to find */
     formats_json_error error; /**< of a text that is no JSON; line 0: there is none */
 } io_gltf_found;
 
 /** Before the import: FROE_E_UNSUPPORTED or FROE_E_FORMAT where a glTF file says something about the places of faces
- * that assimp passes over in silence. The parts and the mask are the caller's. */
+ * that assimp passes over in silence. The mask is the caller's. */
 froe_status io_gltf_check(const formats_source *source, formats_sink *sink, io_gltf_found *found);
 /** After it: FROE_E_FORMAT where assimp has left out faces, or has read a text that could not be looked through. */
 froe_status io_gltf_is_whole(formats_sink *sink, const struct aiScene *scene, const io_gltf_found *found);

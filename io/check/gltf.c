@@ -143,7 +143,6 @@ static size_t faces_of(const gltf_check *c, const formats_json *primitive, const
 }
 
 static froe_status check_meshes(gltf_check *c, io_gltf_found *found) {
-    const froe_allocator *alloc = &c->sink->alloc;
     size_t number = 0;
     if (!list_items(c, "accessors", &c->accessors) || !list_items(c, "meshes", &c->meshes) ||
         !list_items(c, "skins", &c->skins))
@@ -159,8 +158,8 @@ static froe_status check_meshes(gltf_check *c, io_gltf_found *found) {
             if (!is_mode(formats_json_get(primitive, "mode")))
                 return fail_at(c, FROE_E_FORMAT, "mesh", number, mesh,
                                "Its modes are not each one of the digits 0 to 6.");
-            const io_gltf_part part = {number, faces_of(c, primitive, positions)};
-            if (!array_push(alloc, &found->parts, part)) return support_fail_memory(c->sink->diag);
+            found->primitives++;
+            found->faces += faces_of(c, primitive, positions);
         }
         number++;
     }
@@ -287,13 +286,11 @@ froe_status io_gltf_is_whole(formats_sink *sink, const struct aiScene *scene, co
     if (found->error.line && !strncmp(io_assimp_format(scene), "glTF2", 5))
         return support_fail(sink->diag, FROE_E_FORMAT, "%s: line %zu: %s", support_short(sink->path), found->error.line,
                             found->error.sentence);
-    for (size_t i = 0; i < found->parts.count && found->parts.count == scene->mNumMeshes; i++) {
-        const io_gltf_part part = found->parts.data[i];
-        const size_t faces = part.faces, read = scene->mMeshes[i]->mNumFaces;
-        if (read < faces)
-            return support_fail(sink->diag, FROE_E_FORMAT,
-                                "%s: mesh %zu: Of %zu points, edges or triangles %zu name vertices that do not exist.",
-                                support_short(sink->path), part.mesh, faces, faces - read);
-    }
-    return FROE_OK;
+    const size_t faces = found->faces;
+    size_t read = 0;
+    for (unsigned i = 0; i < scene->mNumMeshes; i++) read += scene->mMeshes[i]->mNumFaces;
+    if (found->primitives != scene->mNumMeshes || read >= faces) return FROE_OK; /* others are in no node */
+    return support_fail(sink->diag, FROE_E_FORMAT,
+                        "%s: Of %zu points, edges or triangles %zu name vertices that do not exist.",
+                        support_short(sink->path), faces, faces - read);
 }

@@ -97,11 +97,27 @@ static void what_assimp_passes_over_is_refused(void **state) {
         {"\"mode\": 4", "\"mode\": \"4\"", FROE_E_FORMAT,
          "changed.gltf: mesh 0 ('m'): Its modes are not each one of the"},
         {"\"SCALAR\", \"count\": 3", "\"SCALAR\", \"count\": 6", FROE_E_FORMAT,
-         "changed.gltf: mesh 0: Of 2 points, edges or triangles 1 name vertices that do not exist."},
+         "changed.gltf: Of 2 points, edges or triangles 1 name vertices that do not exist."},
     };
     for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
         write_changed("changed.gltf", changes[i].word, changes[i].other);
         refuse("changed.gltf", changes[i].status, changes[i].sentence);
+    }
+}
+
+/* assimp has meshes in the order in which nodes name them. */
+static void nodes_name_meshes_in_any_order(void **state) {
+    (void)state;
+    char text[MOST], both[MOST];
+    change(text, "4}]}]", "4}]}, {\"primitives\": [{\"attributes\": {\"POSITION\": 0}, \"mode\": 0}]}]");
+    for (int order = 0; order < 2; order++) {
+        const char *at = strstr(text, "\"nodes\": [{"), *end = strstr(at, "\"meshes\"");
+        snprintf(both, sizeof both, "%.*s\"nodes\": [{\"mesh\": %d, \"children\": [1]}, {\"mesh\": %d}],\n%s",
+                 (int)(at - text), text, order, 1 - order, end);
+        write_text("both.gltf", both);
+        froe_scene *scene = read_scene("both.gltf", NULL);
+        assert_int_equal(froe_scene_object_count(scene), 4);
+        froe_scene_free(scene);
     }
 }
 
@@ -205,6 +221,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_scene_to_be_shown_is_read_and_others_are_counted),
         cmocka_unit_test(what_assimp_passes_over_is_refused),
+        cmocka_unit_test(nodes_name_meshes_in_any_order),
         cmocka_unit_test(skins_without_matrices_are_read),
         cmocka_unit_test(texts_that_only_assimp_takes_are_checked_too),
         cmocka_unit_test(what_is_no_json_and_no_gltf_is_not_refused_for_it),
