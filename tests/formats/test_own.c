@@ -346,7 +346,6 @@ static void broken_obj_is_refused_with_its_line(void **state) {
     }
 }
 
-/* Elements without enough corners, free forms, and words that only begin like others. */
 /* Faces of version 2, comments behind elements, and what version 2 and other files have. */
 static void faces_of_old_obj_are_read_and_its_surfaces_counted(void **state) {
     (void)state;
@@ -360,6 +359,7 @@ static void faces_of_old_obj_are_read_and_its_surfaces_counted(void **state) {
     froe_scene_free(scene);
 }
 
+/* Elements without enough corners, free forms, and words that only begin like others. */
 static void what_obj_has_beside_elements_is_passed_over(void **state) {
     (void)state;
     froe_read_report report;
