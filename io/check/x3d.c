@@ -60,7 +60,8 @@ static void XMLCALL enter_element(void *user, const char *name, const char **att
     if (c->status) return;
     c->depth++;
     if (c->beyond) {
-        if (is_one_of(name, "Shape ProtoInstance") && *c->passed) io_leave(c->sink, c->passed, strlen(c->passed));
+        if (*c->passed && is_one_of(name, "Shape ProtoInstance Inline"))
+            io_leave(c->sink, c->passed, strlen(c->passed));
         return;
     }
     if (is_one_of(name, others) || (c->shape && c->depth == c->shape + 1 && !is_one_of(name, shapes)))
