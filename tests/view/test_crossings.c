@@ -54,12 +54,19 @@ static int pierce(const froe_scene *s, uint32_t a, uint32_t b, point *out, int c
     return count;
 }
 
+static bool is_edge_on(const froe_scene *s, const froe_eye *eye, uint32_t object) {
+    point n, u;
+    normal_of(s, object, n);
+    sub(eye->at, scene_point(s, object, 0), u);
+    return fabs(dot(n, eye->parallel ? eye->at : u)) < 1e-12;
+}
+
 /* Is a point before everything but two triangles? 1, 0, or -1: too close to call. */
 static int in_sight(const froe_scene *s, const froe_eye *eye, const double *x, uint32_t a, uint32_t b) {
     int seen = 1;
     for (uint32_t o = 0; o < s->object_count; o++) {
         point n, way, u, hit;
-        if (o == a || o == b) continue;
+        if (o == a || o == b || is_edge_on(s, eye, o)) continue;
         normal_of(s, o, n);
         for (int k = 0; k < 3; k++) way[k] = eye->parallel ? eye->at[k] : eye->at[k] - x[k];
         sub(scene_point(s, o, 0), x, u);
@@ -71,13 +78,6 @@ static int in_sight(const froe_scene *s, const froe_eye *eye, const double *x, u
         seen = 0;
     }
     return seen;
-}
-
-static bool is_edge_on(const froe_scene *s, const froe_eye *eye, uint32_t object) {
-    point n, u;
-    normal_of(s, object, n);
-    sub(eye->at, scene_point(s, object, 0), u);
-    return fabs(dot(n, eye->parallel ? eye->at : u)) < 1e-12;
 }
 
 static bool is_found(const froe_visibility *v, const double *x, bool hidden) {
@@ -167,6 +167,32 @@ static void a_third_plane_through_a_crossing_takes_nothing_away(void **state) {
     assert_true(counts[0] > 50 && counts[1] > 50);
 }
 
+/* Of triangles around one line, some in one plane, each is cut along it by the plane of another. One is before them. */
+static void many_planes_cross_in_one_line(void **state) {
+    enum { AROUND = 16, TRIANGLES };
+    (void)state;
+    double x[TRIANGLES][3][3] = {[AROUND] = {{-30, -8, -5}, {30, -8, -5}, {0, -8, 60}}};
+    size_t starts[TRIANGLES + 1];
+    uint32_t counts[2] = {0, 0};
+    for (size_t i = 0; i <= TRIANGLES; i++) starts[i] = 3 * i;
+    for (size_t i = 0; i < AROUND; i++) {
+        const double a = (double)(i % 12) - 6, low = (double)(7 * i % AROUND), high = low + 1 + (double)(i % 5);
+        const double corners[3][3] = {{a, 7, low}, {-a, -7, low}, {0, 0, high}};
+        memcpy(x[i], corners, sizeof corners);
+    }
+    for (int method = 0; method < 2; method++) {
+        froe_tree *tree = trees_of_polygons(x[0][0], starts, TRIANGLES, method ? "autopartition" : "density");
+        froe_surface *surface;
+        assert_int_equal(froe_surface_new(tree->scene, NULL, &surface, NULL), FROE_OK);
+        for (uint32_t e = 0; e < 12; e++)
+            for (int hidden = 0; hidden < 2; hidden++) check_eye(tree, surface, e, hidden, counts);
+        froe_surface_free(surface);
+        froe_tree_free(tree);
+    }
+    print_message("  %u points seen, %u hidden\n", counts[1], counts[0]);
+    assert_true(counts[0] > 50 && counts[1] > 50);
+}
+
 /* A sheet that ends on another, or passes beside it, crosses nothing. */
 static void touching_is_no_crossing(void **state) {
     (void)state;
@@ -193,6 +219,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(lines_of_crossing_triangles_are_found_where_they_are_seen),
         cmocka_unit_test(a_third_plane_through_a_crossing_takes_nothing_away),
+        cmocka_unit_test(many_planes_cross_in_one_line),
         cmocka_unit_test(touching_is_no_crossing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

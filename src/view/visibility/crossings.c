@@ -255,25 +255,27 @@ static int by_side(void *user, uint32_t a, uint32_t b) {
     return view_compare_along(&t->v->sights, x->edge, &x->end[0], &y->end[0]);
 }
 
-/* Appends where sides of patches in different planes overlap. */
+/* Appends where sides of patches in different planes overlap. Each is compared only with the one that ends last of
+ * those that begin before it on its line. That one covers wherever the side overlaps others: either it is in another
+ * plane than the side, or it is in the same, and then where it overlaps those others has been appended. */
 static froe_status put_overlaps(between_patches *b, view_stretches *out) {
     view_sightlines *s = &b->v->sights;
     const size_t n = b->sides.count;
     if (n > INT32_MAX) return FROE_E_LIMIT;
-    uint32_t *items = support_calloc(&s->alloc, 2 * n + 1, sizeof *items);
+    uint32_t *items = support_calloc(&s->alloc, 2 * n + 1, sizeof *items), far = 0;
     bool ok = items != NULL;
     for (uint32_t i = 0; ok && i < n; i++) items[i] = i;
     if (ok) base_merge_sort(items, items + n, n, by_side, b);
     for (size_t i = 0; ok && i < n; i++) {
-        const view_stretch *x = b->sides.data + items[i];
-        for (size_t j = i + 1; ok && j < n; j++) {
-            const view_stretch *y = b->sides.data + items[j];
-            if (y->edge != x->edge || view_compare_along(s, x->edge, &y->end[0], &x->end[1]) >= 0) break;
-            if (b->planes.data[items[i]] == b->planes.data[items[j]]) continue;
-            const bool within = view_compare_along(s, x->edge, &y->end[1], &x->end[1]) < 0;
+        const view_stretch *x = b->sides.data + far, *y = b->sides.data + items[i];
+        const bool first = !i || x->edge != y->edge;
+        const bool within = !first && view_compare_along(s, x->edge, &y->end[1], &x->end[1]) < 0;
+        if (!first && b->planes.data[far] != b->planes.data[items[i]] &&
+            view_compare_along(s, x->edge, &y->end[0], &x->end[1]) < 0) {
             const view_stretch part = {x->edge, {y->end[0], within ? y->end[1] : x->end[1]}};
             ok = array_push(&s->alloc, out, part);
         }
+        if (!within) far = items[i];
     }
     support_free(&s->alloc, items, (2 * n + 1) * sizeof *items);
     b->sides.count = b->planes.count = 0;
