@@ -77,6 +77,7 @@ uint32_t ktree_new_node(ktree *tree, uint32_t segment, const uint32_t wall[2]) {
     if (node) {
         tree->free_node = ktree_node_at(tree, node)->next;
     } else {
+        if (tree->nodes.count >= KTREE_MOST) return call_stop(tree->call), KTREE_LEAF; /* as without memory */
         if (!call_reserve(tree->call, &tree->nodes, 1)) return KTREE_LEAF;
         node = (uint32_t)tree->nodes.count++;
         tree->nodes.data[node].turner = FROE_NONE;

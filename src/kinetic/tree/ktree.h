@@ -29,6 +29,7 @@ enum { KTREE_LEFT, KTREE_RIGHT, KTREE_UP, KTREE_DOWN };
 
 /** Leaves are node 0. The root is child 0 of KTREE_ROOT; KTREE_PARTS has as children what surgery has cut out. */
 enum { KTREE_LEAF, KTREE_ROOT, KTREE_PARTS, KTREE_FIRST };
+enum { KTREE_MOST = 1 << 30 }; /* nodes, which alone take 64 GB: numbers of visits to them have 32 bits, too */
 
 typedef struct ktree_node {
     uint32_t segment;
