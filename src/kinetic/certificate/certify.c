@@ -278,7 +278,7 @@ static void certify_touched(froe_kinetic *k, uint32_t root, ktree_cell cell) {
 }
 
 /* The region of a node that has a child in it, as a bit. */
-static unsigned region_around(uint8_t slot) {
+static unsigned region_of_slot(uint8_t slot) {
     return 1u << (slot == KTREE_LEFT ? CERT_LEFT : slot == KTREE_RIGHT ? CERT_RIGHT : CERT_MIDDLE);
 }
 
@@ -292,7 +292,7 @@ static void certify_above(froe_kinetic *k, const ktree_site *site, uint32_t comm
         bool cut = find_cut(tree, n);
         changed = cut != ktree_node_at(tree, n)->cut;
         ktree_node_at(tree, n)->cut = cut;
-        certify_regions(k, n, NULL, !common || n == common ? ALL_REGIONS : region_around(slot));
+        certify_regions(k, n, NULL, !common || n == common ? ALL_REGIONS : region_of_slot(slot));
         slot = ktree_slot_of(tree, n);
     }
 }
@@ -359,7 +359,7 @@ void certify_passing(froe_kinetic *k, const certify_side both[2], uint32_t commo
         const uint32_t node = ktree_node_at(tree, b->site->parent)->child[b->site->slot];
         const ktree_node *n = ktree_node_at(tree, node);
         tree->nodes.data[node].cut = find_cut(tree, node);
-        certify_regions(k, node, &b->site->cell, region_around((uint8_t)b->own) | 1u << CERT_MIDDLE);
+        certify_regions(k, node, &b->site->cell, region_of_slot((uint8_t)b->own) | 1u << CERT_MIDDLE);
         if (ktree_is_end(n->wall[b->own])) certify_end(k, node, &b->site->cell, b->own);
     }
     call_poll(&k->call);
