@@ -18,6 +18,26 @@ void io_log_end(void);
 /** Puts a name of that length among the sorts in the report that are left out, where it fits and is not yet there. */
 void io_leave(formats_sink *sink, const char *name, size_t length);
 
+/** A text of XML that is looked through: the first member of what is known of it. */
+typedef struct io_xml {
+    formats_sink *sink;
+    XML_Parser parser;
+    froe_status status; /**< of what was refused: then nothing more is looked at */
+} io_xml;
+/** Get the io_xml as the user's data; NULL: none. */
+typedef struct io_xml_handlers {
+    XML_StartElementHandler begin;
+    XML_EndElementHandler end;
+    XML_CharacterDataHandler text;
+} io_xml_handlers;
+/** Ends it, with a status whose sentence has been said. */
+void io_xml_stop(io_xml *xml, froe_status status);
+/** Refuses it for what stands in the present line. */
+void io_xml_refuse(io_xml *xml, froe_status status, const char *sentence);
+/** Looks through a text; what was refused. *whole: it is well-formed, or as far as it goes; NULL: otherwise it is
+ * refused. FROE_E_IO, FROE_E_MEMORY, FROE_E_CANCELLED. */
+froe_status io_xml_look(io_xml *xml, const formats_source *source, const io_xml_handlers *handlers, bool *whole);
+
 /** Places in a file of bytes for which assimp gets '_'. */
 typedef ARRAY(size_t) io_mask;
 /** Imports a file so. NULL: assimp has failed, or there is no memory, as *memory says. */
@@ -59,9 +79,6 @@ froe_status io_lwo_check(const formats_source *source, formats_sink *sink);
 bool io_is_ifc(const formats_source *source);
 /** Before the import: FROE_E_FORMAT or FROE_E_UNSUPPORTED where it names what assimp does not find. */
 froe_status io_ifc_check(const formats_source *source, formats_sink *sink);
-/** Hands a text to a parser, as far as that goes. *whole becomes false where it has ended in the middle. FROE_E_IO,
- * FROE_E_MEMORY, FROE_E_CANCELLED. */
-froe_status io_xml_parse(const formats_source *source, formats_sink *sink, XML_Parser parser, bool *whole);
 /** Is it X3D, by its extension? */
 bool io_is_x3d(const formats_source *source);
 /** Before the import: FROE_E_UNSUPPORTED or FROE_E_FORMAT where an X3D file has what assimp reads as something else.

@@ -25,10 +25,7 @@ typedef struct reference {
 } reference;
 
 typedef struct collada_check {
-    const formats_source *source;
-    formats_sink *sink;
-    froe_status status;
-    XML_Parser parser;
+    io_xml xml;
     ARRAY(char) text;       /* names, each with a NUL */
     ARRAY(char) numbers;    /* what stands in an element rotate or matrix */
     ARRAY(size_t) ids;      /* where those of geometries, controllers and nodes begin */
@@ -48,16 +45,6 @@ bool io_is_collada(const formats_source *source) {
     return !strcmp(source->extension.text, "dae");
 }
 
-static void stop(collada_check *c, froe_status status) {
-    c->status = status;
-    XML_StopParser(c->parser, XML_FALSE);
-}
-
-static void fail(collada_check *c, froe_status status, const char *sentence) {
-    stop(c, support_fail(c->sink->diag, status, "%s: line %lu: %s", support_short(c->source->path),
-                         (unsigned long)XML_GetCurrentLineNumber(c->parser), sentence));
-}
-
 static const char *attribute(const char **attributes, const char *name) {
     for (; *attributes; attributes += 2)
         if (!strcmp(attributes[0], name)) return attributes[1];
@@ -67,21 +54,21 @@ static const char *attribute(const char **attributes, const char *name) {
 /* Keeps a name; *at is where. */
 static bool keep(collada_check *c, const char *name, size_t *at) {
     *at = c->text.count;
-    if (array_append(&c->sink->alloc, &c->text, name, strlen(name) + 1)) return true;
-    stop(c, support_fail_memory(c->sink->diag));
+    if (array_append(&c->xml.sink->alloc, &c->text, name, strlen(name) + 1)) return true;
+    io_xml_stop(&c->xml, support_fail_memory(c->xml.sink->diag));
     return false;
 }
 
 static void define(collada_check *c, const char *name) {
     size_t at;
-    if (!name || c->status || !keep(c, name, &at)) return;
-    if (!array_push(&c->sink->alloc, &c->ids, at)) stop(c, support_fail_memory(c->sink->diag));
+    if (!name || c->xml.status || !keep(c, name, &at)) return;
+    if (!array_push(&c->xml.sink->alloc, &c->ids, at)) io_xml_stop(&c->xml, support_fail_memory(c->xml.sink->diag));
 }
 
 static void refer(collada_check *c, const char *element, const char *name) {
-    reference r = {.element = element, .line = XML_GetCurrentLineNumber(c->parser)};
+    reference r = {.element = element, .line = XML_GetCurrentLineNumber(c->xml.parser)};
     if (!keep(c, name ? name : "", &r.name)) return;
-    if (!array_push(&c->sink->alloc, &c->named, r)) stop(c, support_fail_memory(c->sink->diag));
+    if (!array_push(&c->xml.sink->alloc, &c->named, r)) io_xml_stop(&c->xml, support_fail_memory(c->xml.sink->diag));
 }
 
 static size_t whole_number(const char **attributes, const char *name, size_t otherwise) {
@@ -101,7 +88,7 @@ static void check_source(collada_check *c, const char *name, const char **attrib
         const size_t left = c->floats - whole_number(attributes, "offset", 0);
         c->has_x = c->has_z = false;
         if (from && !strcmp(from, c->array) && count && (left > c->floats || stride > left / count))
-            fail(c, FROE_E_FORMAT, "An accessor counts more numbers than its array has.");
+            io_xml_refuse(&c->xml, FROE_E_FORMAT, "An accessor counts more numbers than its array has.");
     } else if (!strcmp(name, "param") && attribute(attributes, "name")) {
         const char *axis = attribute(attributes, "name");
         c->has_x = c->has_x || !strcmp(axis, "X");
@@ -124,7 +111,7 @@ static void XMLCALL begin_element(void *user, const char *name, const char **att
     static const char *const others[] = {"spline", "convex_mesh", "brep"}; /* than a mesh */
     static const char *const naming[] = {"instance_geometry", "instance_controller", "instance_node"};
     collada_check *c = user;
-    if (c->status) return;
+    if (c->xml.status) return;
     c->depth++;
     if (!c->beyond && is_beyond(c, name)) c->beyond = c->depth;
     if (c->beyond) return;
@@ -134,20 +121,21 @@ static void XMLCALL begin_element(void *user, const char *name, const char **att
     if (!strcmp(name, "library_visual_scenes")) c->scenes = true;
     if (!strcmp(name, "node") && c->scenes && !c->nodes)
         define(c, attribute(attributes, "name")); /* by which assimp finds it, too */
-    for (size_t i = 0; i < sizeof naming / sizeof *naming && !c->status; i++)
+    for (size_t i = 0; i < sizeof naming / sizeof *naming && !c->xml.status; i++)
         if (!strcmp(name, naming[i])) refer(c, naming[i], attribute(attributes, "url"));
-    if (!strcmp(name, "instance_controller")) io_leave(c->sink, "skins", 5);
+    if (!strcmp(name, "instance_controller")) io_leave(c->xml.sink, "skins", 5);
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        c->sink->report.skipped += c->geometry && c->depth == c->geometry + 1 && !strcmp(name, others[i]);
+        c->xml.sink->report.skipped += c->geometry && c->depth == c->geometry + 1 && !strcmp(name, others[i]);
     if (!strcmp(name, "geometry")) c->geometry = c->depth;
     c->indices = !strcmp(name, "p");
     c->turns = !strcmp(name, "rotate");
     c->matrix = !strcmp(name, "matrix");
     c->numbers.count = 0;
-    if (!c->status && !strcmp(name, "trifans"))
-        fail(c, FROE_E_UNSUPPORTED, "Fans of triangles (trifans) are not read.");
-    if (!c->status && !strcmp(name, "skew")) fail(c, FROE_E_UNSUPPORTED, "Skews are not read. A matrix is.");
-    if (!c->status) check_source(c, name, attributes);
+    if (!c->xml.status && !strcmp(name, "trifans"))
+        io_xml_refuse(&c->xml, FROE_E_UNSUPPORTED, "Fans of triangles (trifans) are not read.");
+    if (!c->xml.status && !strcmp(name, "skew"))
+        io_xml_refuse(&c->xml, FROE_E_UNSUPPORTED, "Skews are not read. A matrix is.");
+    if (!c->xml.status) check_source(c, name, attributes);
 }
 
 /* An axis may have been rounded to three digits. The last number of a matrix may be 1 as single precision rounds it. */
@@ -157,32 +145,34 @@ static void check_numbers(collada_check *c) {
     for (size_t i = 0; i < sizeof at / sizeof *at; i++, from = end) at[i] = support_decimal(from, &end);
     const double length = at[0] * at[0] + at[1] * at[1] + at[2] * at[2];
     if (c->turns && at[3] != 0 && !(fabs(length - 1) < 2e-3))
-        fail(c, FROE_E_FORMAT, "The axis of a rotation has not the length 1.");
+        io_xml_refuse(&c->xml, FROE_E_FORMAT, "The axis of a rotation has not the length 1.");
     if (c->matrix && !(at[12] == 0 && at[13] == 0 && at[14] == 0 && fabs(at[15] - 1) < 1e-6))
-        fail(c, FROE_E_FORMAT, "The last row of a matrix is not 0, 0, 0 and 1.");
+        io_xml_refuse(&c->xml, FROE_E_FORMAT, "The last row of a matrix is not 0, 0, 0 and 1.");
 }
 
 static void XMLCALL end_element(void *user, const char *name) {
     collada_check *c = user;
-    if (c->has_x && !c->has_z && !c->beyond && !c->status && !strcmp(name, "accessor"))
-        fail(c, FROE_E_UNSUPPORTED, "Points with an X and no Z are not read.");
+    if (c->has_x && !c->has_z && !c->beyond && !c->xml.status && !strcmp(name, "accessor"))
+        io_xml_refuse(&c->xml, FROE_E_UNSUPPORTED, "Points with an X and no Z are not read.");
     if (c->geometry == c->depth) c->geometry = 0;
     if (c->beyond == c->depth) c->beyond = 0;
     c->depth--;
-    if ((c->turns || c->matrix) && !c->status) {
-        if (array_push(&c->sink->alloc, &c->numbers, '\0'))
+    if ((c->turns || c->matrix) && !c->xml.status) {
+        if (array_push(&c->xml.sink->alloc, &c->numbers, '\0'))
             check_numbers(c);
         else
-            stop(c, support_fail_memory(c->sink->diag));
+            io_xml_stop(&c->xml, support_fail_memory(c->xml.sink->diag));
     }
     c->indices = c->turns = c->matrix = false;
 }
 
 static void XMLCALL read_text(void *user, const char *text, int length) {
     collada_check *c = user;
-    if (c->indices && !c->status && memchr(text, '-', (size_t)length)) fail(c, FROE_E_FORMAT, "An index is negative.");
-    if ((c->turns || c->matrix) && !c->status && !array_append(&c->sink->alloc, &c->numbers, text, (size_t)length))
-        stop(c, support_fail_memory(c->sink->diag));
+    if (c->indices && !c->xml.status && memchr(text, '-', (size_t)length))
+        io_xml_refuse(&c->xml, FROE_E_FORMAT, "An index is negative.");
+    if ((c->turns || c->matrix) && !c->xml.status &&
+        !array_append(&c->xml.sink->alloc, &c->numbers, text, (size_t)length))
+        io_xml_stop(&c->xml, support_fail_memory(c->xml.sink->diag));
 }
 
 static int order_names(const void *x, const void *y) {
@@ -192,47 +182,29 @@ static int order_names(const void *x, const void *y) {
 /* Is everything there that is named? */
 static froe_status check_names(collada_check *c) {
     ARRAY(const char *) ids = {0};
-    if (!array_reserve(&c->sink->alloc, &ids, c->ids.count)) return support_fail_memory(c->sink->diag);
+    if (!array_reserve(&c->xml.sink->alloc, &ids, c->ids.count)) return support_fail_memory(c->xml.sink->diag);
     for (size_t i = 0; i < c->ids.count; i++) ids.data[i] = c->text.data + c->ids.data[i];
     if (c->ids.count) qsort(ids.data, c->ids.count, sizeof *ids.data, order_names);
-    for (size_t i = 0; i < c->named.count && !c->status; i++) {
+    for (size_t i = 0; i < c->named.count && !c->xml.status; i++) {
         const reference r = c->named.data[i];
         const char *name = c->text.data + r.name, *id = name + 1;
         if (*name == '#' && c->ids.count && bsearch(&id, ids.data, c->ids.count, sizeof *ids.data, order_names))
             continue;
-        c->status =
-            support_fail(c->sink->diag, FROE_E_FORMAT, "%s: line %lu: '%.80s', which %s names, is not in this file%s.",
-                         support_short(c->source->path), r.line, name, r.element,
-                         strcmp(r.element, "instance_node") ? "" : ", or is within a node of library_nodes");
+        c->xml.status = support_fail(
+            c->xml.sink->diag, FROE_E_FORMAT, "%s: line %lu: '%.80s', which %s names, is not in this file%s.",
+            support_short(c->xml.sink->path), r.line, name, r.element,
+            strcmp(r.element, "instance_node") ? "" : ", or is within a node of library_nodes");
     }
-    array_free(&c->sink->alloc, &ids);
-    return c->status;
-}
-
-froe_status io_xml_parse(const formats_source *source, formats_sink *sink, XML_Parser parser, bool *whole) {
-    enum { CHUNK = 1 << 20 };
-    formats_text text = {0};
-    froe_status status = formats_load_part(source, sink, 0, (size_t)source->size, &text);
-    for (size_t at = 0; at < text.count && *whole && !status; at += CHUNK) {
-        const size_t size = text.count - at < CHUNK ? text.count - at : CHUNK;
-        *whole = XML_Parse(parser, text.data + at, (int)size, at + size == text.count) != XML_STATUS_ERROR;
-        if (!*whole && XML_GetErrorCode(parser) == XML_ERROR_NO_MEMORY) status = support_fail_memory(sink->diag);
-        if (!status) status = formats_sink_progress(sink, 0);
-    }
-    array_free(&sink->alloc, &text);
-    return status;
+    array_free(&c->xml.sink->alloc, &ids);
+    return c->xml.status;
 }
 
 froe_status io_collada_check(const formats_source *source, formats_sink *sink) {
-    collada_check c = {.source = source, .sink = sink, .parser = XML_ParserCreate(NULL)};
-    if (!c.parser) return support_fail_memory(sink->diag);
-    XML_SetUserData(c.parser, &c);
-    XML_SetElementHandler(c.parser, begin_element, end_element);
-    XML_SetCharacterDataHandler(c.parser, read_text);
-    bool whole = true;
-    froe_status status = io_xml_parse(source, sink, c.parser, &whole);
-    if (!status) status = c.status || !whole ? c.status : check_names(&c);
-    XML_ParserFree(c.parser);
+    static const io_xml_handlers handlers = {begin_element, end_element, read_text};
+    collada_check c = {.xml.sink = sink};
+    bool whole;
+    froe_status status = io_xml_look(&c.xml, source, &handlers, &whole);
+    if (!status && whole) status = check_names(&c);
     array_free(&sink->alloc, &c.text);
     array_free(&sink->alloc, &c.numbers);
     array_free(&sink->alloc, &c.ids);

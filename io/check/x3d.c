@@ -11,22 +11,14 @@
 #include <string.h>
 
 typedef struct x3d_check {
-    formats_sink *sink;
-    froe_status status;
-    XML_Parser parser;
-    size_t depth, shape,
-        beyond;      /* of the element, from 1; of the Shape, or of what assimp passes over, it is in, or 0 */
-    char passed[32]; /* the name of that; "": what is in it is shown elsewhere, if anywhere */
+    io_xml xml;
+    size_t depth;         /* of the element, from 1 */
+    size_t shape, beyond; /* of the Shape, and of what assimp passes over, that it is in, or 0 */
+    char passed[32];      /* the name of that; "": what is in it is shown elsewhere, if anywhere */
 } x3d_check;
 
 bool io_is_x3d(const formats_source *source) {
     return !strcmp(source->extension.text, "x3d");
-}
-
-static void fail_here(x3d_check *c, froe_status status, const char *sentence) {
-    c->status = support_fail(c->sink->diag, status, "%s: line %lu: %s", support_short(c->sink->path),
-                             (unsigned long)XML_GetCurrentLineNumber(c->parser), sentence);
-    XML_StopParser(c->parser, XML_FALSE);
 }
 
 static bool is_one_of(const char *name, const char *names) {
@@ -57,17 +49,17 @@ static void XMLCALL enter_element(void *user, const char *name, const char **att
         "MetadataFloat MetadataInteger MetadataSet MetadataString";
     static const char others[] = "CoordinateDouble GeoCoordinate ProtoInstance"; /* wherever they are */
     x3d_check *c = user;
-    if (c->status) return;
+    if (c->xml.status) return;
     c->depth++;
     if (c->beyond) {
         if (*c->passed && is_one_of(name, "Shape ProtoInstance Inline"))
-            io_leave(c->sink, c->passed, strlen(c->passed));
+            io_leave(c->xml.sink, c->passed, strlen(c->passed));
         return;
     }
     if (is_one_of(name, others) || (c->shape && c->depth == c->shape + 1 && !is_one_of(name, shapes)))
-        io_leave(c->sink, name, strlen(name));
+        io_leave(c->xml.sink, name, strlen(name));
     if (c->shape && !strcmp(name, "Cone"))
-        fail_here(c, FROE_E_UNSUPPORTED, "Cones are not read. Faces of an IndexedFaceSet are.");
+        io_xml_refuse(&c->xml, FROE_E_UNSUPPORTED, "Cones are not read. Faces of an IndexedFaceSet are.");
     if (c->shape) return;
     if (!strcmp(name, "Shape")) {
         c->shape = c->depth;
@@ -77,9 +69,9 @@ static void XMLCALL enter_element(void *user, const char *name, const char **att
         memcpy(c->passed, name, length);
         c->passed[length] = '\0';
     }
-    for (; *attributes && !strcmp(name, "Transform") && !c->status; attributes += 2)
+    for (; *attributes && !strcmp(name, "Transform") && !c->xml.status; attributes += 2)
         if (is_one_of(attributes[0], "rotation scaleOrientation") && !is_turn(attributes[1]))
-            fail_here(c, FROE_E_FORMAT, "The axis of a rotation has not the length 1.");
+            io_xml_refuse(&c->xml, FROE_E_FORMAT, "The axis of a rotation has not the length 1.");
 }
 
 static void XMLCALL leave_element(void *user, const char *name) {
@@ -91,14 +83,6 @@ static void XMLCALL leave_element(void *user, const char *name) {
 }
 
 froe_status io_x3d_check(const formats_source *source, formats_sink *sink) {
-    x3d_check c = {.sink = sink, .parser = XML_ParserCreate(NULL)};
-    if (!c.parser) return support_fail_memory(sink->diag);
-    XML_SetUserData(c.parser, &c);
-    XML_SetElementHandler(c.parser, enter_element, leave_element);
-    bool whole = true;
-    const froe_status status = io_xml_parse(source, sink, c.parser, &whole);
-    if (!status && !c.status && !whole && XML_GetErrorCode(c.parser) != XML_ERROR_UNKNOWN_ENCODING)
-        fail_here(&c, FROE_E_FORMAT, "The text is not well-formed XML.");
-    XML_ParserFree(c.parser);
-    return status ? status : c.status;
+    x3d_check c = {.xml.sink = sink};
+    return io_xml_look(&c.xml, source, &(io_xml_handlers){enter_element, leave_element, NULL}, NULL);
 }
