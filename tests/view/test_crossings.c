@@ -123,18 +123,36 @@ static void check_eye(const froe_tree *tree, const froe_surface *surface, uint32
     froe_visibility_free(v);
 }
 
-static void lines_of_crossing_triangles_are_found_where_they_are_seen(void **state) {
-    (void)state;
-    froe_tree *tree = trees_grow(3, FROE_POLYGON, 60, 0, 1, "density", 1);
+/* Looks at a tree from so many places, and frees it. */
+static void check_tree(froe_tree *tree, uint32_t eyes, uint32_t counts[2]) {
     froe_surface *surface;
-    uint32_t counts[2] = {0, 0};
     assert_int_equal(froe_surface_new(tree->scene, NULL, &surface, NULL), FROE_OK);
-    for (uint32_t e = 0; e < 6; e++)
+    for (uint32_t e = 0; e < eyes; e++)
         for (int hidden = 0; hidden < 2; hidden++) check_eye(tree, surface, e, hidden, counts);
-    print_message("  %u points seen, %u hidden\n", counts[1], counts[0]);
-    assert_true(counts[0] > 50 && counts[1] > 50);
     froe_surface_free(surface);
     froe_tree_free(tree);
+}
+
+static void check_counts(const uint32_t counts[2]) {
+    print_message("  %u points seen, %u hidden\n", counts[1], counts[0]);
+    assert_true(counts[0] > 50 && counts[1] > 50);
+}
+
+static void check_triangles(const double *x, size_t count) {
+    size_t starts[64];
+    uint32_t counts[2] = {0, 0};
+    assert_true(count < sizeof starts / sizeof *starts);
+    for (size_t i = 0; i <= count; i++) starts[i] = 3 * i;
+    for (int method = 0; method < 2; method++)
+        check_tree(trees_of_polygons(x, starts, count, method ? "autopartition" : "density"), 12, counts);
+    check_counts(counts);
+}
+
+static void lines_of_crossing_triangles_are_found_where_they_are_seen(void **state) {
+    (void)state;
+    uint32_t counts[2] = {0, 0};
+    check_tree(trees_grow(3, FROE_POLYGON, 60, 0, 1, "density", 1), 6, counts);
+    check_counts(counts);
 }
 
 /* Pairs of triangles that cross, and above each pair a third in whose plane their crossing lies. Where that plane is
@@ -145,26 +163,13 @@ static void a_third_plane_through_a_crossing_takes_nothing_away(void **state) {
         {{-1, -1, 0}, {1, 1, 0}, {0, 0, 2}}, {{-1, 2, -1}, {1, -2, -1}, {0, 0, 3}}, {{0, -2, 4}, {0, 2, 4}, {0, 0, 6}}};
     (void)state;
     double x[TRIANGLES][3][3];
-    size_t starts[TRIANGLES + 1];
-    uint32_t counts[2] = {0, 0};
-    for (size_t i = 0; i <= TRIANGLES; i++) starts[i] = 3 * i;
     for (size_t i = 0; i < TRIANGLES; i++)
         for (size_t k = 0; k < 3; k++) {
             x[i][k][0] = 5 * (double)(i / 3 % SIDE) + three[i % 3][k][0];
             x[i][k][1] = 7 * (double)(i / 3 / SIDE) + three[i % 3][k][1];
             x[i][k][2] = three[i % 3][k][2];
         }
-    for (int method = 0; method < 2; method++) {
-        froe_tree *tree = trees_of_polygons(x[0][0], starts, TRIANGLES, method ? "autopartition" : "density");
-        froe_surface *surface;
-        assert_int_equal(froe_surface_new(tree->scene, NULL, &surface, NULL), FROE_OK);
-        for (uint32_t e = 0; e < 12; e++)
-            for (int hidden = 0; hidden < 2; hidden++) check_eye(tree, surface, e, hidden, counts);
-        froe_surface_free(surface);
-        froe_tree_free(tree);
-    }
-    print_message("  %u points seen, %u hidden\n", counts[1], counts[0]);
-    assert_true(counts[0] > 50 && counts[1] > 50);
+    check_triangles(x[0][0], TRIANGLES);
 }
 
 /* Of triangles around one line, some in one plane, each is cut along it by the plane of another. One is before them. */
@@ -172,25 +177,12 @@ static void many_planes_cross_in_one_line(void **state) {
     enum { AROUND = 16, TRIANGLES };
     (void)state;
     double x[TRIANGLES][3][3] = {[AROUND] = {{-30, -8, -5}, {30, -8, -5}, {0, -8, 60}}};
-    size_t starts[TRIANGLES + 1];
-    uint32_t counts[2] = {0, 0};
-    for (size_t i = 0; i <= TRIANGLES; i++) starts[i] = 3 * i;
     for (size_t i = 0; i < AROUND; i++) {
         const double a = (double)(i % 12) - 6, low = (double)(7 * i % AROUND), high = low + 1 + (double)(i % 5);
         const double corners[3][3] = {{a, 7, low}, {-a, -7, low}, {0, 0, high}};
         memcpy(x[i], corners, sizeof corners);
     }
-    for (int method = 0; method < 2; method++) {
-        froe_tree *tree = trees_of_polygons(x[0][0], starts, TRIANGLES, method ? "autopartition" : "density");
-        froe_surface *surface;
-        assert_int_equal(froe_surface_new(tree->scene, NULL, &surface, NULL), FROE_OK);
-        for (uint32_t e = 0; e < 12; e++)
-            for (int hidden = 0; hidden < 2; hidden++) check_eye(tree, surface, e, hidden, counts);
-        froe_surface_free(surface);
-        froe_tree_free(tree);
-    }
-    print_message("  %u points seen, %u hidden\n", counts[1], counts[0]);
-    assert_true(counts[0] > 50 && counts[1] > 50);
+    check_triangles(x[0][0], TRIANGLES);
 }
 
 /* A sheet that ends on another, or passes beside it, crosses nothing. */
