@@ -59,7 +59,7 @@ oracle: build-bench ## pictures of large scenes against rays, half an hour
 mutations: deps-test ## every bit of small tree files turned over, an hour: refused, found, or another right tree
 	@cmake -S . -B "$(BUILD)" -DCMAKE_BUILD_TYPE=Release -DFROE_TESTS=ON
 	@cmake --build "$(BUILD)" --parallel $(JOBS) --target test_conformance_mutations
-	@cd "$(BUILD)/scratch/conformance-mutations" && $(abspath $(BUILD))/tests/test_conformance_mutations all
+	@program=$$(realpath "$(BUILD)/tests/test_conformance_mutations") && cd "$(BUILD)/scratch/conformance-mutations" && "$$program" all
 
 faults: deps-test ## every allocation, read and write of every command failing, and signals at each; an hour
 	@cmake -S . -B "$(BUILD)" -DCMAKE_BUILD_TYPE=Release -DFROE_TESTS=ON
