@@ -61,18 +61,40 @@ static bool is_edge_on(const froe_scene *s, const froe_eye *eye, uint32_t object
     return fabs(dot(n, eye->parallel ? eye->at : u)) < 1e-12;
 }
 
+/* How one looks at a tree. */
+typedef struct looking {
+    froe_eye eye;
+    bool hidden, cull_back;
+    int section; /* the side of the plane that is there: of `plane`, by its sign */
+    const double *plane;
+} looking;
+
+/* How far a point is on the side of the section that is there, in lengths of its normal; without a section, 1. */
+static double beside_section(const looking *l, const double *x) {
+    return l->section ? l->section * (dot(l->plane, x) - l->plane[3]) / sqrt(dot(l->plane, l->plane)) : 1;
+}
+
+/* Polygons that are edge-on cross nothing; those that are culled are not there. */
+static bool is_shown(const froe_scene *s, const looking *l, uint32_t object) {
+    point n, u;
+    normal_of(s, object, n);
+    sub(l->eye.at, scene_point(s, object, 0), u);
+    return !is_edge_on(s, &l->eye, object) && (!l->cull_back || dot(n, l->eye.parallel ? l->eye.at : u) > 0);
+}
+
 /* Is a point before everything but two triangles? 1, 0, or -1: too close to call. */
-static int in_sight(const froe_scene *s, const froe_eye *eye, const double *x, uint32_t a, uint32_t b) {
+static int in_sight(const froe_scene *s, const looking *l, const double *x, uint32_t a, uint32_t b) {
+    const froe_eye *eye = &l->eye;
     int seen = 1;
     for (uint32_t o = 0; o < s->object_count; o++) {
         point n, way, u, hit;
-        if (o == a || o == b || is_edge_on(s, eye, o)) continue;
+        if (o == a || o == b || !is_shown(s, l, o)) continue;
         normal_of(s, o, n);
         for (int k = 0; k < 3; k++) way[k] = eye->parallel ? eye->at[k] : eye->at[k] - x[k];
         sub(scene_point(s, o, 0), x, u);
         const double t = dot(n, u) / dot(n, way);
         for (int k = 0; k < 3; k++) hit[k] = x[k] + t * way[k];
-        const double depth = inside(s, o, hit);
+        const double depth = fmin(inside(s, o, hit), beside_section(l, hit));
         if (t < -1e-6 || (!eye->parallel && t > 1 + 1e-6) || depth < -1e-6) continue;
         if (t < 1e-6 || depth < 1e-6) return -1;
         seen = 0;
@@ -80,12 +102,12 @@ static int in_sight(const froe_scene *s, const froe_eye *eye, const double *x, u
     return seen;
 }
 
-static bool is_found(const froe_visibility *v, const double *x, bool hidden) {
+static bool is_found(const froe_visibility *v, const double *x, bool section, bool hidden) {
     size_t count;
     const froe_crossing *c = froe_visibility_crossings(v, &count);
     for (size_t i = 0; i < count; i++) {
         point u, w;
-        if (c[i].hidden != hidden) continue;
+        if (c[i].hidden != hidden || c[i].section != section) continue;
         sub(c[i].to, c[i].from, u);
         sub(x, c[i].from, w);
         const double t = dot(w, u) / dot(u, u);
@@ -96,40 +118,79 @@ static bool is_found(const froe_visibility *v, const double *x, bool hidden) {
     return false;
 }
 
-/* With hidden ones or without; where they are wanted, each point of a crossing is in one list. */
-static void check_eye(const froe_tree *tree, const froe_surface *surface, uint32_t e, bool hidden, uint32_t counts[2]) {
+/* Points of the line from one end to the other, which two triangles share, or (b = a) one and the section. Where hidden
+ * ones are wanted, each is in one list. */
+static void check_line(const froe_scene *s, const froe_visibility *v, const looking *l, uint32_t a, uint32_t b,
+                       point ends[2], uint32_t counts[2]) {
+    const bool section = a == b;
+    for (int k = 1; k < 8; k++) {
+        point x;
+        for (int c = 0; c < 3; c++) x[c] = ends[0][c] + (k + 0.03) / 8 * (ends[1][c] - ends[0][c]);
+        const double depth = section ? 1 : beside_section(l, x);
+        const int seen = in_sight(s, l, x, a, b);
+        if (seen < 0 || fabs(depth) < 1e-6) continue;
+        const bool there = depth > 0 && is_shown(s, l, a) && is_shown(s, l, b);
+        if (is_found(v, x, section, false) != (there && seen) ||
+            is_found(v, x, section, true) != (there && !seen && l->hidden))
+            fail_msg("triangles %u and %u, share %d/8: %s", b, a, k,
+                     !there ? "there is nothing"
+                     : seen ? "missing"
+                            : "hidden");
+        counts[seen] += there;
+    }
+}
+
+/* The two points in which the border of a triangle passes through the section. */
+static bool cross_section(const froe_scene *s, const looking *l, uint32_t object, point ends[2]) {
+    int count = 0;
+    for (uint32_t i = 0; i < 3; i++) {
+        const double *p = scene_point(s, object, i), *q = scene_point(s, object, (i + 1) % 3);
+        const double at_p = dot(l->plane, p) - l->plane[3], at_q = dot(l->plane, q) - l->plane[3];
+        if ((at_p > 0) == (at_q > 0)) continue;
+        for (int k = 0; k < 3; k++) ends[count][k] = p[k] + at_p / (at_p - at_q) * (q[k] - p[k]);
+        count++;
+    }
+    return count == 2;
+}
+
+static void check_look(const froe_tree *tree, const froe_surface *surface, const looking *l, uint32_t counts[2]) {
     const froe_scene *s = tree->scene;
     froe_visibility_options o = froe_visibility_defaults();
     froe_visibility *v;
-    o.eye = rays_eye(tree, e);
+    o.eye = l->eye;
     o.crossings = true;
-    o.hidden_crossings = hidden;
+    o.hidden_crossings = l->hidden;
+    o.cull_back = l->cull_back;
+    o.section = l->section;
     assert_int_equal(froe_visibility_new(tree, surface, &o, &v, NULL), FROE_OK);
-    for (uint32_t a = 0; a < s->object_count; a++)
-        for (uint32_t b = 0; b < a; b++) {
-            point ends[6];
-            if (is_edge_on(s, &o.eye, a) || is_edge_on(s, &o.eye, b)) continue;
-            if (pierce(s, b, a, ends, pierce(s, a, b, ends, 0)) != 2) continue;
-            for (int k = 1; k < 8; k++) {
-                point x;
-                for (int c = 0; c < 3; c++) x[c] = ends[0][c] + (k + 0.03) / 8 * (ends[1][c] - ends[0][c]);
-                const int seen = in_sight(s, &o.eye, x, a, b);
-                if (seen < 0) continue;
-                if (is_found(v, x, false) != seen || is_found(v, x, true) != (hidden && !seen))
-                    fail_msg("eye %u: triangles %u and %u, share %d/8: %s", e, b, a, k, seen ? "missing" : "hidden");
-                counts[seen]++;
-            }
-        }
+    for (uint32_t a = 0; a < s->object_count; a++) {
+        point ends[6];
+        if (is_edge_on(s, &l->eye, a)) continue;
+        if (l->section && cross_section(s, l, a, ends)) check_line(s, v, l, a, a, ends, counts);
+        for (uint32_t b = 0; b < a; b++)
+            if (!is_edge_on(s, &l->eye, b) && pierce(s, b, a, ends, pierce(s, a, b, ends, 0)) == 2)
+                check_line(s, v, l, a, b, ends, counts);
+    }
     froe_visibility_free(v);
 }
 
-/* Looks at a tree from so many places, and frees it. */
-static void check_tree(froe_tree *tree, uint32_t eyes, uint32_t counts[2]) {
+/* Looks at a tree from so many places: with hidden crossings and without, with polygons that turn away and without.
+ * The plane is that of its root's cut, for both of its sides; NULL: all is there. */
+static void look_around(const froe_tree *tree, const double *plane, uint32_t eyes, uint32_t counts[2]) {
     froe_surface *surface;
     assert_int_equal(froe_surface_new(tree->scene, NULL, &surface, NULL), FROE_OK);
     for (uint32_t e = 0; e < eyes; e++)
-        for (int hidden = 0; hidden < 2; hidden++) check_eye(tree, surface, e, hidden, counts);
+        for (int how = 0; how < 4; how++)
+            for (int section = plane ? -1 : 0; section <= (plane ? 1 : 0); section += 2) {
+                const looking l = {rays_eye(tree, e), how % 2, how / 2, section, plane};
+                check_look(tree, surface, &l, counts);
+            }
     froe_surface_free(surface);
+}
+
+/* The same, and frees it. */
+static void check_tree(froe_tree *tree, uint32_t eyes, uint32_t counts[2]) {
+    look_around(tree, NULL, eyes, counts);
     froe_tree_free(tree);
 }
 

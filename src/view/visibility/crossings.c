@@ -13,6 +13,12 @@ static bool keep_open(void *user, const view_stretch *part) {
     return array_push(&c->sights->alloc, &c->open, *part);
 }
 
+/* What is seen edge-on crosses nothing, and what is culled is not there. */
+static bool is_shown(const view_crosser *c, uint32_t object) {
+    const int facing = view_facing(c->sights, object);
+    return facing > 0 || (facing < 0 && !c->cull_back);
+}
+
 /* Appends the parts of the open stretches inside the list of a cut, or all where the cut is the section. */
 static bool keep_crossed(view_crosser *c, uint32_t node, uint32_t patch, view_stretches *out) {
     view_sightlines *s = c->sights;
@@ -22,7 +28,7 @@ static bool keep_crossed(view_crosser *c, uint32_t node, uint32_t patch, view_st
     for (size_t k = 0; ok && section && k < c->open.count; k++) ok = array_push(&s->alloc, out, c->open.data[k]);
     for (uint32_t k = 0; ok && !section && c->open.count && k < list.count; k++) {
         const uint32_t object = tree_object(&list, k), other = s->surface->patch_of[object];
-        if (other == FROE_NONE || other == patch || !view_facing(s, object)) continue;
+        if (other == FROE_NONE || other == patch || !is_shown(c, object)) continue;
         ok = view_beam_of(s, list.first + k, &c->list_ring);
         for (size_t i = 0; ok && i < c->open.count; i++) { /* its part inside that piece of the list */
             view_stretch part = c->open.data[i];
@@ -283,7 +289,7 @@ static froe_status put_overlaps(between_patches *b, view_stretches *out) {
 }
 
 /* The sides of all pieces, visible or not. */
-static bool put_all_sides(between_patches *b, bool cull_back) {
+static bool put_all_sides(between_patches *b, const view_crosser *c) {
     view_sightlines *s = &b->v->sights;
     const froe_tree *t = s->tree;
     const int section = b->v->section;
@@ -292,14 +298,13 @@ static bool put_all_sides(between_patches *b, bool cull_back) {
     bool ok = true;
     for (uint32_t i = from; ok && i < (section < 0 ? middle : t->piece_count); i++) {
         const uint32_t object = t->pieces[i].object, patch = s->surface->patch_of[object];
-        const int facing = patch == FROE_NONE ? 0 : view_facing(s, object);
-        if (!facing || (cull_back && facing < 0)) continue;
+        if (patch == FROE_NONE || !is_shown(c, object)) continue;
         ok = view_beam_of(s, i, &b->ring) && put_sides(b, patch, true);
     }
     return ok;
 }
 
-froe_status view_look_between_patches(froe_visibility *v, view_crosser *c, bool cull_back) {
+froe_status view_look_between_patches(froe_visibility *v, view_crosser *c) {
     view_sightlines *s = &v->sights;
     const size_t count = s->lines.count;
     between_patches b = {.v = v, .count = count, .mate_of = support_calloc(&s->alloc, count + 1, sizeof *b.mate_of)};
@@ -316,7 +321,7 @@ froe_status view_look_between_patches(froe_visibility *v, view_crosser *c, bool 
         if (!view_ring_of_visible(v, s, i, &b.ring) || !put_sides(&b, v->pieces[i].patch, false))
             status = FROE_E_MEMORY;
     if (!status) status = put_overlaps(&b, &c->seen);
-    if (!status && any && c->hidden && !put_all_sides(&b, cull_back)) status = FROE_E_MEMORY;
+    if (!status && any && c->hidden && !put_all_sides(&b, c)) status = FROE_E_MEMORY;
     if (!status) status = put_overlaps(&b, &c->all);
     support_free(&s->alloc, b.mate_of, (count + 1) * sizeof *b.mate_of);
     array_free(&s->alloc, &b.lines);

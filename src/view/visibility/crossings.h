@@ -13,6 +13,7 @@ typedef struct view_crosser {
     view_screen *screen;
     bool section;        /**< sides in the root's cut count, too */
     bool hidden;         /**< hidden parts are wanted, too */
+    bool cull_back;      /**< polygons seen from behind are not there */
     view_stretches seen; /**< found so far, each with the number of its line for an edge */
     view_stretches all;  /**< visible and hidden, where hidden ones are wanted */
     view_stretches open; /**< of one side */
@@ -27,7 +28,7 @@ froe_status view_look_at_crossings(view_crosser *crosser, uint32_t piece, const 
 froe_status view_look_along_section(froe_visibility *visibility, uint32_t object);
 /** Finds where patches cross in a line along which a third cut has divided both: neither is in the list of that. After
  * all has been looked at. FROE_E_MEMORY, FROE_E_LIMIT. */
-froe_status view_look_between_patches(froe_visibility *visibility, view_crosser *crosser, bool cull_back);
+froe_status view_look_between_patches(froe_visibility *visibility, view_crosser *crosser);
 /** Joins what was found to the crossings of the visibility. FROE_E_MEMORY. */
 froe_status view_join_crossings(froe_visibility *v, view_crosser *crosser);
 void view_crosser_free(view_crosser *crosser);

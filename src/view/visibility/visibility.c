@@ -156,8 +156,11 @@ static froe_status look_from_eye(visibility_search *k, const geom_eye *eye) {
     const uint32_t corners = window ? (uint32_t)k->options->window_corners : 0;
     froe_status status = view_sightlines_new(&v->sights, v->tree, v->surface, eye, window, corners, &v->alloc);
     if (!status) status = view_screen_new(&k->screen, &v->sights);
-    k->crosser = (view_crosser){
-        .sights = &v->sights, .screen = &k->screen, .section = v->section != 0, .hidden = k->options->hidden_crossings};
+    k->crosser = (view_crosser){.sights = &v->sights,
+                                .screen = &k->screen,
+                                .section = v->section != 0,
+                                .hidden = k->options->hidden_crossings,
+                                .cull_back = k->options->cull_back};
     if (!status) status = view_rank_objects(&v->alloc, v->surface, k->options->priorities, &k->ranks);
     if (!status && v->surface->patch_count) status = look_at_all(k);
     if (!status && !k->options->faces_only) status = view_look_at_wires(v, &k->screen, &k->task, &k->stretches);
@@ -172,7 +175,7 @@ static froe_status look_from_eye(visibility_search *k, const geom_eye *eye) {
     array_free(&v->alloc, &k->pieces);
     if (!status) status = view_join_intervals(v, &k->stretches);
     array_free(&v->alloc, &k->stretches);
-    if (!status && k->options->crossings) status = view_look_between_patches(v, &k->crosser, k->options->cull_back);
+    if (!status && k->options->crossings) status = view_look_between_patches(v, &k->crosser);
     if (!status) status = view_join_crossings(v, &k->crosser);
     if (!status) v->report.lines = v->sights.lines.count;
     if (!status) status = view_keep_lines(v);
