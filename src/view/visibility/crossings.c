@@ -119,16 +119,15 @@ froe_status view_look_along_section(froe_visibility *v, uint32_t object) {
         const int side = geom_side_vertex(&s->context, &plane, scene_point(scene, object, i));
         const uint32_t before = s->surface->edge_of[scene_start(scene, object) + (i ? i - 1 : n - 1)];
         reached |= side > 0 ? 2 : side < 0 ? 1 : 0;
-        if (!side && count < 2) mark[count++] = (view_mark){.vertex = scene_corner(scene, object, i)};
-        if (side * last < 0 && count < 2 && view_stop_edge(s, before, FROE_NONE, line, &mark[count++]))
-            return FROE_E_MEMORY;
+        if (!side && count < 2) /* there are more where it touches the polygon along a side */
+            mark[count++] = (view_mark){.vertex = scene_corner(scene, object, i)};
+        if (side * last < 0 && view_stop_edge(s, before, FROE_NONE, line, &mark[count++])) return FROE_E_MEMORY;
         last = side;
     }
-    if (reached != 3 || count < 2) return FROE_OK; /* the section only touches it */
+    if (reached != 3) return FROE_OK; /* the section only touches it */
     view_stretch part = {line, {view_end_at(s, line, mark[0]), view_end_at(s, line, mark[1])}};
-    const int order = view_compare_ends(s, line, &part.end[0], &part.end[1]);
-    if (!order) return FROE_OK;
-    if (order > 0) part = (view_stretch){line, {part.end[1], part.end[0]}};
+    if (view_compare_ends(s, line, &part.end[0], &part.end[1]) > 0)
+        part = (view_stretch){line, {part.end[1], part.end[0]}};
     if (!view_cut_to_window(s, line, &part)) return FROE_OK;
     return put_crossing(v, &part.end[0], &part.end[1], (crossing_line){line, s->surface->patch_of[object], true, false})
                ? FROE_OK
