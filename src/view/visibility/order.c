@@ -55,7 +55,7 @@ static bool begin_list(view_order *order, tree_objects list) {
 /* The three points that make the cut of a node; false: it is made of something else. */
 static bool points_of_cut(const froe_tree *tree, uint32_t node, const double *points[3]) {
     const tree_node *n = tree->nodes + node;
-    if (n->type != TREE_TABLED || tree->scene->dim != 3) return false;
+    if (tree->scene->dim != 3) return false;
     const tree_cut *cut = tree->cuts + n->u.cut;
     if (cut->kind == FROE_CUT_OBJECT) {
         for (uint32_t i = 0; i < 3; i++) points[i] = scene_point(tree->scene, cut->a, i);
