@@ -466,24 +466,108 @@ static void a_window_cuts_segments(void **state) {
     froe_tree_free(tree);
 }
 
+/* A comb of upright slats, seen from beside, and wires of each direction behind all of it, across it and through it:
+ * many parts of one wire are on their way at once. So are points, which lie anywhere. */
+static froe_tree *comb(uint32_t slats, uint32_t wires, uint32_t dots) {
+    froe_scene *scene;
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    for (uint32_t i = 0; i < slats; i++) {
+        const double x = 2 * i, slat[] = {x, 0, -9, x + 1, 0.01 * i, -9, x + 0.5, 0, 9};
+        assert_int_equal(trees_add(scene, FROE_POLYGON, 1, slat, NULL, NULL), FROE_OK);
+    }
+    for (uint32_t i = 0; i < wires; i++) {
+        const double z = 5 * trees_unit(4, i), far = i % 3 ? 3 : -2, end = 2 * slats;
+        const double wire[] = {i % 2 ? -1 : end, far, z, i % 2 ? end : -1, 3, z - 0.1 * i};
+        assert_int_equal(trees_add(scene, FROE_SEGMENT, 1, wire, NULL, NULL), FROE_OK);
+    }
+    for (uint32_t i = 0; i < dots; i++) {
+        const double dot[] = {2 * slats * trees_unit(5, 3 * i), 5, 18 * trees_unit(5, 3 * i + 1) - 9};
+        assert_int_equal(trees_add(scene, FROE_POINT, 1, dot, NULL, NULL), FROE_OK);
+    }
+    froe_tree *tree = trees_build(scene, "density", 1);
+    froe_scene_free(scene);
+    return tree;
+}
+
+typedef struct look_again {
+    const froe_tree *tree;
+    froe_visibility_options options;
+    size_t intervals, points; /* that are visible, with memory */
+    unsigned calls, stop;     /* of progress: the one that cancels; 0: none */
+} look_again;
+
 static froe_status look_with(void *user, const froe_allocator *alloc) {
-    froe_tree *tree = user;
+    look_again *l = user;
     froe_surface *surface = NULL;
     froe_visibility *v = NULL;
-    froe_visibility_options o = froe_visibility_defaults();
-    o.eye = (froe_eye){.at = {0, 0, 1}, .parallel = true};
-    o.alloc = alloc;
-    froe_status status = froe_surface_new(tree->scene, alloc, &surface, NULL);
-    if (!status) status = froe_visibility_new(tree, surface, &o, &v, NULL);
+    size_t intervals = 0, points = 0, n;
+    l->options.alloc = alloc;
+    froe_status status = froe_surface_new(l->tree->scene, alloc, &surface, NULL);
+    if (!status) status = froe_visibility_new(l->tree, surface, &l->options, &v, NULL);
+    if (!status) {
+        for (uint32_t i = 0; i < surface->wire_count; i++) (void)froe_visibility_of_wire(v, i, &n), intervals += n;
+        for (uint32_t i = 0; i < surface->point_count; i++) points += froe_visibility_of_point(v, i);
+        if (!l->intervals) l->intervals = intervals, l->points = points; /* the first time */
+        assert_true(intervals == l->intervals && points == l->points);
+    }
     froe_visibility_free(v);
     froe_surface_free(surface);
     return status;
 }
 
+static froe_tree *section_of(froe_tree *tree, const double *plane) {
+    froe_tree *out;
+    assert_int_equal(froe_tree_section(tree, plane, NULL, &out, NULL), FROE_OK);
+    froe_tree_free(tree);
+    return out;
+}
+
+/* Also where a section cuts wires: each needs two lines, so that with one wire more other ones are refused. */
 static void every_allocation_may_fail(void **state) {
+    static const double across[] = {1, 0.1, 0.2, 20.3}, amid[] = {1, 1, 1, 3};
     (void)state;
-    froe_tree *tree = mixed(20, 30, 20, 3, 2, "density");
-    assert_true(test_memory_each(look_with, tree) > 20);
+    const struct {
+        froe_tree *tree;
+        int section;
+        froe_eye eye;
+    } cases[] = {{mixed(20, 30, 20, 3, 2, "density"), 0, {{0, 0, 1}, true}},
+                 {mixed(30, 10, 300, 2, 2, "density"), 0, {{0, 0, 1}, true}},
+                 {comb(40, 30, 500), 0, {{0, -1, 0}, true}},
+                 {comb(20, 21, 10), 0, {{15, -60, 1}, false}},
+                 {section_of(comb(15, 60, 0), across), 1, {{0, -1, 0.1}, true}},
+                 {section_of(comb(16, 60, 0), across), 1, {{0, -1, 0.1}, true}},
+                 {section_of(mixed(0, 41, 40, 3, 2, "density"), amid), -1, {{0.3, 0.2, 1}, true}}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        look_again l = {.tree = cases[i].tree, .options = froe_visibility_defaults()};
+        l.options.eye = cases[i].eye;
+        l.options.section = cases[i].section;
+        assert_true(test_memory_each(look_with, &l) > 20);
+        assert_true(l.intervals > 5);
+        froe_tree_free(cases[i].tree);
+    }
+}
+
+static bool go_on(void *user, double done) {
+    look_again *l = user;
+    assert_true(done >= 0 && done <= 1);
+    return ++l->calls != l->stop;
+}
+
+/* Wires, and points, are looked at in turn; each may be the last. */
+static void looking_at_wires_can_be_cancelled(void **state) {
+    (void)state;
+    froe_tree *tree = mixed(20, 30, 40, 0, 1, "density");
+    look_again l = {.tree = tree, .options = froe_visibility_defaults()};
+    l.options.eye.at[2] = 3;
+    l.options.progress = go_on, l.options.user = &l;
+    assert_int_equal(look_with(&l, NULL), FROE_OK);
+    const unsigned calls = l.calls;
+    assert_true(calls > 1);
+    for (l.stop = 1; l.stop <= calls; l.stop++) {
+        l.calls = 0;
+        assert_int_equal(look_with(&l, NULL), FROE_E_CANCELLED);
+        assert_int_equal(l.calls, l.stop);
+    }
     froe_tree_free(tree);
 }
 
@@ -503,6 +587,7 @@ int main(void) {
         cmocka_unit_test(a_section_takes_away_what_is_before_it),
         cmocka_unit_test(a_window_cuts_segments),
         cmocka_unit_test(every_allocation_may_fail),
+        cmocka_unit_test(looking_at_wires_can_be_cancelled),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -388,7 +388,8 @@ froe_status view_screen_classify(view_screen *s, const view_stretch *stretch, ui
         view_end middle = {.vertex = FROE_NONE, .way = 2 * n.line + (from < 0)}; /* leaving: edge x line */
         middle.ray = view_meeting(s->sights, 2 * own, middle.way);
         const view_stretch first = {top.part.edge, {ends[0], middle}}, last = {top.part.edge, {middle, ends[1]}};
-        ok = push_stretch(s, n.child[from > 0], &first) && push_stretch(s, n.child[to > 0], &last);
+        ok = push_stretch(s, n.child[from > 0], &first) && /* one way: it has the room of what it is a part of */
+             push_stretch(s, n.child[to > 0], &last);
     }
     return ok ? FROE_OK : FROE_E_MEMORY;
 }
