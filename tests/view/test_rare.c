@@ -406,6 +406,113 @@ static void cameras_of_nothing_are_refused(void **state) {
     for (int i = 0; i < 2; i++) froe_scene_free(scenes[i]);
 }
 
+/* ----------------------------------------------------------------------- lines -- */
+
+/* Draws lines of these kinds. How many strokes there are, all of one kind. */
+static size_t strokes_of(page *p, uint32_t kinds, froe_line kind) {
+    p->options.lines = kinds;
+    assert_int_equal(froe_picture_new(p->tree, p->surface, &p->options, &p->picture, NULL), FROE_OK);
+    const size_t count = froe_picture_stroke_count(p->picture);
+    for (size_t i = 0; i < count; i++) assert_int_equal(froe_picture_stroke(p->picture, i).kind, kind);
+    froe_picture_free(p->picture);
+    return count;
+}
+
+/* A zigzag, of which so many segments at the end are of a group of their own, or of as many numbers. */
+static void wires_run_on_within_their_group(void **state) {
+    enum { PARTS = 24 };
+    static const struct {
+        uint32_t grouped, numbered, strokes;
+    } cases[] = {{0, 0, 1}, {PARTS, 0, 1}, {4, 0, 2}, {0, 3, 2}, {5, 3, 3}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        froe_scene *scene;
+        page p;
+        uint32_t id = FROE_NONE, numbers[PARTS] = {0};
+        assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+        if (cases[i].grouped) assert_int_equal(froe_scene_add_group(scene, &(froe_group){.name = "end"}, &id), FROE_OK);
+        for (uint32_t k = 0; k < PARTS; k++) {
+            const double x[] = {k, k % 2, 0.1 * k, k + 1, (k + 1) % 2, 0.1 * (k + 1)};
+            froe_objects o = froe_objects_defaults();
+            o.kind = FROE_SEGMENT, o.count = 1, o.coords = x;
+            o.group = k + cases[i].grouped >= PARTS ? id : FROE_NONE;
+            numbers[k] = k + cases[i].numbered >= PARTS;
+            assert_int_equal(froe_scene_add(scene, &o, NULL), FROE_OK);
+        }
+        froe_tree *tree = trees_build(scene, "density", 1);
+        froe_scene_free(scene);
+        open_page(&p, tree);
+        if (cases[i].numbered) p.options.chains = numbers;
+        look_from(&p, 0.1, 0.2, 1, 0);
+        assert_int_equal(strokes_of(&p, FROE_LINE_WIRE | FROE_LINE_BORDER, FROE_LINE_WIRE), cases[i].strokes);
+        assert_int_equal(strokes_of(&p, FROE_LINE_BORDER, FROE_LINE_BORDER), 0);
+        p.options.lines = FROE_LINE_WIRE;
+        if (i < 3) assert_true(test_memory_each(make_picture, &p) > 10);
+        close_page(&p);
+        froe_tree_free(tree);
+    }
+}
+
+/* Points before the eye are drawn, unless they are too near to have a place on the page. */
+static void points_that_all_but_touch_the_eye_are_not_drawn(void **state) {
+    enum { DOTS = 40 };
+    (void)state;
+    for (int near = 0; near < 2; near++) {
+        double x[3 * DOTS] = {0, 0, -1e-7, 0, 0, 4}; /* that one, and one behind the eye */
+        page p;
+        froe_scene *scene;
+        froe_camera c = froe_camera_defaults();
+        for (uint32_t i = 2; i < DOTS; i++)
+            for (uint32_t k = 0; k < 3; k++) x[3 * i + k] = (k == 2 ? -6 : -0.5) + trees_unit(1, 3 * i + k);
+        if (near) x[2] = -1e-3;
+        assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+        assert_int_equal(trees_add(scene, FROE_POINT, DOTS, x, NULL, NULL), FROE_OK);
+        froe_tree *tree = trees_build(scene, "density", 1);
+        froe_scene_free(scene);
+        open_page(&p, tree);
+        c.fit = false;
+        for (int k = 0; k < 3; k++) c.eye[k] = 0, c.target[k] = k == 2 ? -1 : 0;
+        c.up[0] = 0, c.up[1] = 1, c.up[2] = 0;
+        place(&p, &c);
+        assert_int_equal(strokes_of(&p, FROE_LINE_POINT, FROE_LINE_POINT), DOTS - 2 + near);
+        assert_true(test_memory_each(make_picture, &p) > 10);
+        close_page(&p);
+        froe_tree_free(tree);
+    }
+}
+
+/* Lines of a section are drawn without those in which faces cross, and the other way round. */
+static void sections_and_crossings_are_drawn_apart(void **state) {
+    enum { PAIRS = 12 };
+    static const double plane[] = {0, 0, 1, 0.5};
+    (void)state;
+    double x[PAIRS][2][9];
+    size_t starts[2 * PAIRS + 1];
+    for (size_t i = 0; i < PAIRS; i++)
+        for (size_t k = 0; k < 2; k++) {
+            const double at = 3 * (double)i, s = k ? 1 : -1,
+                         corners[9] = {at - 1, -s, -1, at + 1, s, -1, at, 0.1 * s, 2};
+            memcpy(x[i][k], corners, sizeof corners);
+        }
+    for (size_t i = 0; i <= 2 * (size_t)PAIRS; i++) starts[i] = 3 * i;
+    froe_tree *whole = trees_of_polygons(x[0][0], starts, 2 * (size_t)PAIRS, "density"), *tree;
+    assert_int_equal(froe_tree_section(whole, plane, NULL, &tree, NULL), FROE_OK);
+    page p;
+    open_page(&p, tree);
+    p.options.section = -1;
+    look_from(&p, 0.3, -1, 2, 0);
+    assert_int_equal(strokes_of(&p, FROE_LINE_CROSSING, FROE_LINE_CROSSING), PAIRS);
+    assert_true(strokes_of(&p, FROE_LINE_SECTION, FROE_LINE_SECTION) >= PAIRS);
+    for (int i = 0; i < 2; i++) {
+        p.options.lines = i ? FROE_LINE_CROSSING : FROE_LINE_SECTION;
+        p.options.no_fills = true;
+        assert_true(test_memory_each(make_picture, &p) > 10);
+    }
+    close_page(&p);
+    froe_tree_free(tree);
+    froe_tree_free(whole);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(walks_find_each_thing_once_after_any_number_of_walks),
@@ -416,6 +523,9 @@ int main(void) {
         cmocka_unit_test(objects_of_a_leaf_have_an_order_in_one_plane),
         cmocka_unit_test(what_a_section_leaves_fills_the_page),
         cmocka_unit_test(cameras_of_nothing_are_refused),
+        cmocka_unit_test(wires_run_on_within_their_group),
+        cmocka_unit_test(points_that_all_but_touch_the_eye_are_not_drawn),
+        cmocka_unit_test(sections_and_crossings_are_drawn_apart),
     };
     return cmocka_run_group_tests_name("view/rare", tests, NULL, NULL);
 }
