@@ -4,6 +4,7 @@
 #include "pages.h"
 #include "view/grid.h"
 #include "view/picture/graph.h"
+#include "view/picture/overlay.h"
 #include "view/visibility/crossings.h"
 #include "view/visibility/order.h"
 
@@ -193,6 +194,11 @@ static void more_than_two_to_the_31_is_a_limit(void **state) {
         (i ? &crosser.all : &crosser.seen)->count = (size_t)INT32_MAX + 1;
         assert_int_equal(view_join_crossings(v, &crosser), FROE_E_LIMIT);
     }
+    const view_items items = {.count = (size_t)INT32_MAX + 1};
+    const view_drawing drawing = {.sights = &v->sights};
+    const view_chains chains = {NULL, NULL};
+    view_segments segments = {0};
+    assert_int_equal(view_overlay(&drawing, &items, &chains, false, &segments), FROE_E_LIMIT);
     froe_visibility_free(v);
 
     froe_scene *scene = (froe_scene *)(uintptr_t)tree->scene;

@@ -593,6 +593,39 @@ static void lines_of_what_is_hidden_are_forgotten(void **state) {
     froe_tree_free(tree);
 }
 
+/* Of the edges of polygons whose borders go straight on, and of others. */
+static void edges_that_are_not_wanted_have_no_intervals(void **state) {
+    (void)state;
+    froe_scene *solid = boxes(6, 4);
+    froe_tree *trees[2] = {with_middles(solid, "density"), trees_build(solid, "density", 1)};
+    froe_scene_free(solid);
+    for (int i = 0; i < 2; i++) {
+        froe_surface *surface;
+        froe_visibility *all, *some;
+        froe_visibility_options o = froe_visibility_defaults();
+        size_t n, m, wanted = 0;
+        o.eye = (froe_eye){.at = {9, 7, 20}};
+        assert_int_equal(froe_surface_new(trees[i]->scene, NULL, &surface, NULL), FROE_OK);
+        uint8_t *edges = calloc(surface->edge_count, 1);
+        for (uint32_t e = 0; e < surface->edge_count; e++) edges[e] = trees_random(3, e, 2) > 0;
+        assert_int_equal(froe_visibility_new(trees[i], surface, &o, &all, NULL), FROE_OK);
+        o.edges = edges;
+        assert_int_equal(froe_visibility_new(trees[i], surface, &o, &some, NULL), FROE_OK);
+        for (uint32_t e = 0; e < surface->edge_count; e++) {
+            const froe_interval *x = froe_visibility_of_edge(all, e, &n), *y = froe_visibility_of_edge(some, e, &m);
+            assert_int_equal(m, edges[e] ? n : 0);
+            for (size_t k = 0; k < m; k++) assert_true(x[k].from == y[k].from && x[k].to == y[k].to);
+            wanted += m;
+        }
+        assert_true(wanted > 10 && wanted < froe_visibility_statistics(all).intervals);
+        free(edges);
+        froe_visibility_free(all);
+        froe_visibility_free(some);
+        froe_surface_free(surface);
+        froe_tree_free(trees[i]);
+    }
+}
+
 static bool stop(void *user, double done) {
     (void)user;
     return done < 0.05;
@@ -656,6 +689,7 @@ int main(void) {
         cmocka_unit_test(what_is_seen_whole_is_kept_whole),
         cmocka_unit_test(thin_triangles_of_a_face_make_no_high_tree),
         cmocka_unit_test(lines_of_what_is_hidden_are_forgotten),
+        cmocka_unit_test(edges_that_are_not_wanted_have_no_intervals),
         cmocka_unit_test(looking_can_be_cancelled),
         cmocka_unit_test(every_allocation_may_fail),
     };

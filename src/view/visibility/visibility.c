@@ -61,7 +61,7 @@ static froe_status keep_pieces(visibility_search *k) {
 }
 
 static bool is_wanted(const visibility_search *k, uint32_t edge) {
-    return edge != FROE_NONE && (!k->options->edges || k->options->edges[edge]);
+    return !k->options->edges || k->options->edges[edge];
 }
 
 /* Stretches of edges where the border of a polygon goes straight on at some corners, which its beam leaves out. */
