@@ -128,6 +128,57 @@ static void lines_of_one_hash_are_two_lines(void **state) {
     close_stage(&s);
 }
 
+/* Walls of `cylindrical` through crossings, in whose planes upright faces stand: by definition they divide these where
+ * the lines cross. (No tree was found in which such a face reaches to both sides of a wall within its cell.) */
+static void walls_of_crossings_divide_upright_faces_there(void **state) {
+    enum { ROWS = 12 };
+    (void)state;
+    froe_scene *scene;
+    uint32_t found = 0;
+    froe_build_options o = froe_build_defaults();
+    o.method = "cylindrical", o.settings = "crossing=split", o.leaf = 1;
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    for (int i = 0; i < ROWS; i++) { /* edges cross at (x + 1, 1), and along x + 1 */
+        const double x = 4 * i, z = i % 3, s = i % 2 ? 1 : -1;
+        const double faces[4][9] = {{x, 0, z, x + 2, 2, z + 1, x + 3, -1 - z, z},
+                                    {x, 2, 3 - z, x + 2, 0, 4, x + 3, 3, 5},
+                                    {x + 1, -2, s * z - 1, x + 1, 4, -1, x + 1, 1 + 0.5 * s, 7},
+                                    {x + 1, 0.5, -2, x + 1, 1.5, 6, x + 1, 3, s}};
+        assert_int_equal(trees_add(scene, FROE_POLYGON, 4, faces[0], NULL, NULL), FROE_OK);
+    }
+    froe_tree *tree;
+    assert_int_equal(froe_build(scene, &o, &tree, NULL), FROE_OK);
+    froe_scene_free(scene);
+    stage s = open_stage(tree, &(froe_eye){.at = {-20, 3, 9}});
+    for (uint32_t n = 0; n < tree->node_count; n++) {
+        const tree_node *node = tree->nodes + n;
+        if (tree_is_leaf(node) || node->type == TREE_PLAIN) continue;
+        const geom_plane wall = tree_plane_at(tree, n);
+        if (wall.form != GEOM_AT_CROSSING) continue;
+        for (uint32_t i = 0; i < 4 * ROWS; i++) {
+            const double x = scene_point(tree->scene, i, 0)[0];
+            if (i % 4 < 2 || fabs(wall.c - x) > 1e-9) continue;
+            const uint32_t line = view_line_of_cut(&s.sights, s.surface->patch_of[i], n);
+            /* where do the two lines of the wall cross? one of them may lie in the face */
+            double y = NAN;
+            for (int k = 0; k < 4; k += 2) {
+                const double *p = wall.p[k], *q = wall.p[k + 1];
+                if (p[0] != q[0]) y = p[1] + (x - p[0]) / (q[0] - p[0]) * (q[1] - p[1]);
+            }
+            for (int k = -2; k <= 2; k++) {
+                const double at[3] = {x, y, k}, beside[3] = {x, y + 0.25, k};
+                const filter_vector *image = &s.sights.lines.data[line].image, ray = geom_ray_image(&s.sights.eye, at),
+                                    other = geom_ray_image(&s.sights.eye, beside);
+                assert_true(fabs(filter_dot(image, &ray).x) < 1e-9 * image->most * ray.most);
+                assert_true(fabs(filter_dot(image, &other).x) > 1e-6 * image->most * other.most);
+            }
+            found++;
+        }
+    }
+    assert_true(found > ROWS);
+    close_stage(&s);
+}
+
 /* The point of a plane that is seen along a ray lies on both, whatever the plane is made of; where it is seen edge-on,
  * on the ray. */
 static void points_lie_on_planes_of_every_form_and_on_rays(void **state) {
@@ -523,6 +574,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(walks_find_each_thing_once_after_any_number_of_walks),
         cmocka_unit_test(lines_of_one_hash_are_two_lines),
+        cmocka_unit_test(walls_of_crossings_divide_upright_faces_there),
         cmocka_unit_test(points_lie_on_planes_of_every_form_and_on_rays),
         cmocka_unit_test(more_than_two_to_the_31_is_a_limit),
         cmocka_unit_test(orders_without_memory_are_told),

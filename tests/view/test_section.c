@@ -10,6 +10,10 @@ static froe_tree *section_of(const froe_tree *tree, const double *plane) {
     return out;
 }
 
+static double plane_at(const double *plane, const double *x) {
+    return plane[0] * x[0] + plane[1] * x[1] + plane[2] * x[2] - plane[3];
+}
+
 /* Random planes, and such as hold vertices or polygons: the first three corners of an object are small whole numbers on
  * the lattice, and so is their plane. */
 static void plane_of(const froe_scene *s, uint32_t i, double plane[4]) {
@@ -146,6 +150,45 @@ static void sections_from_corner_to_corner_are_lines(void **state) {
     }
     froe_tree_free(tree);
     froe_tree_free(whole);
+}
+
+/* An upright sheet, of which a side has corners along it, as a line from above. Where the section only touches it, along
+ * that side or at a corner, there is nothing; where it goes through corners, its line ends at them. */
+static void a_section_that_touches_a_sheet_makes_no_line(void **state) {
+    static const double sheet[] = {0, 0, 0, 4, 0, 0, 6, 0, 2, 4, 0, 4, 3, 0, 4, 2, 0, 4, 1, 0, 4, 0, 0, 4};
+    static const size_t starts[] = {0, 8};
+    static const struct {
+        double plane[4], from, to; /* x of the ends of the line; nowhere: none */
+    } cases[] = {
+        {{0, 0, 1, 4}, 0, 0},  {{0, 0, 1, 2}, 0, 6},   {{0, 0, 1, 1}, 0, 5},   {{0, 1, 1, 3}, 0, 5},
+        {{1, 0, 1, 8}, 0, 0},  {{1, 0, 0.5, 7}, 0, 0}, {{-1, 0, 1, 4}, 0, 0},  {{-1, 0, 1, 2}, 0, 2},
+        {{-1, 0, 1, 0}, 0, 4}, {{1, 1, 1, 6}, 2, 5},   {{-4, 0, 1, -8}, 2, 3}, {{-4, 0, 1, 0}, 0, 1},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        froe_tree *whole = trees_of_polygons(sheet, starts, 1, "density"), *tree = section_of(whole, cases[i].plane);
+        froe_visibility_options look = froe_visibility_defaults();
+        froe_surface *surface;
+        froe_visibility *v;
+        size_t count;
+        assert_int_equal(froe_surface_new(tree->scene, NULL, &surface, NULL), FROE_OK);
+        look.eye = (froe_eye){.at = {0, 0, 1}, .parallel = true};
+        look.crossings = true;
+        look.section = -1;
+        assert_int_equal(froe_visibility_new(tree, surface, &look, &v, NULL), FROE_OK);
+        const froe_crossing *c = froe_visibility_crossings(v, &count);
+        assert_int_equal(count, cases[i].from < cases[i].to);
+        if (count) {
+            assert_true(c->section && fabs(fmin(c->from[0], c->to[0]) - cases[i].from) < 1e-12 &&
+                        fabs(fmax(c->from[0], c->to[0]) - cases[i].to) < 1e-12);
+            assert_true(fabs(plane_at(cases[i].plane, c->from)) < 1e-12 &&
+                        fabs(plane_at(cases[i].plane, c->to)) < 1e-12);
+        }
+        froe_visibility_free(v);
+        froe_surface_free(surface);
+        froe_tree_free(tree);
+        froe_tree_free(whole);
+    }
 }
 
 /* The direction of the eye is rounded, so that the eye is not in the plane of the sheet, but all but. */
@@ -301,6 +344,7 @@ int main(void) {
         cmocka_unit_test(sections_are_lines),
         cmocka_unit_test(sections_from_corner_to_corner_are_lines),
         cmocka_unit_test(a_sheet_seen_all_but_edge_on_is_cut_where_the_section_is),
+        cmocka_unit_test(a_section_that_touches_a_sheet_makes_no_line),
         cmocka_unit_test(a_section_outlives_the_file_it_comes_from),
         cmocka_unit_test(sections_of_degenerate_scenes_keep_their_promises),
         cmocka_unit_test(bad_sections_are_refused),
