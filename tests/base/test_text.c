@@ -1,4 +1,5 @@
 /* test_text.c: bytes that are no text, names, and sentences of failures: what stands in their place is always text. */
+#include "support/axes.h"
 #include "support/embedded.h"
 #include "support/escape.h"
 #include "support/fail.h"
@@ -59,6 +60,59 @@ static void text_in_utf16_is_told_from_numbers(void **state) {
     assert_false(support_is_utf16("\0\1\0x", 4));
     assert_false(support_is_utf16("x\0\x7F\0", 4));
     assert_false(support_is_utf16("x,y\n", 4));
+    assert_true(support_is_utf16("\r\0\n\0", 4));     /* an empty line of Windows */
+    assert_true(support_is_utf16("\xFE\xFF\2\1", 4)); /* with the mark of the other order */
+    assert_true(support_is_utf16("\xFF\xFE\0\1", 4));
+    assert_false(support_is_utf16("\xFF\xFE\0\0", 4)); /* the mark of UTF-32 */
+    assert_false(support_is_utf16("\xFF\1\2\3", 4));
+    assert_false(support_is_utf16("\xFE\1\2\3", 4));
+    assert_false(support_is_utf16("x\0y\1", 4)); /* Latin letters are followed by one of another alphabet */
+    assert_false(support_is_utf16("\0x\1y", 4));
+    assert_false(support_is_utf16("\xFF\xFE\1", 3));
+}
+
+/* Folders, and names of the virtual file systems of GDAL, whether anything is there or not. */
+static void folders_and_virtual_files_are_no_files(void **state) {
+    static const struct {
+        const char *path;
+        bool beyond;
+    } cases[] = {
+        {"/vsizip/a.zip/b.shp", true}, {"/vsimem/x", true},     {".", true}, {"/", true}, {"vsizip/a.zip", false},
+        {"/dev/null", false},          {"no-such-file", false}, {"", false}};
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+        assert_int_equal(support_path_is_beyond(cases[i].path), cases[i].beyond);
+}
+
+/* An up that is none, or all but along the line of view, is replaced by an axis; what is found is a frame in any case. */
+static void a_page_has_axes_whatever_is_up(void **state) {
+    static const struct {
+        double back[3], up[3];
+        int axis;
+    } cases[] = {
+        {{0, 0, 1}, {0, 1, 0}, -1},
+        {{0, 0, 1}, {0, 1e308, -1e308}, -1},
+        {{0, 0, 1}, {0, 0, 5}, 0},
+        {{1, 0, 0}, {-1, 0, 0}, 1},
+        {{1, 0, 0}, {0, 0, 0}, 1},
+        {{0, 1, 0}, {0, 0, 0}, 0},
+        {{0, 1, 0}, {1, INFINITY, 0}, 0},
+        {{0, 0, 1}, {NAN, 1, 0}, 0},
+        {{0.6, 0.8, 0}, {-0.6, -0.8, 1e-9}, 0},
+        {{0.6, 0, 0.8}, {0, 1e-300, 0}, -1},
+    };
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const double *back = cases[i].back;
+        double right[3], up[3], turned[3];
+        assert_int_equal(support_page_axes(back, cases[i].up, right, up), cases[i].axis);
+        support_cross(right, up, turned);
+        for (int k = 0; k < 3; k++) assert_true(fabs(turned[k] - back[k]) < 1e-12);
+        assert_true(fabs(support_dot(right, right) - 1) < 1e-12 && fabs(support_dot(up, up) - 1) < 1e-12);
+        if (cases[i].axis < 0) assert_true(support_dot(up, cases[i].up) > 0);
+    }
+    double right[3], up[3];
+    assert_int_equal(support_page_axes((const double[]){0, 0, 0}, (const double[]){0, 0, 1}, right, up), 2);
 }
 
 static void what_is_no_text_is_replaced(void **state) {
@@ -162,6 +216,8 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(characters_are_those_of_unicode),
         cmocka_unit_test(text_in_utf16_is_told_from_numbers),
+        cmocka_unit_test(folders_and_virtual_files_are_no_files),
+        cmocka_unit_test(a_page_has_axes_whatever_is_up),
         cmocka_unit_test(what_is_no_text_is_replaced),
         cmocka_unit_test(sentences_are_one_line_of_text),
         cmocka_unit_test(endings_of_names_are_short),
