@@ -570,6 +570,24 @@ static void sections_and_crossings_are_drawn_apart(void **state) {
     froe_tree_free(whole);
 }
 
+/* A camera without an up has that of the first axis that it does not look along. */
+static void a_camera_without_an_up_has_one(void **state) {
+    (void)state;
+    froe_scene *scene = trees_scene(3, FROE_POLYGON, 9, 0, 1, 1);
+    for (int k = 0; k < 3; k++) {
+        froe_camera none = froe_camera_defaults(), one = none;
+        froe_projection a, b;
+        for (int i = 0; i < 3; i++) none.target[i] = one.target[i] = 0, none.eye[i] = one.eye[i] = i == k ? 9 : 0;
+        for (int i = 0; i < 3; i++) none.up[i] = 0, one.up[i] = i == (k == 0);
+        assert_int_equal(froe_camera_place(&none, scene, &a, NULL), FROE_OK);
+        assert_int_equal(froe_camera_place(&one, scene, &b, NULL), FROE_OK);
+        assert_memory_equal(a.right, b.right, sizeof a.right);
+        assert_memory_equal(a.up, b.up, sizeof a.up);
+        assert_true(a.scale == b.scale);
+    }
+    froe_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(walks_find_each_thing_once_after_any_number_of_walks),
@@ -581,6 +599,7 @@ int main(void) {
         cmocka_unit_test(objects_of_a_leaf_have_an_order_in_one_plane),
         cmocka_unit_test(what_a_section_leaves_fills_the_page),
         cmocka_unit_test(cameras_of_nothing_are_refused),
+        cmocka_unit_test(a_camera_without_an_up_has_one),
         cmocka_unit_test(wires_run_on_within_their_group),
         cmocka_unit_test(points_that_all_but_touch_the_eye_are_not_drawn),
         cmocka_unit_test(sections_and_crossings_are_drawn_apart),
