@@ -198,6 +198,9 @@ static int check_needs(const render_args *args, const froe_render_options *o) {
                fixed = png || !strcmp(ending.text, "pdf") || !strcmp(ending.text, "eps");
     const bool layered = !strcmp(ending.text, "svg") || !strcmp(ending.text, "dxf");
     const bool titled = !strcmp(ending.text, "svg") || !strcmp(ending.text, "pdf");
+    const uint32_t creases = FROE_LINE_CREASE | FROE_LINE_MESH, dots = FROE_LINE_POINT;
+    const bool lines = o->lines & ~dots && o->line_width > 0;
+    static const char unlined[] = "No lines are drawn, by --line-kinds or --line-width.";
     const cli_need needs[] = {
         {"view", args->direction >= 0, !args->eye.count, "It excludes --eye, which says where from."},
         {"fov", !isnan(args->fov), !o->camera.parallel,
@@ -206,6 +209,12 @@ static int check_needs(const render_args *args, const froe_render_options *o) {
         {"seconds", !isnan(args->seconds), args->animate, "It needs --animate."},
         {"seam-width", !isnan(args->seam_width), o->seams == FROE_SEAMS_UNDERLAP || o->seams == FROE_SEAMS_STROKE,
          "It needs --seams underlap or stroke."},
+        {"line-width", !isnan(args->line_width), o->lines & ~dots, "No lines are drawn, by --line-kinds."},
+        {"point-width", !isnan(args->point_width), o->lines & dots, "No points are drawn, by --line-kinds."},
+        {"crease", !isnan(args->crease), lines && o->lines & creases,
+         "It tells creases from the mesh, and neither is drawn, by --line-kinds or --line-width."},
+        {"halo", !isnan(args->halo), lines, unlined},
+        {"hidden", args->hidden > 0, lines, unlined},
         {"decimals", args->decimals != UINT64_MAX, !fixed,
          "Files of the endings .pdf, .eps and .png have steps of their own."},
         {"layers", args->layers > 0, layered, "Only files of the endings .svg and .dxf have layers."},
