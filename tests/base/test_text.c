@@ -84,7 +84,7 @@ static void folders_and_virtual_files_are_no_files(void **state) {
         assert_int_equal(support_path_is_beyond(cases[i].path), cases[i].beyond);
 }
 
-/* An up that is none, or all but along the line of view, is replaced by an axis; what is found is a frame in any case. */
+/* An up that is none, or all but along the line of view, is replaced by an axis. What is found is always a frame. */
 static void a_page_has_axes_whatever_is_up(void **state) {
     static const struct {
         double back[3], up[3];

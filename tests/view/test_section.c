@@ -152,8 +152,8 @@ static void sections_from_corner_to_corner_are_lines(void **state) {
     froe_tree_free(whole);
 }
 
-/* An upright sheet, of which a side has corners along it, as a line from above. Where the section only touches it, along
- * that side or at a corner, there is nothing; where it goes through corners, its line ends at them. */
+/* An upright sheet, of which a side has corners along it, seen as a line from above. Where the section only touches it,
+ * along that side or at a corner, there is nothing; where it goes through corners, its line ends at them. */
 static void a_section_that_touches_a_sheet_makes_no_line(void **state) {
     static const double sheet[] = {0, 0, 0, 4, 0, 0, 6, 0, 2, 4, 0, 4, 3, 0, 4, 2, 0, 4, 1, 0, 4, 0, 0, 4};
     static const size_t starts[] = {0, 8};
