@@ -92,9 +92,9 @@ static froe_status send_part(wire_tracer *t, uint32_t own, pending_wire *part) {
             middle.ray = view_meeting(s, 2 * own, middle.way);
             const uint32_t edge = part->part.edge, next = part->at.next;
             const view_stretch first = {edge, {ends[0], middle}}, last = {edge, {middle, ends[1]}};
-            const bool ok = /* one way: the first has the room of what it is a part of */
-                push_pending_wire(t, (wire_task){n.child[from > 0], next}, &first) &&
-                push_pending_wire(t, (wire_task){n.child[to > 0], next}, &last);
+            /* one way: the first has the room of what it is a part of */
+            const bool ok = push_pending_wire(t, (wire_task){n.child[from > 0], next}, &first) &&
+                            push_pending_wire(t, (wire_task){n.child[to > 0], next}, &last);
             return ok ? FROE_OK : FROE_E_MEMORY;
         }
         if (!from && !to) { /* along the line: first one side, then what is left on the other */
