@@ -17,6 +17,18 @@ static void empty_arrays_go_back_as_they_came(void **state) {
     test_memory_end(&m);
 }
 
+static void an_allocator_without_a_function_is_that_of_c(void **state) {
+    (void)state;
+    const froe_allocator none = {NULL, NULL}, own = support_allocator(&none), usual = support_allocator(NULL);
+    test_memory m;
+    const froe_allocator given = test_memory_begin(&m), same = support_allocator(&given);
+    assert_true(own.fn == usual.fn && own.fn);
+    assert_true(same.fn == given.fn && same.user == &m);
+    int *data = support_calloc(&own, 3, sizeof *data);
+    assert_true(data && !data[2]);
+    support_free(&own, data, 3 * sizeof *data);
+}
+
 /* Nothing is nothing, and sizes beyond all memory are refused before anybody is asked. */
 static void sizes_that_overflow_are_refused(void **state) {
     (void)state;
@@ -93,7 +105,8 @@ static void sizes_beyond_all_memory_are_refused_and_the_array_stays(void **state
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(sizes_that_overflow_are_refused),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(an_allocator_without_a_function_is_that_of_c),
+                                       cmocka_unit_test(sizes_that_overflow_are_refused),
                                        cmocka_unit_test(empty_arrays_go_back_as_they_came),
                                        cmocka_unit_test(arrays_that_grow_and_shrink_keep_what_they_hold),
                                        cmocka_unit_test(arrays_beside_each_other_do_not_disturb_each_other),
