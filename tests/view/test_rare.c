@@ -338,7 +338,7 @@ static void orders_without_memory_are_told(void **state) {
 static void objects_of_a_leaf_have_an_order_in_one_plane(void **state) {
     static const double in_line[] = {0, 0, 1, 1, 2, 2, 5, 5, 6, 6, 9, 9},
                         not_in_line[] = {0, 0, 1, 1, 2, 2, 5, 5, 6, 6, 9, 8}, dots[] = {0, 0, 3, 1, 2, 4},
-                        dots_in_space[] = {0, 0, 0, 3, 1, 2, 2, 4, 5},
+                        dots_in_space[] = {0, 0, 0, 3, 1, 2, 2, 4, 5, 7, 1, 8},
                         faces[] = {0, 0, 1, 4, 0, 1, 0, 4, 1, 5, 5, 1, 9, 5, 1, 5, 9, 1},
                         not_flat[] = {0, 0, 1, 4, 0, 1, 0, 4, 1, 5, 5, 1, 9, 5, 1, 5, 9, 2};
     static const struct {
