@@ -1,0 +1,206 @@
+/* test_told.c: what assimp would pass over, or tells in its log alone: indices, lists and ends of LightWave, entities of
+ * IFC that are not there or came later, faces of FBX. */
+#include "support.h"
+#include <assimp/cimport.h>
+#include <assimp/scene.h>
+
+/* Reads what must be readable, of so many objects, with sorts left out. */
+static void expect(const char *path, size_t objects, const char *left) {
+    froe_read_report report;
+    froe_scene *scene = read_scene(path, &report);
+    if (froe_scene_object_count(scene) != objects || strcmp(report.sorts_left, left) != 0)
+        fail_msg("%s: %zu objects, and '%s' are left out", path, froe_scene_object_count(scene), report.sorts_left);
+    froe_scene_free(scene);
+}
+
+/* --------------------------------------------------------------------- LightWave -- */
+
+typedef struct chunks {
+    char bytes[512];
+    size_t used;
+} chunks;
+
+/* A name, a length with the highest byte first, and as many bytes. */
+static void put_chunk(chunks *c, const char *name, const char *bytes, size_t size) {
+    const char length[4] = {0, 0, (char)(size >> 8), (char)size};
+    assert_true(c->used + 8 + size <= sizeof c->bytes);
+    memcpy(c->bytes + c->used, name, 4);
+    memcpy(c->bytes + c->used + 4, length, 4);
+    memcpy(c->bytes + c->used + 8, bytes, size);
+    c->used += 8 + size;
+}
+
+#define ONE "\x3f\x80\0\0"
+#define NIL "\0\0\0\0"
+static const char points[] = NIL NIL NIL ONE NIL NIL ONE ONE NIL;
+static const char layer[16] = "";
+
+/* One layer of three points, and what else is in it. */
+static void write_layer(const char *path, const char *type, const char *more, size_t size) {
+    chunks form = {.used = 0}, all = {.used = 0};
+    memcpy(form.bytes, type, 4), form.used = 4;
+    put_chunk(&form, "TAGS", "a\0", 2);
+    put_chunk(&form, "LAYR", layer, sizeof layer);
+    put_chunk(&form, "PNTS", points, 36);
+    memcpy(form.bytes + form.used, more, size), form.used += size;
+    put_chunk(&form, "SURF", "a\0\0\0", 4);
+    put_chunk(&all, "FORM", form.bytes, form.used);
+    write_bytes(path, all.bytes, all.used);
+}
+
+static void polygons_of_lightwave_name_points_that_are_there(void **state) {
+    (void)state;
+#define BYTES(text) text, sizeof(text) - 1
+#define LIST(length, polygons) "POLS\0\0\0" length "FACE" polygons
+#define TRIANGLE LIST("\x0c", "\0\3\0\0\0\1\0\2")
+    static const char beyond[] = "layer.lwo: layer 1: A polygon names a point that does not exist.";
+    static const struct {
+        const char *bytes;
+        size_t size;
+        const char *message; /* NULL: there is a triangle */
+    } cases[] = {
+        {BYTES(TRIANGLE), NULL},
+        {BYTES(LIST("\x0e", "\0\3\0\0\0\1\xff\0\0\2")), NULL}, /* an index of four bytes */
+        {BYTES(LIST("\x0c", "\x04\3\0\0\0\1\0\2")), NULL},     /* the highest bits are flags */
+        {BYTES(LIST("\x0c", "\0\3\0\0\0\1\0\3")), beyond},     /* the number of points is no point */
+        {BYTES(LIST("\x0e", "\0\3\0\0\0\1\xff\0\0\3")), beyond},
+        {BYTES(LIST("\x0c", "\0\3\0\0\0\1\xff\2")), beyond}, /* four bytes that are cut off */
+        {BYTES(LIST("\x0a", "\0\3\0\0\0\1")), beyond},       /* cut off behind an index */
+        {BYTES(LIST("\x0b", "\0\3\0\0\0\1\0\0")), beyond},   /* and within one: chunks have even lengths */
+        {BYTES(LIST("\x0e", "\0\0\0\3\0\0\0\1\0\2")),
+         "layer.lwo: The reader assimp reports 'LWO2: Encountered invalid face record with zero indices'."},
+        {BYTES("POLS\0\0\0\2\0\0" LIST("\x0c", "\0\3\0\0\0\1\0\3")), beyond}, /* the first list has no type */
+        {BYTES(TRIANGLE TRIANGLE),
+         "layer.lwo: layer 1: It has several lists of polygons (POLS), of which one alone would be read."},
+        {BYTES(TRIANGLE "LAYR\0\0\0\x10\0\1\0\0\0\0\0\0\0\0\0\0\0\0\0\0" TRIANGLE),
+         "layer.lwo: layer 2: A polygon names a point that does not exist."},
+        {BYTES(TRIANGLE "SURF\0\1\0\0"), "layer.lwo: The reader assimp reports 'LWO2: Chunk length points behind the"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        write_layer("layer.lwo", "LWO2", cases[i].bytes, cases[i].size);
+        if (cases[i].message)
+            refuse("layer.lwo", FROE_E_FORMAT, cases[i].message);
+        else
+            expect("layer.lwo", 1, "");
+    }
+    write_layer("layer.lwo", "LWOC", BYTES(TRIANGLE)); /* of no version that there is */
+    refuse("layer.lwo", FROE_E_FORMAT, "layer.lwo: The reader assimp reports 'Unknown LWO sub format: LWOC'.");
+}
+
+/* ----------------------------------------------------------------------------- IFC -- */
+
+/* A solid over a profile, of which the shape consists with other items, in a site with other things; it ends so. */
+static void write_ifc(const char *path, const char *items, const char *more, const char *end) {
+    static const char head[] =
+        "ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\n"
+        "FILE_NAME('a','2020-01-01T00:00:00',(''),(''),'','','');\nFILE_SCHEMA(('IFC2X3'));\nENDSEC;\nDATA;\n"
+        "#1=IFCPROJECT('0YvctVUKr0kugbFTf53O9L',#2,'p',$,$,$,$,(#10),#20);\n"
+        "#2=IFCOWNERHISTORY(#3,#4,$,.ADDED.,$,$,$,0);\n#3=IFCPERSONANDORGANIZATION(#5,#6,$);\n"
+        "#4=IFCAPPLICATION(#6,'1','a','a');\n#5=IFCPERSON($,'n',$,$,$,$,$,$);\n#6=IFCORGANIZATION($,'o',$,$,$);\n"
+        "#10=IFCGEOMETRICREPRESENTATIONCONTEXT($,'Model',3,1.E-05,#11,$);\n#11=IFCAXIS2PLACEMENT3D(#12,$,$);\n"
+        "#12=IFCCARTESIANPOINT((0.,0.,0.));\n#20=IFCUNITASSIGNMENT((#21));\n"
+        "#21=IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.);\n#30=IFCSITE('1YvctVUKr0kugbFTf53O9L',#2,'s',$,$,#31,$,$,"
+        ".ELEMENT.,$,$,$,$,$);\n#31=IFCLOCALPLACEMENT($,#11);\n"
+        "#32=IFCRELAGGREGATES('2YvctVUKr0kugbFTf53O9L',#2,$,$,#1,(#30));\n"
+        "#40=IFCBUILDINGELEMENTPROXY('3YvctVUKr0kugbFTf53O9L',#2,'box',$,$,#31,#50,$,$);\n"
+        "#44=IFCRELCONTAINEDINSPATIALSTRUCTURE('4YvctVUKr0kugbFTf53O9L',#2,$,$,(#40),#30);\n"
+        "#50=IFCPRODUCTDEFINITIONSHAPE($,$,(#51));\n#60=IFCEXTRUDEDAREASOLID(#61,#11,#63,3.);\n"
+        "#61=IFCRECTANGLEPROFILEDEF(.AREA.,$,#64,2.,1.);\n#63=IFCDIRECTION((0.,0.,1.));\n"
+        "#64=IFCAXIS2PLACEMENT2D(#65,$);\n#65=IFCCARTESIANPOINT((0.,0.));\n";
+    char text[4096];
+    assert_true((size_t)snprintf(text, sizeof text,
+                                 "%s#51=IFCSHAPEREPRESENTATION(#10,'Body','SweptSolid',(#60%s));\n%s%s", head, items,
+                                 more, end) < sizeof text);
+    write_text(path, text);
+}
+
+static const char whole[] = "ENDSEC;\nEND-ISO-10303-21;\n";
+enum { BOX = 12 }; /* triangles */
+
+static void entities_of_ifc_are_there_and_known(void **state) {
+    (void)state;
+    static const char pipe[] = "#81=IFCPIPESEGMENT('6YvctVUKr0kugbFTf53O9L',#2,'e',$,$,#31,#50,$,$);\n";
+    static const char unread[] = "house.ifc: Entity #81 is an IFCPIPESEGMENT, which came with IFC4 and is not read.";
+#define PARTS(of, these) "#80=IFCRELAGGREGATES('7YvctVUKr0kugbFTf53O9L'," of "," these ");\n"
+    static const struct {
+        const char *items, *more, *end;
+        froe_status status;
+        const char *message;
+    } cases[] = {
+        {",#99", "", whole, FROE_E_FORMAT,
+         "house.ifc: Entity #99, which #51 (IFCSHAPEREPRESENTATION) names, is not in the file."},
+        {",#70", "#70 = IfcTriangulatedFaceSet(#71,$,.T.,((1,2,3)),$);\n", whole, FROE_E_UNSUPPORTED,
+         "house.ifc: Entity #70 is an IFCTRIANGULATEDFACESET, which came with IFC4 and is not read. IFC2x3 is."},
+        {"", pipe, whole, FROE_OK, NULL}, /* nothing names it */
+        {"", "/* #80=IFCPOLYLINE((#99)); */\n#82=IFCLABEL('#99''s / #98');\n#83=AB();\n", whole, FROE_OK, NULL},
+        {"", PARTS("#2,$,$,#81", "(#99)"), whole, FROE_E_FORMAT, "Entity #81, which #80 (IFCRELAGGREGATES) names,"},
+        /* parts of what is unknown are not looked for, and unknown parts are refused */
+        {"", PARTS("#2,$,$,#81", "(#99)") "#81=IFCCHIMNEY($);\n", whole, FROE_OK, NULL},
+        {"", PARTS("#2,$,$,#30", "(#40,#81)") "#81=IFCPIPESEGMENT($);\n", whole, FROE_E_UNSUPPORTED, unread},
+        {"", "", "ENDSEC;\n", FROE_E_FORMAT,
+         "house.ifc: The file does not end with END-ISO-10303-21, so that parts may be missing."},
+        {"", "", "#99=IFCPOLYLINE((#12,#98)END-ISO-10303-21", FROE_E_FORMAT, "Entity #98, which #99 (IFCPOLYLINE)"},
+        {"", "", "#99=IFCPOLYLINE((#12,#12)END-ISO-10303-21", FROE_E_FORMAT,
+         "house.ifc: The reader assimp reports 'STEP: ignoring unexpected EOF'."},
+        {"", "", "/* END-ISO-10303-21;\n", FROE_E_FORMAT,
+         "house.ifc: The reader assimp reports 'STEP: ignoring unexpected EOF'."},
+        {"", "#61=IFCRECTANGLEPROFILEDEF(.AREA.,$,#64,5.,5.);\n", whole, FROE_E_FORMAT,
+         "house.ifc: The reader assimp reports '(line 31) an object with the id #61 already exists'."},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        write_ifc("house.ifc", cases[i].items, cases[i].more, cases[i].end);
+        if (cases[i].status)
+            refuse("house.ifc", cases[i].status, cases[i].message);
+        else
+            expect("house.ifc", BOX, "");
+    }
+}
+
+/* Each sort is named once, as many as there is room for; the first damage is told. */
+static void sorts_that_assimp_leaves_out_are_named(void **state) {
+    (void)state;
+#define CONE "#73=IFCRIGHTCIRCULARCONE(#11,1.,1.);\n"
+#define WORDS "#71=IFCTEXTLITERALWITHEXTENT('a',#11,.LEFT.,#79,'b');\n#72=IFCTEXTLITERAL('a',#11,.LEFT.);\n"
+    static const struct {
+        const char *items, *more, *left;
+    } cases[] = {
+        {",#70,#72", "#70=IFCBLOCK(#11,1.,2.,3.);\n#72=IFCSPHERE(#11,2.);\n", "IfcBlock, IfcSphere"},
+        {",#70,#74", "#70=IFCBLOCK(#11,1.,2.,3.);\n#74=IFCBLOCK(#11,1.,2.,4.);\n", "IfcBlock"}, /* one line for both */
+        {",#70,#72,#74", "#70=IFCBLOCK(#11,1.,2.,3.);\n#72=IFCSPHERE(#11,2.);\n#74=IFCBLOCK(#11,1.,2.,4.);\n",
+         "IfcBlock, IfcSphere"},
+        {",#71,#72", WORDS "#79=IFCPLANAREXTENT(1.,1.);\n", "IfcTextLiteralWithExtent, IfcTextLiteral"},
+        {",#73,#74,#75,#76",
+         CONE "#74=IFCRIGHTCIRCULARCYLINDER(#11,1.,1.);\n#75=IFCRECTANGULARPYRAMID(#11,1.,1.,1.);\n"
+              "#76=IFCBLOCK(#11,1.,2.,3.);\n",
+         "IfcRightCircularCone, IfcRightCircularCylinder"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        write_ifc("sorts.ifc", cases[i].items, cases[i].more, whole);
+        expect("sorts.ifc", BOX, cases[i].left);
+    }
+    write_ifc("twice.ifc", "", "#65=IFCCARTESIANPOINT((0.,1.));\n#64=IFCAXIS2PLACEMENT2D(#65,$);\n", whole);
+    refuse("twice.ifc", FROE_E_FORMAT, "an object with the id #65 already exists'.");
+}
+
+/* What assimp reads for another part of the program is none of an import of froe. */
+static void imports_of_others_are_not_listened_to(void **state) {
+    (void)state;
+    write_ifc("own.ifc", "", "", whole);
+    expect("own.ifc", BOX, "");
+    write_ifc("others.ifc", ",#70", "#70=IFCBLOCK(#11,1.,2.,3.);\n", whole);
+    const struct aiScene *scene = aiImportFile("others.ifc", 0);
+    assert_non_null(scene);
+    aiReleaseImport(scene);
+    expect("own.ifc", BOX, "");
+    expect("others.ifc", BOX, "IfcBlock");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(polygons_of_lightwave_name_points_that_are_there),
+        cmocka_unit_test(entities_of_ifc_are_there_and_known),
+        cmocka_unit_test(sorts_that_assimp_leaves_out_are_named),
+        cmocka_unit_test(imports_of_others_are_not_listened_to),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
