@@ -21,7 +21,7 @@ typedef struct ifc_check {
 } ifc_check;
 
 bool io_is_ifc(const formats_source *source) {
-    return !strncmp(source->head, "ISO-10303-21", 12) && !strcmp(source->extension.text, "ifc");
+    return !strncmp(source->head, "ISO-10303-21", 12); /* assimp looks no further */
 }
 
 /* clang-format off */
