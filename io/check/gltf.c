@@ -128,18 +128,27 @@ static bool is_mode(const formats_json *mode) {
     return formats_json_is(mode, FORMATS_JSON_NUMBER) && mode->number < 7 && strspn(mode->text, "+-.0123456789Ee") == 1;
 }
 
-/* How many points, edges or triangles a primitive is (3.7.2.1). */
-static size_t faces_of(const gltf_check *c, const formats_json *primitive, const formats_json *positions) {
+/* How many corners a primitive names. */
+static size_t corners_of(const gltf_check *c, const formats_json *primitive, const formats_json *positions) {
     const formats_json *indices = item_of(&c->accessors, primitive, "indices");
     const formats_json *count = formats_json_get(indices ? indices : positions, "count");
-    const formats_json *mode = formats_json_get(primitive, "mode");
     const bool is_count = formats_json_is(count, FORMATS_JSON_NUMBER) && count->number >= 0 && count->number < 0x1p32;
-    const size_t n = is_count ? (size_t)count->number : 0;
-    if (is_number(mode, 0) || is_number(mode, 2)) return n;
-    if (is_number(mode, 1)) return n / 2;
-    if (is_number(mode, 3)) return n > 1 ? n - 1 : 0;
-    if (is_number(mode, 5) || is_number(mode, 6)) return n > 2 ? n - 2 : 0;
-    return n / 3;
+    return is_count ? (size_t)count->number : 0;
+}
+
+/* Has a primitive the corners of one edge or triangle? Of a chain, loop or fan without them assimp makes a face all the
+ * same, beyond its memory. Others it refuses. */
+static bool is_long_enough(const formats_json *mode, size_t corners) {
+    if (is_number(mode, 2) || is_number(mode, 3)) return corners >= 2;
+    return (!is_number(mode, 5) && !is_number(mode, 6)) || corners >= 3;
+}
+
+/* How many points, edges or triangles a primitive is that is long enough (3.7.2.1). */
+static size_t faces_of(const formats_json *mode, size_t corners) {
+    if (is_number(mode, 0) || is_number(mode, 2)) return corners;
+    if (is_number(mode, 1)) return corners / 2;
+    if (is_number(mode, 3)) return corners - 1;
+    return is_number(mode, 5) || is_number(mode, 6) ? corners - 2 : corners / 3;
 }
 
 static froe_status check_meshes(gltf_check *c, io_gltf_found *found) {
@@ -155,11 +164,16 @@ static froe_status check_meshes(gltf_check *c, io_gltf_found *found) {
                 return fail_at(c, FROE_E_UNSUPPORTED, "mesh", number, mesh,
                                "Its positions are not three floating-point numbers each, as with the extension "
                                "KHR_mesh_quantization, which is not read.");
-            if (!is_mode(formats_json_get(primitive, "mode")))
+            const formats_json *mode = formats_json_get(primitive, "mode");
+            const size_t corners = corners_of(c, primitive, positions);
+            if (!is_mode(mode))
                 return fail_at(c, FROE_E_FORMAT, "mesh", number, mesh,
                                "Its modes are not each one of the digits 0 to 6.");
+            if (!is_long_enough(mode, corners))
+                return fail_at(c, FROE_E_FORMAT, "mesh", number, mesh,
+                               "A chain or loop of it has less than two corners, or a strip or fan less than three.");
             found->primitives++;
-            found->faces += faces_of(c, primitive, positions);
+            found->faces += faces_of(mode, corners);
         }
         number++;
     }

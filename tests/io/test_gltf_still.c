@@ -216,6 +216,41 @@ static void faces_are_counted_in_every_mode(void **state) {
     }
 }
 
+/* By the specification. Of chains, loops and fans assimp would make a face all the same, beyond its memory. */
+static void too_few_corners_are_no_face(void **state) {
+    (void)state;
+    static const char empty
+        [] = "few.gltf: The reader assimp reports 'Mesh \"m-1\" has no faces'.",
+   few[] =
+        "few.gltf: mesh 0 ('m'): A chain or loop of it has less than two corners, or a strip or fan less than three.";
+    static const struct {
+        int mode, count;
+        const char *message; /* NULL: there is one more object */
+    } cases[] = {{1, 1, empty}, {4, 2, empty}, {2, 1, few},  {3, 1, few},  {3, 0, few}, {5, 2, few},
+                 {5, 1, few},   {6, 2, few},   {3, 2, NULL}, {5, 3, NULL}, {6, 3, NULL}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        static const char indices[] = "\"SCALAR\", \"count\": 3}";
+        char other[128], text[MOST], both[2 * MOST];
+        snprintf(other, sizeof other, "\"mode\": 4}, {\"attributes\": {\"POSITION\": 0}, \"indices\": 2, \"mode\": %d",
+                 cases[i].mode);
+        change(text, "\"mode\": 4", other);
+        const char *at = strstr(text, indices);
+        assert_non_null(at);
+        at += sizeof indices - 1;
+        snprintf(both, sizeof both,
+                 "%.*s, {\"bufferView\": 1, \"componentType\": 5123, \"type\": \"SCALAR\", \"count\": %d}%s",
+                 (int)(at - text), text, cases[i].count, at);
+        write_text("few.gltf", both);
+        if (cases[i].message) {
+            refuse("few.gltf", FROE_E_FORMAT, cases[i].message);
+            continue;
+        }
+        froe_scene *scene = read_scene("few.gltf", NULL);
+        assert_int_equal(froe_scene_object_count(scene), 2);
+        froe_scene_free(scene);
+    }
+}
+
 /* Of a model with a skin the text is changed before assimp sees it, and files beside it are not. */
 static void buffers_beside_models_with_skins_are_read(void **state) {
     (void)state;
@@ -268,6 +303,7 @@ int main(void) {
         cmocka_unit_test(what_is_no_json_and_no_gltf_is_not_refused_for_it),
         cmocka_unit_test(what_does_not_change_the_scene_is_read),
         cmocka_unit_test(faces_are_counted_in_every_mode),
+        cmocka_unit_test(too_few_corners_are_no_face),
         cmocka_unit_test(buffers_beside_models_with_skins_are_read),
         cmocka_unit_test(morph_targets_are_left_out),
         cmocka_unit_test(every_failing_allocation_gives_a_status),
