@@ -111,6 +111,191 @@ static void nodes_of_later_libraries_are_found(void **state) {
     }
 }
 
+/* The text of write_collada() with another word. */
+static void write_changed(const char *path, const char *nodes, const char *word, const char *other) {
+    char text[4096], changed[8192];
+    assert_true(snprintf(text, sizeof text, collada, "", nodes) < (int)sizeof text);
+    const char *at = strstr(text, word);
+    assert_non_null(at);
+    snprintf(changed, sizeof changed, "%.*s%s%s", (int)(at - text), text, other, at + strlen(word));
+    write_text(path, changed);
+}
+
+static void what_collada_says_of_its_numbers_is_looked_at(void **state) {
+    (void)state;
+#define X_PARAM "<param name=\"X\" type=\"float\"/>"
+#define Y_PARAM "<param name=\"Y\" type=\"float\"/>"
+#define Z_PARAM "<param name=\"Z\" type=\"float\"/>"
+    static const char beyond[] = "line 2: An accessor counts more numbers than its array has.",
+                      flat[] = "line 2: Points with an X and no Z are not read.";
+    static const struct {
+        const char *word, *other;
+        froe_status status;
+        const char *sentence; /* NULL: it is read, as one object */
+    } cases[] = {
+        {"count=\"3\" stride", "count=\"4\" stride", FROE_E_FORMAT, beyond},
+        {"count=\"3\" stride", "count=\"3\" offset=\"1\" stride", FROE_E_FORMAT, beyond},
+        {"count=\"3\" stride", "count=\"3\" offset=\"10\" stride", FROE_E_FORMAT, beyond},
+        {Z_PARAM, "", FROE_E_UNSUPPORTED, flat},
+        {X_PARAM, Z_PARAM X_PARAM, FROE_OK, NULL},
+        {X_PARAM, "<param type=\"float\"/>" Z_PARAM X_PARAM, FROE_OK, NULL},
+        {Z_PARAM, Z_PARAM "<param name=\"W\" type=\"float\"/>", FROE_OK, NULL},
+        {Y_PARAM, "<extra><technique><accessor/></technique></extra>" Y_PARAM, FROE_OK, NULL},
+        /* the first fault is told: of an empty element the end is told to the reader, too */
+        {Y_PARAM, "<skew/>", FROE_E_UNSUPPORTED, "line 2: Skews are not read. A matrix is."},
+        {"<p>0 1 2</p>", "<p>0 1 -2</p>", FROE_E_FORMAT, "line 2: An index is negative."},
+        {"</technique_common></source>",
+         "</technique_common></source><source id=\"q\"><float_array id=\"b\" count=\"1\">0</float_array>"
+         "<technique_common><accessor source=\"#b\" count=\"0\"><param/></accessor></technique_common></source>",
+         FROE_OK, NULL},
+        {"</geometry>", "</geometry><geometry id=\"h\"><convex_mesh/></geometry><geometry><spline/></geometry>",
+         FROE_OK, NULL},
+        {"<library_visual_scenes>", "<library_physics_models><skew/></library_physics_models><library_visual_scenes>",
+         FROE_OK, NULL},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char sentence[128];
+        write_changed("numbers.dae", "<node><instance_geometry url=\"#g\"/></node>", cases[i].word, cases[i].other);
+        snprintf(sentence, sizeof sentence, "numbers.dae: %s", cases[i].sentence);
+        if (cases[i].status)
+            refuse("numbers.dae", cases[i].status, sentence);
+        else
+            assert_int_equal(objects_of("numbers.dae", NULL), 1);
+    }
+}
+
+/* Of text in other encodings the parser hands over 1024 bytes at once. */
+static void write_long(const char *path, const char *open, const char *number, const char *close) {
+    static char text[16384];
+    size_t used = (size_t)snprintf(text, sizeof text,
+                                   "<?xml version=\"1.0\" encoding=\"ISO-8859-1\"?><COLLADA version"
+                                   "=\"1.4.1\"><asset/><library_visual_scenes><visual_scene><node>"
+                                   "%s",
+                                   open);
+    for (int i = 0; i < 1500; i++) used += (size_t)snprintf(text + used, sizeof text - used, "%s ", number);
+    snprintf(text + used, sizeof text - used, "%s</node></visual_scene></library_visual_scenes></COLLADA>", close);
+    write_text(path, text);
+}
+
+static void long_texts_are_refused_once(void **state) {
+    (void)state;
+    write_long("long.dae", "<p>", "-1", "</p>");
+    refuse("long.dae", FROE_E_FORMAT, "long.dae: line 1: An index is negative.");
+    write_long("long.dae", "<matrix>", "1", "</matrix>");
+    refuse("long.dae", FROE_E_FORMAT, "long.dae: line 1: The last row of a matrix is not 0, 0, 0 and 1.");
+    write_long("long.dae", "<matrix>0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1 ", "0", "</matrix><skew/>");
+    refuse("long.dae", FROE_E_UNSUPPORTED, "long.dae: line 1: Skews are not read. A matrix is.");
+    test_memory m = {.calls = 0};
+    for (size_t fail_at = 1, refused = 0; refused < 2 && fail_at < 1000; fail_at++) { /* each time another place */
+        froe_allocator alloc = test_memory_begin(&m);
+        froe_read_options o = froe_read_defaults();
+        froe_diagnostic why = {.message = ""};
+        froe_scene *scene = NULL;
+        o.alloc = &alloc, m.fail_at = fail_at;
+        const froe_status status = froe_read("long.dae", &o, &scene, NULL, &why);
+        assert_true(status == FROE_E_MEMORY || status == FROE_E_UNSUPPORTED);
+        assert_null(scene);
+        refused = status == FROE_E_MEMORY ? 0 : refused + 1;
+        test_memory_end(&m);
+    }
+}
+
+/* ------------------------------------------------------------------- X3D and AMF -- */
+
+static void what_assimp_takes_for_something_else_is_refused(void **state) {
+    (void)state;
+#define FACES(point)                                                                                                   \
+    "<IndexedFaceSet coordIndex=\"0 1 2 -1\"><" point " point=\"0 0 0, 1 0 0, 1 2 0\"/></IndexedFaceSet>"
+#define SHAPE "<Shape>" FACES("Coordinate") "<Appearance><Material/></Appearance></Shape>"
+#define X3D(nodes) "<X3D version=\"3.3\"><head><meta name=\"a\"/></head>\n<Scene>" nodes "</Scene></X3D>"
+#define TURNED(attributes) X3D("<Transform " attributes ">" SHAPE "</Transform>")
+#define AMF(more) "<amf unit=\"millimeter\">\n" more "</amf>"
+#define CORNER(x, y) "<vertex><coordinates><x>" x "</x><y>" y "</y><z>0</z></coordinates></vertex>"
+#define VOLUME "<volume><triangle><v1>0</v1><v2>1</v2><v3>2</v3></triangle></volume>"
+#define MESH(volumes)                                                                                                  \
+    "<mesh><vertices>" CORNER("0", "0") CORNER("1", "0") CORNER("0", "1") "</vertices>" volumes "</mesh>"
+#define OBJECT(id, meshes) "<object id=\"" id "\">" meshes "</object>\n"
+#define INSTANCE(parts) "<constellation id=\"9\"><instance objectid=\"0\">" parts "</instance></constellation>"
+#define GOOD OBJECT("0", MESH(VOLUME))
+    static const char axis[] = "line 2: The axis of a rotation has not the length 1.",
+                      turn[] = "line 3: Turns of instances (rx, ry, rz) are not read.",
+                      several[] = ": Objects of several volumes or meshes are not read.";
+    static const struct {
+        const char *path, *text;
+        froe_status status;
+        const char *words; /* of the message, or sorts that are left out */
+        size_t objects;
+    } cases[] = {
+        {"a.x3d", X3D(SHAPE), FROE_OK, "", 1},
+        {"a.x3d", TURNED("rotation=\"0.577, 0.577, 0.577, 1\" scaleOrientation=\"0 0 0 0\""), FROE_OK, "", 1},
+        {"a.x3d", TURNED("translation=\"5 0 0\" scaleOrientation=\"1 1 0 1.5\""), FROE_E_FORMAT, axis, 0},
+        {"a.x3d", TURNED("rotation=\"0 0 2 1.5\" translation=\"5 0 0\""), FROE_E_FORMAT, axis, 0},
+        {"a.x3d", X3D(SHAPE "\n<Shape><Cone/><Cone/></Shape>"), FROE_E_UNSUPPORTED, "line 3: Cones are not read.", 0},
+        {"a.x3d", X3D(SHAPE "<Collision><Transform>" SHAPE "</Transform></Collision><LOD>" SHAPE SHAPE "</LOD>"),
+         FROE_OK, "Collision, LOD", 1},
+        {"a.x3d", X3D(SHAPE "<ProtoDeclare name=\"p\">" SHAPE "</ProtoDeclare><Viewpoint/>"), FROE_OK, "", 1},
+        {"a.x3d", X3D(SHAPE "<Shape><Text string=\"a\"/></Shape>"), FROE_OK, "Text", 1},
+        {"a.x3d", X3D(SHAPE "<Shape>" FACES("CoordinateDouble") "</Shape><ProtoInstance name=\"p\"/>"), FROE_OK,
+         "CoordinateDouble, ProtoInstance", 1},
+        {"a.x3d", X3D(SHAPE "<ALongNameOfANodeThatNoStandardKnows/>"), FROE_E_FORMAT, "Unknown node \"ALong", 0},
+        {"a.x3d", "<X3D><Scene>", FROE_E_FORMAT, "a.x3d: line 1: The text is not well-formed XML.", 0},
+        {"a.x3d", "<?xml version=\"1.0\" encoding=\"x-nobody\"?>" X3D(SHAPE), FROE_OK, "", 1}, /* assimp reads it */
+        {"a.amf", AMF(GOOD OBJECT("1", MESH(VOLUME))), FROE_OK, "", 2},
+        {"a.amf", AMF(GOOD INSTANCE("<deltax>5</deltax>")), FROE_OK, "", 1},
+        {"a.amf", AMF(GOOD OBJECT("1", MESH(VOLUME VOLUME))), FROE_E_UNSUPPORTED, several, 0},
+        {"a.amf", AMF(OBJECT("1", MESH(VOLUME) MESH(VOLUME))), FROE_E_UNSUPPORTED, several, 0},
+        {"a.amf", AMF(GOOD INSTANCE("<rx>0</rx>")), FROE_E_UNSUPPORTED, turn, 0},
+        {"a.amf", AMF(GOOD INSTANCE("<ry/>")), FROE_E_UNSUPPORTED, turn, 0},
+        {"a.amf", AMF(GOOD INSTANCE("<rz>90</rz>")), FROE_E_UNSUPPORTED, turn, 0},
+        {"a.amf", "<amf>", FROE_E_FORMAT, "a.amf: line 1: The text is not well-formed XML.", 0},
+        {"a.amf", "PK\3\4 is no AMF in an archive", FROE_E_FORMAT, "a.amf: ", 0},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        froe_read_report report;
+        write_text(cases[i].path, cases[i].text);
+        if (cases[i].status) {
+            refuse(cases[i].path, cases[i].status, cases[i].words);
+            continue;
+        }
+        const size_t objects = objects_of(cases[i].path, &report);
+        if (objects != cases[i].objects || strcmp(report.sorts_left, cases[i].words) != 0)
+            fail_msg("%s: %zu objects, and '%s' are left out", cases[i].text, objects, report.sorts_left);
+    }
+}
+
+static bool count_calls(void *user, double done) {
+    int *calls = user;
+    (void)done;
+    return --*calls > 0;
+}
+
+/* Texts are looked through by megabytes, and one that ends in the first is no more looked at, or cancelled. */
+static void long_texts_are_looked_through_in_parts(void **state) {
+    (void)state;
+    enum { SIZE = 5 << 19 };
+    char *text = malloc(SIZE + 512);
+    assert_non_null(text);
+    const int used = snprintf(text, 512, "%s", X3D(SHAPE "<!-- "));
+    char *at = strstr(text, "<!-- ") + 5;
+    assert_true(used < 512);
+    memset(at, ' ', SIZE);
+    strcpy(at + SIZE, "--></Scene></X3D>");
+    write_text("long.x3d", text);
+    assert_int_equal(objects_of("long.x3d", NULL), 1);
+    for (int calls = 2; calls < 5; calls++) {
+        int left = calls;
+        froe_read_options o = froe_read_defaults();
+        o.progress = count_calls, o.user = &left;
+        refuse_with("long.x3d", &o, FROE_E_CANCELLED, "Cancelled.");
+        assert_int_equal(left, 0);
+    }
+    memcpy(at, "--><", 4);
+    memcpy(at + 5, "&", 1);
+    write_text("long.x3d", text);
+    refuse("long.x3d", FROE_E_FORMAT, "long.x3d: line 2: The text is not well-formed XML.");
+    free(text);
+}
+
 /* ----------------------------------------------------------------------- 3MF -- */
 
 static const char relations[] =
@@ -345,6 +530,10 @@ int main(void) {
         cmocka_unit_test(names_of_collada_have_to_be_there),
         cmocka_unit_test(last_rows_of_matrices_are_looked_at),
         cmocka_unit_test(nodes_of_later_libraries_are_found),
+        cmocka_unit_test(what_collada_says_of_its_numbers_is_looked_at),
+        cmocka_unit_test(long_texts_are_refused_once),
+        cmocka_unit_test(what_assimp_takes_for_something_else_is_refused),
+        cmocka_unit_test(long_texts_are_looked_through_in_parts),
         cmocka_unit_test(requirements_of_3mf_are_lists_of_words),
         cmocka_unit_test(corners_without_colours_mix_none),
         cmocka_unit_test(words_between_solids_hide_none),
