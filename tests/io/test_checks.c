@@ -344,6 +344,7 @@ static void requirements_of_3mf_are_lists_of_words(void **state) {
                  {" p\tp\n", NULL},
                  {"p s", "slice/2015/07"},
                  {"v", "http://vendor"},
+                 {"v nobody", "http://vendor"},
                  {"nobody", "'nobody'"},
                  {LONG LONG LONG, "'" LONG}};
     (void)state;
@@ -389,6 +390,69 @@ static void what_stands_outside_of_objects_is_no_part_of_one(void **state) {
     }
 }
 
+/* What stands in place of the object, beside another part; NULL: it is read. */
+static void what_objects_consist_of_is_looked_at(void **state) {
+    (void)state;
+#define VERTICES                                                                                                       \
+    "<vertices><vertex x=\"0\" y=\"0\" z=\"0\"/><vertex x=\"1\" y=\"0\" z=\"0\"/><vertex x=\"0\" y=\"1\" z=\"0\"/>"    \
+    "</vertices>"
+#define CORNERS "v1=\"0\" v2=\"1\" v3=\"2\""
+    static const struct {
+        const char *more, *sentence;
+        size_t objects;
+    } cases[] = {
+        {"<object id=\"-1\"/>", "An attribute is not a whole number below 2^31.", 0},
+        {"<object id=\"2\"><q:mesh xmlns:q=\"http://x\">" VERTICES "</q:mesh></object>", NULL, 1},
+        /* two triangles of one colour are of one group, and a part that is named twice is read once */
+        {"<colorgroup id=\"6\"><color color=\"#0000FF\"/></colorgroup><object id=\"2\"><mesh>" VERTICES
+         "<triangles><triangle " CORNERS " pid=\"6\" p1=\"0\"/><triangle " CORNERS " pid=\"6\" p1=\"0\"/></triangles>"
+         "</mesh></object></resources><build><item objectid=\"2\"/></build><resources>",
+         NULL, 3},
+        {"<object id=\"2\"><components><component path=\"/3D/b.model\" objectid=\"1\"/><component path=\"/3D/b.model\" "
+         "objectid=\"1\"/></components></object></resources><build><item objectid=\"2\"/></build><resources>",
+         NULL, 3},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char part[1024];
+        write_3mf("objects.3mf", "", cases[i].more);
+        snprintf(part, sizeof part, "<model><resources><object id=\"1\">%s</object></resources></model>", mesh);
+        write_part("objects.3mf", "3D/b.model", part);
+        if (cases[i].sentence)
+            refuse("objects.3mf", FROE_E_FORMAT, cases[i].sentence);
+        else
+            assert_int_equal(objects_of("objects.3mf", NULL), cases[i].objects);
+    }
+    froe_scene *scene;
+    write_3mf("objects.3mf", "", cases[2].more);
+    scene = read_scene("objects.3mf", NULL);
+    assert_int_equal(froe_scene_group_count(scene), 2);
+    froe_scene_free(scene);
+}
+
+/* Parts are read by 32 kB, and no more of them where the first are refused. */
+static void long_parts_are_refused_by_their_beginning(void **state) {
+    (void)state;
+    enum { SIZE = 1 << 17 };
+    static const char wrong[] = "<model><resources><object id=\"x\"/>";
+    char *text = malloc(SIZE + 1);
+    assert_non_null(text);
+    memset(text, ' ', SIZE), text[SIZE] = '\0';
+    memcpy(text, wrong, sizeof wrong - 1);
+    remove("long.3mf");
+    write_part("long.3mf", "_rels/.rels", relations);
+    write_part("long.3mf", "3D/m.model", text);
+    refuse("long.3mf", FROE_E_FORMAT,
+           "long.3mf: part '3D/m.model', line 1: An attribute is not a whole number below 2^31.");
+    free(text);
+}
+
+static void archives_name_their_model(void **state) {
+    (void)state;
+    remove("nameless.3mf");
+    write_part("nameless.3mf", "_rels/.rels", "<Relationships xmlns=\"r\"/>");
+    refuse("nameless.3mf", FROE_E_FORMAT, "nameless.3mf: The archive names no 3D model.");
+}
+
 /* ----------------------------------------------------------------------- STL -- */
 
 #define FACET "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\n"
@@ -401,6 +465,61 @@ static void words_between_solids_hide_none(void **state) {
     assert_int_equal(objects_of("solids.stl", NULL), 2);
     write_text("stray.stl", stray);
     refuse("stray.stl", FROE_E_FORMAT, "line 10");
+}
+
+static void ends_of_facets_are_in_facets(void **state) {
+    (void)state;
+    static const struct {
+        const char *text, *sentence; /* NULL: it is read */
+    } cases[] = {
+        {"solid a\n" FACET "endfacet\nendsolid a\n", "line 9: A facet ends here that has not begun."},
+        {"solid a\n" FACET "endsolid a\nendfacet\n", NULL}, /* behind the solid anything may stand */
+        {"solid a\n" FACET "endsolid endfacet\n", NULL},    /* a name */
+        {"solid a endfacet\n" FACET "endsolid\n", NULL},
+        {"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nendloop\nendfacet\nendsolid a\n",
+         "line 7: The facet has less than 3 vertices."},
+        {"solid a\nFacet normal 0 0 1\n", "line 2: Words such as 'facet' are not read in capital letters."},
+        {"solid a\n" FACET, "The text does not end with a line 'endsolid', so that triangles may be missing."},
+        {FACET "endsolid\n", NULL}, /* no text of STL, as its first word says */
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        write_text("facets.stl", cases[i].text);
+        if (cases[i].sentence)
+            refuse("facets.stl", FROE_E_FORMAT, cases[i].sentence);
+        else if (i + 1 < sizeof cases / sizeof *cases)
+            assert_int_equal(objects_of("facets.stl", NULL), 1);
+        else
+            refuse("facets.stl", FROE_E_FORMAT, "facets.stl: The file is of no type that can be read.");
+    }
+}
+
+/* Of a binary file the header says how many triangles there are; bytes behind them are too few for another one. */
+static void binary_files_are_as_long_as_their_header_says(void **state) {
+    (void)state;
+    static const struct {
+        size_t size;
+        unsigned char count[4];
+        const char *sentence; /* NULL: it is read */
+    } cases[] = {
+        {134, {1}, NULL},
+        {160, {1}, NULL},
+        {184, {1}, "This binary STL file has 184 bytes. For the 1 triangle of its header it needs 134."},
+        {133, {1}, "This binary STL file has 133 bytes. For the 1 triangle of its header it needs 134."},
+        {94, {0}, "This binary STL file has 94 bytes. For the 0 triangles of its header it needs 84."},
+        {134, {255, 255, 255, 255}, "For the 4294967295 triangles of its header it needs 214748364834."},
+        {60, {0}, "A binary STL file has 84 bytes at least, and this one 60."},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        unsigned char bytes[256] = {0};
+        memcpy(bytes + 80, cases[i].count, 4);
+        const unsigned char one[4] = {0, 0, 0x80, 0x3f};
+        memcpy(bytes + 84 + 24, one, 4), memcpy(bytes + 84 + 40, one, 4); /* (0, 0, 0), (1, 0, 0), (0, 1, 0) */
+        write_bytes("binary.stl", bytes, cases[i].size);
+        if (cases[i].sentence)
+            refuse("binary.stl", FROE_E_FORMAT, cases[i].sentence);
+        else
+            assert_int_equal(objects_of("binary.stl", NULL), 1);
+    }
 }
 
 /* -------------------------------------------------------------------- faults -- */
@@ -537,6 +656,11 @@ int main(void) {
         cmocka_unit_test(requirements_of_3mf_are_lists_of_words),
         cmocka_unit_test(corners_without_colours_mix_none),
         cmocka_unit_test(words_between_solids_hide_none),
+        cmocka_unit_test(what_objects_consist_of_is_looked_at),
+        cmocka_unit_test(long_parts_are_refused_by_their_beginning),
+        cmocka_unit_test(archives_name_their_model),
+        cmocka_unit_test(ends_of_facets_are_in_facets),
+        cmocka_unit_test(binary_files_are_as_long_as_their_header_says),
         cmocka_unit_test(what_stands_outside_of_objects_is_no_part_of_one),
         cmocka_unit_test(memory_may_end_at_any_place),
         cmocka_unit_test(reading_is_cancelled_at_any_call),

@@ -262,6 +262,8 @@ static void what_is_wrong_with_an_animation_is_said(void **state) {
          "An accessor of an animation goes beyond its buffer."},
         {"\"count\":2,\"type\":\"SCALAR\"", "\"count\":1,\"type\":\"SCALAR\"", FROE_E_FORMAT,
          "animation 'go': node 'n': There are 2 values for 1 times."},
+        {"\"count\":2,\"type\":\"SCALAR\"", "\"count\":0,\"type\":\"SCALAR\"", FROE_E_FORMAT,
+         "animation 'go': node 'n': There are 2 values for 0 times."},
         {"\"output\":2", "\"output\":2,\"interpolation\":\"CUBICSPLINE\"", FROE_E_FORMAT,
          "animation 'go': node 'n': There are 2 values for 2 times."},
         {"\"output\":2", "\"output\":2,\"interpolation\":\"SMOOTH\"", FROE_E_UNSUPPORTED,
@@ -339,16 +341,22 @@ static void what_is_wrong_with_a_buffer_is_said(void **state) {
         {"1", "4", "4,\"uri\":\"data:;base64,+-/_AA==\"", FROE_E_FORMAT, no_output},
         {"1", "4,\"byteStride\":70000", "4,\"uri\":\"data:;base64,AAAAAA==\"", FROE_E_FORMAT, beyond},
         {"1", "4", "4,\"uri\":\"%67%6A%6b%G%1%4!.bin\"", FROE_E_FORMAT, no_output},
+        {"1", "4", "4,\"uri\":\"%6g%6G.bin\"", FROE_E_FORMAT, no_output},
         /* assimp reads the file whose name is as it is written, and this one has fewer bytes */
         {"1", "4", "4,\"uri\":\"shor%74.bin\"", FROE_E_FORMAT, beyond},
         {"1,\"byteOffset\":4", "8", "8,\"uri\":\"shor%74.bin\"", FROE_E_FORMAT, beyond},
     };
     write_bytes("gjk%G%1%4!.bin", "four", 4), write_bytes("%67%6A%6b%G%1%4!.bin", "four", 4);
+    write_bytes("%6g%6G.bin", "four", 4), write_bytes("%6Fnly.bin", "four", 4), remove("only.bin");
     write_bytes("short.bin", "two", 2), write_bytes("shor%74.bin", "eight by", 8);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         write_second(cases[i].count, cases[i].view, cases[i].buffer);
         must_say("buffer.gltf", cases[i].status, cases[i].message);
     }
+    froe_diagnostic why;
+    write_second("1", "4", "4,\"uri\":\"%6Fnly.bin\"");
+    assert_int_equal(follow("buffer.gltf", NULL, &why), FROE_E_IO);
+    assert_string_equal(why.message, "only.bin: The file cannot be read: No such file or directory.");
     char name[5000] = "0,\"uri\":\"";
     const size_t used = strlen(name);
     memset(name + used, 'x', sizeof name - used);
@@ -433,6 +441,26 @@ static void animations_are_chosen_by_name_and_number(void **state) {
     }
 }
 
+/* Of names of animations those are told that there is room for. */
+static void many_names_of_animations_are_cut(void **state) {
+    (void)state;
+    static const char text[] = TYPED("5126", "");
+    static const float last[3] = {1, 2, 3};
+    char changed[4 * sizeof text];
+    const char *name = strstr(text, "{\"name\":\"go\"");
+    assert_non_null(name);
+    write_typed(last, sizeof last);
+    int used = snprintf(changed, sizeof changed, "%.*s", (int)(name - text), text);
+    for (int i = 0; i < 9; i++)
+        used += snprintf(changed + used, sizeof changed - (size_t)used,
+                         "{\"name\":\"%d, which has thirty letters...\"},", i);
+    snprintf(changed + used, sizeof changed - (size_t)used, "%s", name);
+    write_text("many.gltf", changed);
+    must_say("many.gltf", FROE_E_OPTIONS,
+             "There are several animations, and one has to be named: '0, which has thirty letters...', "
+             "'1, which has thirty letters...', '2, which has thirty letters...', '3, which has thi.");
+}
+
 /* A length that became -1 is 4 GB, which assimp would fill with zeros. */
 static void limit_memory(void) {
     const struct rlimit most = {(rlim_t)1 << 30, (rlim_t)1 << 30};
@@ -449,6 +477,7 @@ int main(void) {
         cmocka_unit_test(what_is_wrong_with_a_buffer_is_said),
         cmocka_unit_test(what_is_wrong_with_nodes_and_versions_is_said),
         cmocka_unit_test(animations_are_chosen_by_name_and_number),
+        cmocka_unit_test(many_names_of_animations_are_cut),
         cmocka_unit_test(each_word_may_be_another),
         cmocka_unit_test(each_byte_of_the_chunks_may_be_another),
     };

@@ -196,6 +196,46 @@ static void sorts_that_assimp_leaves_out_are_named(void **state) {
     refuse("twice.ifc", FROE_E_FORMAT, "an object with the id #65 already exists'.");
 }
 
+/* ----------------------------------------------------------------------------- FBX -- */
+
+/* A square, whose axis that points up has that number and sign. */
+static void write_fbx(const char *path, int up, int sign, const char *corners) {
+    char text[1024];
+    snprintf(text, sizeof text,
+             "; FBX 7.4.0 project file\nFBXHeaderExtension: {\n\tFBXHeaderVersion: 1003\n\tFBXVersion: 7400\n}\n"
+             "GlobalSettings: {\n\tVersion: 1000\n\tProperties70: {\n\t\tP: \"UpAxis\", \"int\", \"Integer\", \"\",%d\n"
+             "\t\tP: \"UpAxisSign\", \"int\", \"Integer\", \"\",%d\n\t}\n}\nObjects: {\n"
+             "\tGeometry: 100, \"Geometry::a\", \"Mesh\" {\n"
+             "\t\tVertices: *12 {\n\t\t\ta: 0,0,0,1,0,0,1,2,0,0,2,0\n\t\t}\n"
+             "\t\tPolygonVertexIndex: *6 {\n\t\t\ta: %s\n\t\t}\n\t\tGeometryVersion: 124\n\t}\n"
+             "\tModel: 200, \"Model::a\", \"Mesh\" {\n\t\tVersion: 232\n\t}\n}\n"
+             "Connections: {\n\tC: \"OO\",100,200\n\tC: \"OO\",200,0\n}\n",
+             up, sign, corners);
+    write_text(path, text);
+}
+
+/* An axis that is none is taken for z, and one that points down for one that points up. */
+static void axes_of_fbx_are_looked_at(void **state) {
+    (void)state;
+    static const struct {
+        int up, sign, read;
+        const char *left;
+    } cases[] = {{0, 1, 0, ""}, {1, 1, 1, ""},  {2, 1, 2, ""},
+                 {3, 1, 2, ""}, {-1, 1, 2, ""}, {1, -1, 1, "UpAxisSign -1"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        froe_read_report report;
+        write_fbx("axes.fbx", cases[i].up, cases[i].sign, "0,1,-3,0,2,-4");
+        froe_scene *scene = read_scene("axes.fbx", &report);
+        assert_int_equal(froe_scene_object_count(scene), 2);
+        assert_int_equal(froe_scene_up(scene), cases[i].read);
+        assert_string_equal(report.sorts_left, cases[i].left);
+        froe_scene_free(scene);
+    }
+    write_fbx("axes.fbx", 1, 1, "0,1,-3,0,2,-100");
+    refuse("axes.fbx", FROE_E_FORMAT,
+           "axes.fbx: The reader assimp reports 'FBX-DOM (TOK_KEY, line 18, col 27) polygon");
+}
+
 /* What assimp reads for another part of the program is none of an import of froe. */
 static void imports_of_others_are_not_listened_to(void **state) {
     (void)state;
@@ -215,6 +255,7 @@ int main(void) {
         cmocka_unit_test(entities_of_ifc_are_there_and_known),
         cmocka_unit_test(ifc_has_any_ending),
         cmocka_unit_test(sorts_that_assimp_leaves_out_are_named),
+        cmocka_unit_test(axes_of_fbx_are_looked_at),
         cmocka_unit_test(imports_of_others_are_not_listened_to),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
