@@ -306,6 +306,14 @@ const char *io_assimp_format(const struct aiScene *scene) {
     return "";
 }
 
+/* Colours of three numbers are opaque in glTF, and assimp has the opacity 0 with them. */
+static void make_opaque(const struct aiMesh *mesh) {
+    struct aiColor4D *colours = mesh->mColors[0];
+    bool seen = !colours;
+    for (unsigned i = 0; i < mesh->mNumVertices && !seen; ++i) seen = colours[i].a != 0;
+    for (unsigned i = 0; i < mesh->mNumVertices && !seen; ++i) colours[i].a = 1;
+}
+
 static froe_status read_scene(const formats_source *source, formats_sink *sink, const struct aiScene *scene,
                               io_nodes *nodes, io_arrange_fn *arrange, void *user) {
     froe_status status;
@@ -321,6 +329,7 @@ static froe_status read_scene(const formats_source *source, formats_sink *sink, 
     formats_sink_up(sink, up_of(scene, format));
     if (stated_number(scene, "UpAxisSign", 1) < 0) io_leave(sink, "UpAxisSign -1", 13);
     w.linear = !strncmp(sink->report.format, "glTF", 4);
+    for (unsigned i = 0; i < scene->mNumMeshes && w.linear; ++i) make_opaque(scene->mMeshes[i]);
     sink->unit = "face";
     sink->report.layers = 1;
     status = read_paints(&w, source->file);

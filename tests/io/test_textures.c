@@ -130,6 +130,7 @@ static void factors_and_colours_of_corners_are_multiplied_as_light(void **state)
     const char *half = ",\"baseColorFactor\":[0.5,1,1,1]";
     expect((gltf){.factor = half}, 0xba0000ff, GREEN, 0xbaffffff, 0xbaffffff);
     expect((gltf){.shades = true}, 0xba0000ff, 0x000000ff, 0xba0000ff, 0xba0000ff);
+    expect((gltf){.shades = true, .material = ",\"alphaMode\":\"BLEND\""}, 0xba0000ff, 0x000000ff, 1, 1);
     expect((gltf){.shades = true, .factor = half}, 0x8a0000ff, 0x000000ff, 0x8a0000ff, 0x8a0000ff);
 }
 
