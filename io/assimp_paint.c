@@ -118,7 +118,6 @@ static froe_status find_image(formats_sink *sink, const char *path, const struct
 froe_status assimp_paint_read(formats_sink *sink, const char *path, const struct aiScene *scene, unsigned index,
                               bool linear, formats_images *images, assimp_paint *out) {
     *out = (assimp_paint){.scene = scene, .linear = linear, .factor = {1, 1, 1, 1}};
-    if (index >= scene->mNumMaterials) return FROE_OK;
     const struct aiMaterial *material = scene->mMaterials[index];
     const bool coloured = read_colour(material, out);
     static const enum aiTextureType types[] = {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE};

@@ -143,7 +143,7 @@ static froe_status add_mesh(model *w, const struct aiNode *node, unsigned index,
         const struct aiFace point = {.mNumIndices = 1, .mIndices = &i};
         status = add_face(w, node, mesh, cloud ? &point : &mesh->mFaces[i], own, coloured);
         if (status || w->faces_done++ % FACES_PER_REPORT) continue;
-        const double half = w->faces ? 0.5 * (double)w->faces_done / (double)w->faces : 0.5;
+        const double half = 0.5 * (double)w->faces_done / (double)w->faces;
         status = formats_sink_progress(w->sink, 0.5 + half); /* the import itself was the first half */
     }
     return status;
