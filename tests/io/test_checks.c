@@ -429,6 +429,45 @@ static void what_objects_consist_of_is_looked_at(void **state) {
     froe_scene_free(scene);
 }
 
+static void what_is_wrong_with_objects_is_said(void **state) {
+    (void)state;
+#define TRIANGLE(corners)                                                                                              \
+    "<object id=\"2\"><mesh>" VERTICES "<triangles><triangle " corners "/></triangles></mesh></object>"
+#define BUILD(what) "</resources><build><item " what "/></build><resources>"
+#define VERTEX(numbers) "<object id=\"2\"><mesh><vertices><vertex " numbers "/></vertices></mesh></object>"
+    static const char whole[] = "part '3D/m.model', line 1: An attribute is not a whole number below 2^31.",
+                      number[] = "part '3D/m.model', line 1: A coordinate is missing or no finite number.";
+    static const struct {
+        const char *more, *sentence;
+    } cases[] = {
+        {TRIANGLE("v1=\"0\" v2=\"1\""), "A triangle has no three vertices."},
+        {TRIANGLE("v1=\"0\" v2=\"1\" v3=\"2x\""), whole},
+        {TRIANGLE("v1=\"0\" v2=\"1\" v3=\"2147483648\""), whole},
+        {TRIANGLE("v1=\"0\" v2=\"1\" v3=\"\""), whole},
+        {TRIANGLE("v1=\"0\" v2=\"1\" v3=\"3\"") BUILD("objectid=\"2\""),
+         "triangle 0: The triangle names a vertex that does not exist."},
+        {VERTEX("x=\"0\" y=\"0\""), number},
+        {VERTEX("x=\"0\" y=\"0\" z=\"\""), number},
+        {VERTEX("x=\"0\" y=\"0\" z=\"0 0\""), number},
+        {VERTEX("x=\"0\" y=\"0\" z=\"1e999\""), number},
+        {VERTEX("x=\"0\" y=\"north\" z=\"far\""), number},
+        {BUILD("objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 0 0\""), number},
+        {BUILD("objectid=\"7\""), "object with id 7: It is placed and not defined."},
+        {BUILD("objectid=\"0\""), "A component or item names no object."},
+        {"<object id=\"1\"/>", "object with id 1: It is defined twice."},
+        {"<object id=\"2\"><components><component objectid=\"2\"/></components></object>" BUILD("objectid=\"2\""),
+         "object with id 2: It is a component of itself."},
+        {"<object id=\"2\"><mesh><beamlattice/></mesh></object>", "A lattice of beams is not read."},
+        {"<base displaycolor=\"#FF0000\"/>", "A colour is in no group."},
+        {"<object id=\"2\"><components><component path=\"/3D/lost.model\" objectid=\"1\"/></components></object>",
+         "wrong.3mf: The archive has no part '3D/lost.model', or is damaged."},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        write_3mf("wrong.3mf", "", cases[i].more);
+        refuse("wrong.3mf", FROE_E_FORMAT, cases[i].sentence);
+    }
+}
+
 /* Parts are read by 32 kB, and no more of them where the first are refused. */
 static void long_parts_are_refused_by_their_beginning(void **state) {
     (void)state;
@@ -657,6 +696,7 @@ int main(void) {
         cmocka_unit_test(corners_without_colours_mix_none),
         cmocka_unit_test(words_between_solids_hide_none),
         cmocka_unit_test(what_objects_consist_of_is_looked_at),
+        cmocka_unit_test(what_is_wrong_with_objects_is_said),
         cmocka_unit_test(long_parts_are_refused_by_their_beginning),
         cmocka_unit_test(archives_name_their_model),
         cmocka_unit_test(ends_of_facets_are_in_facets),

@@ -349,6 +349,54 @@ static void write_3mf(void) {
     assert_int_equal(VSIFCloseL(archive), 0);
 }
 
+/* Maps are read from archives, and models are not; of several maps one has to be named. */
+static void what_is_in_an_archive_is_said(void **state) {
+    (void)state;
+    static const char map[] = "{\"type\":\"LineString\",\"coordinates\":[[0,0],[1,1]]}", off[] = "OFF\n1 0 0\n0 0 0\n";
+    static const struct {
+        const char *names[2], *texts[2], *message; /* NULL: it is read */
+    } cases[] = {
+        {{"map.geojson"}, {map}, NULL},
+        {{"map.csv"}, {"x,y\n1,2\n"}, NULL},
+        {{"map.csv"}, {"name,WKT\na,\"POINT (1 2)\"\n"}, NULL},
+        {{"a.stl"}, {off}, "many.zip: Models are not read from archives, and 'a.stl' must be unpacked first."},
+        {{"note.txt", "in/a.glb"},
+         {"", off},
+         "many.zip: Models are not read from archives, and 'in/a.glb' must be unpacked"},
+        {{"note.md", "in/more.md"},
+         {"# a", "# b"},
+         "many.zip: No single map is in it, but: note.md, in. One of them is"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        unlink("many.zip");
+        VSILFILE *archive = VSIFOpenL("/vsizip/{many.zip}", "wb");
+        assert_non_null(archive);
+        for (int k = 0; k < 2 && cases[i].names[k]; k++) {
+            char name[64];
+            snprintf(name, sizeof name, "/vsizip/{many.zip}/%s", cases[i].names[k]);
+            write_part(name, cases[i].texts[k]);
+        }
+        assert_int_equal(VSIFCloseL(archive), 0);
+        if (cases[i].message) {
+            refuse("many.zip", FROE_E_FORMAT, cases[i].message);
+            continue;
+        }
+        froe_scene *scene = read_scene("many.zip", NULL);
+        assert_int_equal(froe_scene_object_count(scene), 1);
+        froe_scene_free(scene);
+    }
+    VSILFILE *packed = VSIFOpenL("/vsigzip/a.off.gz", "wb");
+    assert_int_equal(VSIFWriteL(off, 1, sizeof off - 1, packed), sizeof off - 1);
+    assert_int_equal(VSIFCloseL(packed), 0);
+    refuse("a.off.gz", FROE_E_FORMAT,
+           "a.off.gz: Models are not read from archives, and 'a.off.gz' must be unpacked first.");
+    packed = VSIFOpenL("/vsigzip/a-model-with-a-name-of-many-letters.glb.gz", "wb");
+    assert_int_equal(VSIFWriteL(off, 1, sizeof off - 1, packed), sizeof off - 1);
+    assert_int_equal(VSIFCloseL(packed), 0);
+    refuse("a-model-with-a-name-of-many-letters.glb.gz", FROE_E_FORMAT,
+           ": Models are not read from archives, and 'a-model");
+}
+
 static void every_failing_allocation_gives_a_status(void **state) {
     (void)state;
     write_3mf();
@@ -430,6 +478,7 @@ int main(void) {
         cmocka_unit_test(wrong_calls_are_refused),
         cmocka_unit_test(nothing_is_printed),
         cmocka_unit_test(every_reader_can_be_cancelled_at_every_report),
+        cmocka_unit_test(what_is_in_an_archive_is_said),
         cmocka_unit_test(every_failing_allocation_gives_a_status),
         cmocka_unit_test(many_threads_read_at_once),
     };

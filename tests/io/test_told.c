@@ -1,5 +1,5 @@
-/* test_told.c: what assimp would pass over, or tells in its log alone: indices, lists and ends of LightWave, entities of
- * IFC that are not there or came later, faces of FBX. */
+/* test_told.c: what assimp and GDAL would pass over, or tell in their logs alone: indices, lists and ends of LightWave,
+ * entities of IFC that are not there or came later, faces and axes of FBX, sorts of entities of DXF. */
 #include "support.h"
 #include <assimp/cimport.h>
 #include <assimp/scene.h>
@@ -236,6 +236,34 @@ static void axes_of_fbx_are_looked_at(void **state) {
            "axes.fbx: The reader assimp reports 'FBX-DOM (TOK_KEY, line 18, col 27) polygon");
 }
 
+/* ----------------------------------------------------------------------------- DXF -- */
+
+/* GDAL passes over entities, and froe names their sorts: each once, and as many as there is room for. Windows of a sheet
+ * are nothing to draw. */
+static void sorts_of_entities_that_are_not_read_are_named(void **state) {
+    (void)state;
+    static const struct {
+        const char *sorts[8], *left;
+    } cases[] = {
+        {{"MESH", "3DSOLID", "MESH", "VIEWPORT"}, "MESH, 3DSOLID"},
+        {{"VIEWPORT"}, ""},
+        {{"MESH", "3DSOLID", "ACAD_PROXY_ENTITY", "OLE2FRAME", "WIPEOUT", "REGION"},
+         "MESH, 3DSOLID, ACAD_PROXY_ENTITY, OLE2FRAME"},
+        {{"TOO_LONG_A_NAME_OF_A_SORT_FOR_WHAT_IS_HEARD"}, "TOO_LONG_A_NAME_OF_A_SORT_FOR_W"},
+        {{"of two words"}, ""},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[1024] = "0\nSECTION\n2\nENTITIES\n0\nLINE\n8\n0\n10\n0\n20\n0\n11\n1\n21\n1\n";
+        for (int k = 0; k < 8 && cases[i].sorts[k]; k++)
+            snprintf(text + strlen(text), sizeof text - strlen(text), "0\n%s\n8\n0\n", cases[i].sorts[k]);
+        snprintf(text + strlen(text), sizeof text - strlen(text), "0\nENDSEC\n0\nEOF\n");
+        write_text("sorts.dxf", text);
+        expect("sorts.dxf", 1, cases[i].left);
+    }
+}
+
+/* ------------------------------------------------------------------------- threads -- */
+
 /* What assimp reads for another part of the program is none of an import of froe. */
 static void imports_of_others_are_not_listened_to(void **state) {
     (void)state;
@@ -256,6 +284,7 @@ int main(void) {
         cmocka_unit_test(ifc_has_any_ending),
         cmocka_unit_test(sorts_that_assimp_leaves_out_are_named),
         cmocka_unit_test(axes_of_fbx_are_looked_at),
+        cmocka_unit_test(sorts_of_entities_that_are_not_read_are_named),
         cmocka_unit_test(imports_of_others_are_not_listened_to),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
