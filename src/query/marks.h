@@ -33,6 +33,11 @@ static inline bool query_marks_reserve(query_marks *marks, const froe_allocator 
     return marks->many || marks->count + count <= QUERY_FEW_MOST || query_marks_spread(marks, alloc, objects);
 }
 
+/** Where the table has an object, unless others are there (Fibonacci hashing, Knuth 6.4). */
+static inline uint32_t query_mark_place(uint32_t object) {
+    return (object * 0x9e3779b9u) >> 24;
+}
+
 /** Marks an object: is it the first time? REQUIRES: room. */
 static inline bool query_mark(query_marks *marks, uint32_t object) {
     if (marks->many) {
@@ -40,7 +45,7 @@ static inline bool query_mark(query_marks *marks, uint32_t object) {
         marks->numbers[object] = marks->query;
         return first;
     }
-    uint32_t at = (object * 0x9e3779b9u) >> 24; /* Fibonacci hashing, Knuth 6.4 */
+    uint32_t at = query_mark_place(object);
     while (marks->few[at].query == marks->query) {
         if (marks->few[at].object == object) return false;
         at = (at + 1) % QUERY_FEW;
@@ -56,14 +61,26 @@ static inline bool query_mark(query_marks *marks, uint32_t object) {
 static inline size_t query_mark_all(query_marks *marks, const uint32_t *objects, size_t stride, size_t count,
                                     uint32_t *out) {
     size_t fresh = 0;
+    const uint32_t query = marks->query;
     if (!marks->many) {
-        for (size_t i = 0; i < count; i++)
-            if (query_mark(marks, objects[i * stride])) out[fresh++] = objects[i * stride];
+        for (size_t i = 0; i < count;
+             i++) { /* which are marked is unpredictable, so branch-free but for others there */
+            const uint32_t object = objects[i * stride], at = query_mark_place(object);
+            const bool first = marks->few[at].query != query;
+            out[fresh] = object;
+            if (!first && marks->few[at].object != object) {
+                fresh += query_mark(marks, object);
+                continue;
+            }
+            marks->few[at].query = query;
+            marks->few[at].object = object;
+            marks->count += first;
+            fresh += first;
+        }
         return fresh;
     }
     uint32_t *numbers = marks->numbers;
-    const uint32_t query = marks->query;
-    for (size_t i = 0; i < count; i++) { /* which are marked is unpredictable, so branch-free */
+    for (size_t i = 0; i < count; i++) {
         const uint32_t object = objects[i * stride];
         out[fresh] = object;
         fresh += numbers[object] != query;

@@ -347,6 +347,30 @@ static void assert_same(const space_found *a, const space_found *b) {
     assert_memory_equal(a->ends, b->ends, a->count * sizeof *a->ends);
 }
 
+static space_window odd_window(const froe_tree *t, uint64_t draw) {
+    space_window w = {.wide = t->packed.wide};
+    odd_point(t, 2 * draw, w.lo);
+    odd_point(t, 2 * draw + 1, w.hi);
+    for (int k = 0; k < 3; k++) {
+        const double lo = w.lo[k] < w.hi[k] ? w.lo[k] : w.hi[k], hi = w.lo[k] < w.hi[k] ? w.hi[k] : w.lo[k];
+        w.lo[k] = lo, w.hi[k] = hi;
+        w.from[k] = (lo - w.wide->middle[k]) * w.wide->scale, w.to[k] = (hi - w.wide->middle[k]) * w.wide->scale;
+    }
+    return w;
+}
+
+static void assert_same_window(const space_kernels *first, const space_kernels *other, const space_header *h,
+                               const space_window *w) {
+    uint32_t sure[2][512], unsure[2][512];
+    space_answers a = {sure[0], unsure[0], 0, 0}, b = {sure[1], unsure[1], 0, 0};
+    first->window(h, w, &a);
+    other->window(h, w, &b);
+    assert_int_equal(a.sure_count, b.sure_count);
+    assert_int_equal(a.unsure_count, b.unsure_count);
+    assert_memory_equal(a.sure, b.sure, a.sure_count * sizeof *a.sure);
+    assert_memory_equal(a.unsure, b.unsure, a.unsure_count * sizeof *a.unsure);
+}
+
 /* Bit for bit. */
 static void kernels_agree(void **state) {
     froe_tree *t = tree_of(kinds + 1);
@@ -360,6 +384,7 @@ static void kernels_agree(void **state) {
     assert_int_equal(froe_query_new(t, &q, NULL), FROE_OK);
     for (size_t kernel = 1; (other = space_kernels_at(kernel)); kernel++)
         for (uint64_t draw = 0; draw < 20; draw++) {
+            const space_window window = odd_window(t, draw);
             bool begun;
             odd_point(t, 2 * draw, q->ray.ray.o);
             odd_point(t, 2 * draw + 1, q->ray.ray.d);
@@ -377,6 +402,7 @@ static void kernels_agree(void **state) {
                 a = first->near_node(node, &q->space->walk.point, 1, near[0]);
                 assert_int_equal(a, other->near_node(node, &q->space->walk.point, 1, near[1]));
                 assert_memory_equal(near[0], near[1], node->count * sizeof(float));
+                assert_int_equal(first->window_node(node, &window), other->window_node(node, &window));
             }
             for (uint32_t n = 0; n < t->node_count; n++) {
                 if (!tree_is_leaf(t->nodes + n)) continue;
@@ -389,6 +415,7 @@ static void kernels_agree(void **state) {
                 first->near(h, &q->space->walk.point, 0, 0.5f, &a);
                 other->near(h, &q->space->walk.point, 0, 0.5f, &b);
                 assert_same(&a, &b);
+                assert_same_window(first, other, h, &window);
             }
         }
     froe_query_free(q);
@@ -450,17 +477,22 @@ static void kernels_are_sure_only_of_what_is_met(void **state) {
     }
 }
 
-/* Small triangles in a leaf whose units are 1, at quarters of units: whatever is tested is off by a unit or so. */
+/* Small triangles in a leaf whose units are 1, at quarters of units: whatever is tested is off by a unit or so. They are
+ * in the middle of the units that there are, from 0 to 65535, or at either end. */
+static const double places_of_units[] = {20000, 0, 65525};
+enum { PLACES = sizeof places_of_units / sizeof *places_of_units };
+
 static froe_tree *tree_of_units(uint64_t seed) {
     froe_scene *scene;
     froe_tree *tree;
     froe_build_options o = froe_build_defaults();
-    const double frame[9] = {0, 0, 0, 40000, 40000, 40000, 40000, 0, 0};
+    const double frame[9] = {0, 0, 0, 65535, 65535, 65535, 65535, 0, 0};
     assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
     assert_int_equal(trees_add(scene, FROE_POLYGON, 1, frame, NULL, NULL), FROE_OK);
     for (uint64_t i = 0; i < 20; i++) {
         double c[9];
-        for (uint64_t j = 0; j < 9; j++) c[j] = 20000 + 0.25 * trees_random(seed, 9 * i + j, 40);
+        for (uint64_t j = 0; j < 9; j++)
+            c[j] = places_of_units[seed % PLACES] + 0.25 * trees_random(seed, 9 * i + j, 41);
         if (i % 4 == 0) c[5] = c[2], c[8] = c[2];
         if (i % 4 == 1) c[3] = c[0], c[4] = c[1];
         assert_int_equal(trees_add(scene, FROE_POLYGON, 1, c, NULL, NULL), FROE_OK);
@@ -471,14 +503,15 @@ static froe_tree *tree_of_units(uint64_t seed) {
     return tree;
 }
 
-static void check_units(froe_query *q, froe_query *reference, uint64_t draw) {
+static void check_units(froe_query *q, froe_query *reference, double place, uint64_t draw) {
     froe_range range = froe_range_defaults();
     froe_list found, wanted;
     double w[6], o[3], d[3];
     for (uint64_t k = 0; k < 3; k++) {
-        w[k] = 20000 + 0.125 * trees_random(41, 3 * draw + k, 80);
+        w[k] = place + 0.125 * trees_random(41, 3 * draw + k, 80);
+        if (place < 1) w[k] -= 4; /* some end before the first unit */
         w[3 + k] = w[k] + (trees_random(42, 3 * draw + k, 3) ? 0.125 * trees_random(43, 3 * draw + k, 40) : 0);
-        o[k] = 20000 + 0.25 * trees_random(44, 3 * draw + k, 40);
+        o[k] = place + 0.25 * trees_random(44, 3 * draw + k, 40);
         d[k] = 0.25 * trees_random(45, 3 * draw + k, 40) - 5;
     }
     if (d[0] == 0 && d[1] == 0 && d[2] == 0) d[2] = 1;
@@ -494,20 +527,44 @@ static void check_units(froe_query *q, froe_query *reference, uint64_t draw) {
 
 static void what_is_a_unit_from_the_truth_is_decided_exactly(void **state) {
     (void)state;
-    for (uint64_t seed = 0; seed < 8; seed++) {
+    for (uint64_t seed = 0; seed < 9; seed++) {
         froe_tree *tree = tree_of_units(seed), *general = reference_of(tree);
         froe_query *q, *reference;
         assert_int_equal(froe_query_new(tree, &q, NULL), FROE_OK);
         assert_int_equal(froe_query_new(general, &reference, NULL), FROE_OK);
         for (uint64_t draw = 0; draw < 3000; draw++) {
             q->space->kernels = space_kernels_at(draw % 8 == 0 && space_kernels_at(1) ? 1 : 0);
-            check_units(q, reference, 3000 * seed + draw);
+            check_units(q, reference, places_of_units[seed % PLACES], 3000 * seed + draw);
         }
         froe_query_free(q);
         froe_query_free(reference);
         froe_tree_free(general);
         froe_tree_free(tree);
     }
+}
+
+static void windows_beside_the_scene_meet_no_leaf(void **state) {
+    froe_tree *t = tree_of(kinds + 1);
+    froe_range range = froe_range_defaults();
+    froe_query *q;
+    (void)state;
+    assert_int_equal(froe_query_new(t, &q, NULL), FROE_OK);
+    for (int side = 0; side < 6; side++) {
+        double w[6];
+        froe_list found;
+        memcpy(w, t->meta.root_lo, 3 * sizeof *w), memcpy(w + 3, t->meta.root_hi, 3 * sizeof *w);
+        const double width = w[3 + side / 2] - w[side / 2];
+        w[side / 2] += (side % 2 ? 1 : -1) * 1.5 * width;
+        w[3 + side / 2] = w[side / 2] + width;
+        range.points = w;
+        const uint64_t leaves = q->stats.leaves, nodes = q->stats.nodes;
+        assert_int_equal(froe_query_range(q, &range, &found, NULL), FROE_OK);
+        assert_int_equal(found.count, 0);
+        assert_int_equal(q->stats.leaves, leaves);
+        assert_true(q->stats.nodes <= nodes + 1);
+    }
+    froe_query_free(q);
+    froe_tree_free(t);
 }
 
 /* Flat windows and lines are no exception. */
@@ -776,6 +833,7 @@ int main(void) {
         cmocka_unit_test(kernels_agree),
         cmocka_unit_test(kernels_are_sure_only_of_what_is_met),
         cmocka_unit_test(what_is_a_unit_from_the_truth_is_decided_exactly),
+        cmocka_unit_test(windows_beside_the_scene_meet_no_leaf),
         cmocka_unit_test(few_triangles_of_windows_are_left_to_exact_tests),
         cmocka_unit_test(walls_behind_a_ray_are_not_decided),
         cmocka_unit_test(walls_in_one_plane_need_no_exact_numbers),

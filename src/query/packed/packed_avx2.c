@@ -28,6 +28,9 @@ typedef __m256i ulanes, ulanes_mask;
 LANES ulanes ulanes_load(const uint16_t *p) {
     return _mm256_loadu_si256((const void *)p);
 }
+LANES ulanes ulanes_bytes(const uint8_t *p) {
+    return _mm256_cvtepu8_epi16(_mm_loadu_si128((const void *)p));
+}
 LANES ulanes ulanes_set(uint16_t x) {
     return _mm256_set1_epi16((short)x);
 }

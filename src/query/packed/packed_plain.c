@@ -39,6 +39,11 @@ LANES ulanes ulanes_load(const uint16_t *p) {
     memcpy(&r, p, sizeof r);
     return r;
 }
+LANES ulanes ulanes_bytes(const uint8_t *p) {
+    ulanes r;
+    EACH_HALF for (int j = 0; j < 8; j++) r.x[i][j] = p[8 * i + j];
+    return r;
+}
 LANES ulanes ulanes_set(uint16_t x) {
     const units all = {x, x, x, x, x, x, x, x};
     return (ulanes){{all, all}};

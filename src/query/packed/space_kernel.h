@@ -42,11 +42,11 @@ typedef struct space_point {
     double at[3];
 } space_point;
 
-/** A window; bounds may be infinite. */
+/** A window; bounds may be infinite. Fourth components are 0. */
 typedef struct space_window {
     const tree_wide *wide;
-    double lo[3], hi[3];
-    double from[3], to[3]; /**< in the coordinates of the wide tree */
+    double lo[4], hi[4];
+    double from[4], to[4]; /**< in the coordinates of the wide tree */
 } space_window;
 
 /** What may be met, appended by kernels; the caller has made room for the objects of the block and PACKED_LANES more.

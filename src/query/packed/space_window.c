@@ -11,6 +11,7 @@
 #include "query/packed/space.h"
 
 enum { FLOCK = 32, LEAVES_AHEAD = 5 }; /* windows whose leaves are gathered together; leaves that are asked for */
+enum { MET_AT_ONCE = 4096 };           /* objects from which on they are reported */
 
 /* A window in flight. Its own entry of the list is before its leaves. */
 typedef struct flown_window {
@@ -18,18 +19,29 @@ typedef struct flown_window {
     uint32_t last; /* of its entries so far */
 } flown_window;
 
-/* Objects of a block that meet the window. False without memory, or if the block is not good. */
-static bool answer_leaf(froe_query *q, uint32_t block, const space_window *window) {
+/* Of what kernels found since the last call, reports what is there for the first time. */
+static void report_met(froe_query *q, size_t *met) {
+    uint32_t *found = q->found.data + q->found.count;
+    q->found.count += query_mark_all(&q->marks, found, 1, *met, found);
+    *met = 0;
+}
+
+/* Objects of a block that meet the window go behind those that are reported, so many so far. The rest is decided
+ * exactly. False without memory, or if the block is not good. */
+static bool answer_leaf(froe_query *q, uint32_t block, const space_window *window, size_t *met) {
     space_work *w = q->space;
     const space_header *h = space_block(q->tree, block);
     if (!query_leaf_is_good(q, block)) return false;
-    const size_t room = h->count + PACKED_LANES;
+    const size_t count = h->count;
     bool memory = false;
-    if (!query_expect(q, h->count) || !array_reserve(&q->alloc, &w->objects, 2 * room)) return false;
-    space_answers answers = {w->objects.data, w->objects.data + room, 0, 0};
+    if (!query_expect(q, *met + count) || !array_reserve(&q->alloc, &q->found, *met + count + PACKED_LANES) ||
+        !array_reserve(&q->alloc, &w->objects, count + PACKED_LANES))
+        return false;
+    space_answers answers = {q->found.data + q->found.count + *met, w->objects.data, 0, 0};
     w->kernels->window(h, window, &answers);
     q->stats.leaves++;
-    q->found.count += query_mark_all(&q->marks, answers.sure, 1, answers.sure_count, q->found.data + q->found.count);
+    *met += answers.sure_count;
+    if (answers.unsure_count || *met >= MET_AT_ONCE) report_met(q, met);
     for (size_t i = 0; i < answers.unsure_count; i++)
         if (query_mark(&q->marks, answers.unsure[i]) && query_range_meets(q, answers.unsure[i], &memory))
             query_found(q, answers.unsure[i]);
@@ -37,7 +49,7 @@ static bool answer_leaf(froe_query *q, uint32_t block, const space_window *windo
 }
 
 static void launch(const tree_wide *wide, const double *box, flown_window *f) {
-    f->window.wide = wide;
+    f->window = (space_window){.wide = wide};
     for (int k = 0; k < 3; k++) {
         const double lo = box[k], hi = box[3 + k];
         f->window.lo[k] = lo, f->window.hi[k] = hi;
@@ -108,15 +120,17 @@ static bool answer_flock(froe_query *q, const double *const *boxes, uint32_t cou
     for (uint32_t i = 0; i < LEAVES_AHEAD && asked != count; i++) asked = ask_next(q, asked, count);
     for (uint32_t i = 0; i < count; i++) {
         const size_t before = q->found.count;
+        size_t met = 0;
         box.points = boxes[i];
         query_marks_clear(&q->marks);
         query_range_of_box(q, &box);
         q->stats.queries++;
-        for (uint32_t at = i; at != flock[i].last && !(any && q->found.count);) {
+        for (uint32_t at = i; at != flock[i].last && !(any && q->found.count + met);) {
             at = leaves[at].link;
             asked = ask_next(q, asked, count);
-            if (!answer_leaf(q, leaves[at].what & WIDE_INDEX, &flock[i].window)) return false;
+            if (!answer_leaf(q, leaves[at].what & WIDE_INDEX, &flock[i].window, &met)) return false;
         }
+        report_met(q, &met); /* of several leaves at once: how many each has would be guessed wrong */
         counts[i] = q->found.count - before;
     }
     return true;
