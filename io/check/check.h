@@ -52,11 +52,23 @@ size_t io_word_at(const char *at);
 /** Do `size` bytes that begin as a .glb go on as version 2, by a chunk of JSON? */
 bool io_glb_is_2(const char *bytes, size_t size);
 
+/** The items of an array of a glTF file. */
+typedef ARRAY(const formats_json *) io_gltf_list;
+/** Lists those of the array of that name; false: there is no memory. */
+bool io_gltf_list_items(const froe_allocator *alloc, const formats_json *root, const char *name, io_gltf_list *list);
+/** The item that a member of an object names by its number; NULL: there is none. */
+const formats_json *io_gltf_item(const io_gltf_list *list, const formats_json *object, const char *name);
+bool io_gltf_is_number(const formats_json *value, double number);
+/** How many corners a primitive of a mesh names. */
+size_t io_gltf_corners(const io_gltf_list *accessors, const formats_json *primitive);
+/** Counts the points, edges and triangles of the meshes that assimp reads. FROE_E_MEMORY. */
+froe_status io_gltf_count(formats_sink *sink, const formats_json *root, const io_gltf_list *accessors,
+                          const io_gltf_list *meshes, const io_gltf_list *nodes, size_t *faces);
+
 /** What is found before the import and looked at after it. */
 typedef struct io_gltf_found {
     bool still;               /**< set before: nodes stand as they are at rest, and no keys replace their rotations */
-    size_t primitives;        /**< of meshes: assimp makes a mesh of each, in the order in which nodes name them */
-    size_t faces;             /**< points, edges and triangles of them all */
+    size_t faces;             /**< points, edges and triangles of all meshes that assimp reads */
     io_mask masked;           /**< names of members that assimp is not to find */
     formats_json_error error; /**< of a text that is no JSON; line 0: there is none */
 } io_gltf_found;

@@ -10,14 +10,12 @@
 #include <stdio.h>
 #include <string.h>
 
-typedef ARRAY(const formats_json *) gltf_list; /* the items of an array of the file */
-
 typedef struct gltf_check {
     formats_sink *sink;
     const char *text; /* in which strings are decoded */
     size_t begin;     /* of it in the file */
     const formats_json *root;
-    gltf_list accessors, meshes, skins;
+    io_gltf_list accessors, meshes, nodes, skins;
 } gltf_check;
 
 bool io_is_gltf(const formats_source *source) {
@@ -50,10 +48,6 @@ static froe_status load_text(const formats_source *source, formats_sink *sink, f
     const froe_status status = load_bytes(source, sink, text);
     if (!status && text->count) text->count = strlen(text->data);
     return status;
-}
-
-static bool is_number(const formats_json *value, double number) {
-    return formats_json_is(value, FORMATS_JSON_NUMBER) && value->number == number;
 }
 
 /* A failure about "node 3 ('arm')". */
@@ -101,79 +95,53 @@ static froe_status check_extensions(const gltf_check *c) {
 
 /* ----------------------------------------------------------------------- meshes -- */
 
-static bool list_items(const gltf_check *c, const char *name, gltf_list *list) {
-    FORMATS_JSON_EACH(item, formats_json_get(c->root, name))
-    if (!array_push(&c->sink->alloc, list, item)) return false;
-    return true;
-}
-
-/* The item that a member names by its number; NULL: there is none. */
-static const formats_json *item_of(const gltf_list *list, const formats_json *object, const char *name) {
-    const formats_json *named = formats_json_get(object, name);
-    const bool is_there =
-        formats_json_is(named, FORMATS_JSON_NUMBER) && named->number >= 0 && named->number < (double)list->count;
-    return is_there ? list->data[(size_t)named->number] : NULL;
+static froe_status list_items(gltf_check *c) {
+    const froe_allocator *alloc = &c->sink->alloc;
+    const bool room = io_gltf_list_items(alloc, c->root, "accessors", &c->accessors) &&
+                      io_gltf_list_items(alloc, c->root, "meshes", &c->meshes) &&
+                      io_gltf_list_items(alloc, c->root, "nodes", &c->nodes) &&
+                      io_gltf_list_items(alloc, c->root, "skins", &c->skins);
+    return room ? FROE_OK : support_fail_memory(c->sink->diag);
 }
 
 /* Are positions such as assimp takes all of them for? */
 static bool is_floating(const formats_json *positions) {
     const char *type = formats_json_string(formats_json_get(positions, "type"));
     return !positions ||
-           (is_number(formats_json_get(positions, "componentType"), 5126) && type && !strcmp(type, "VEC3"));
+           (io_gltf_is_number(formats_json_get(positions, "componentType"), 5126) && type && !strcmp(type, "VEC3"));
 }
 
 /* Is a mode one of those that there are? assimp takes 4 where there is none, or a number with a point. */
 static bool is_mode(const formats_json *mode) {
-    if (!mode || is_number(mode, 4)) return true;
+    if (!mode || io_gltf_is_number(mode, 4)) return true;
     return formats_json_is(mode, FORMATS_JSON_NUMBER) && mode->number < 7 && strspn(mode->text, "+-.0123456789Ee") == 1;
-}
-
-/* How many corners a primitive names. */
-static size_t corners_of(const gltf_check *c, const formats_json *primitive, const formats_json *positions) {
-    const formats_json *indices = item_of(&c->accessors, primitive, "indices");
-    const formats_json *count = formats_json_get(indices ? indices : positions, "count");
-    const bool is_count = formats_json_is(count, FORMATS_JSON_NUMBER) && count->number >= 0 && count->number < 0x1p32;
-    return is_count ? (size_t)count->number : 0;
 }
 
 /* Has a primitive the corners of one edge or triangle? Of a chain, loop or fan without them assimp makes a face all the
  * same, beyond its memory. Others it refuses. */
 static bool is_long_enough(const formats_json *mode, size_t corners) {
-    if (is_number(mode, 2) || is_number(mode, 3)) return corners >= 2;
-    return (!is_number(mode, 5) && !is_number(mode, 6)) || corners >= 3;
+    if (io_gltf_is_number(mode, 2) || io_gltf_is_number(mode, 3)) return corners >= 2;
+    return (!io_gltf_is_number(mode, 5) && !io_gltf_is_number(mode, 6)) || corners >= 3;
 }
 
-/* How many points, edges or triangles a primitive is that is long enough (3.7.2.1). */
-static size_t faces_of(const formats_json *mode, size_t corners) {
-    if (is_number(mode, 0) || is_number(mode, 2)) return corners;
-    if (is_number(mode, 1)) return corners / 2;
-    if (is_number(mode, 3)) return corners - 1;
-    return is_number(mode, 5) || is_number(mode, 6) ? corners - 2 : corners / 3;
-}
-
-static froe_status check_meshes(gltf_check *c, io_gltf_found *found) {
+static froe_status check_meshes(const gltf_check *c) {
     size_t number = 0;
-    if (!list_items(c, "accessors", &c->accessors) || !list_items(c, "meshes", &c->meshes) ||
-        !list_items(c, "skins", &c->skins))
-        return support_fail_memory(c->sink->diag);
     FORMATS_JSON_EACH(mesh, formats_json_get(c->root, "meshes")) {
         FORMATS_JSON_EACH(primitive, formats_json_get(mesh, "primitives")) {
             const formats_json *positions =
-                item_of(&c->accessors, formats_json_get(primitive, "attributes"), "POSITION");
+                io_gltf_item(&c->accessors, formats_json_get(primitive, "attributes"), "POSITION");
             if (!is_floating(positions))
                 return fail_at(c, FROE_E_UNSUPPORTED, "mesh", number, mesh,
                                "Its positions are not three floating-point numbers each, as with the extension "
                                "KHR_mesh_quantization, which is not read.");
             const formats_json *mode = formats_json_get(primitive, "mode");
-            const size_t corners = corners_of(c, primitive, positions);
+            const size_t corners = io_gltf_corners(&c->accessors, primitive);
             if (!is_mode(mode))
                 return fail_at(c, FROE_E_FORMAT, "mesh", number, mesh,
                                "Its modes are not each one of the digits 0 to 6.");
             if (!is_long_enough(mode, corners))
                 return fail_at(c, FROE_E_FORMAT, "mesh", number, mesh,
                                "A chain or loop of it has less than two corners, or a strip or fan less than three.");
-            found->primitives++;
-            found->faces += faces_of(mode, corners);
         }
         number++;
     }
@@ -209,13 +177,13 @@ static bool is_unit(const formats_json *rotation) {
 
 static bool are_moved(const formats_json *weights) {
     FORMATS_JSON_EACH(item, weights)
-    if (!is_number(item, 0)) return true;
+    if (!io_gltf_is_number(item, 0)) return true;
     return false;
 }
 
 /* Of a skin without a matrix for each joint assimp reads beyond the last one, wherever that is. */
 static froe_status check_skin(const gltf_check *c, const formats_json *node, const formats_json *skin) {
-    const formats_json *count = formats_json_get(item_of(&c->accessors, skin, "inverseBindMatrices"), "count");
+    const formats_json *count = formats_json_get(io_gltf_item(&c->accessors, skin, "inverseBindMatrices"), "count");
     const double joints = (double)formats_json_size(formats_json_get(skin, "joints"));
     if (formats_json_is(count, FORMATS_JSON_NUMBER) && count->number >= joints) return FROE_OK;
     return fail_at(c, FROE_E_UNSUPPORTED, "skin", (size_t)formats_json_get(node, "skin")->number, skin,
@@ -236,7 +204,7 @@ static froe_status mask_skin(const gltf_check *c, const formats_json *node, io_g
 /* Skins and morph targets are not applied. Nodes that stand still are not skinned for assimp either. */
 static froe_status check_shape(const gltf_check *c, const formats_json *node, const formats_json *mesh,
                                io_gltf_found *found) {
-    const formats_json *weights = formats_json_get(node, "weights"), *skin = item_of(&c->skins, node, "skin");
+    const formats_json *weights = formats_json_get(node, "weights"), *skin = io_gltf_item(&c->skins, node, "skin");
     if (are_moved(weights ? weights : formats_json_get(mesh, "weights"))) io_leave(c->sink, "morph targets", 13);
     if (!skin) return FROE_OK;
     io_leave(c->sink, "skins", 5);
@@ -259,7 +227,7 @@ static froe_status check_nodes(const gltf_check *c, io_gltf_found *found) {
         if (found->still && !is_unit(formats_json_get(node, "rotation")))
             return fail_at(c, FROE_E_FORMAT, "node", number, node,
                            "The quaternion of its rotation does not have the length 1.");
-        const formats_json *mesh = item_of(&c->meshes, node, "mesh");
+        const formats_json *mesh = io_gltf_item(&c->meshes, node, "mesh");
         const froe_status status = mesh ? check_shape(c, node, mesh, found) : FROE_OK;
         if (status) return status;
         number++;
@@ -285,11 +253,14 @@ froe_status io_gltf_check(const formats_source *source, formats_sink *sink, io_g
         const size_t scenes = formats_json_size(formats_json_get(c.root, "scenes"));
         sink->report.layers_left = scenes ? scenes - 1 : 0;
         status = check_extensions(&c);
-        if (!status) status = check_meshes(&c, found);
+        if (!status) status = list_items(&c);
+        if (!status) status = check_meshes(&c);
         if (!status) status = check_nodes(&c, found);
+        if (!status) status = io_gltf_count(sink, c.root, &c.accessors, &c.meshes, &c.nodes, &found->faces);
     }
     array_free(&sink->alloc, &c.accessors);
     array_free(&sink->alloc, &c.meshes);
+    array_free(&sink->alloc, &c.nodes);
     array_free(&sink->alloc, &c.skins);
     array_free(&sink->alloc, &values);
     array_free(&sink->alloc, &text);
@@ -303,7 +274,7 @@ froe_status io_gltf_is_whole(formats_sink *sink, const struct aiScene *scene, co
     const size_t faces = found->faces;
     size_t read = 0;
     for (unsigned i = 0; i < scene->mNumMeshes; i++) read += scene->mMeshes[i]->mNumFaces;
-    if (found->primitives != scene->mNumMeshes || read >= faces) return FROE_OK; /* others are in no node */
+    if (read >= faces) return FROE_OK;
     return support_fail(sink->diag, FROE_E_FORMAT,
                         "%s: Of %zu points, edges or triangles %zu name vertices that do not exist.",
                         support_short(sink->path), faces, faces - read);
