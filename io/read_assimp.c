@@ -284,9 +284,9 @@ static froe_status import(const formats_source *source, formats_sink *sink, size
     bool memory = true;
     pthread_mutex_lock(&import_lock);
     io_log_begin(&log);
-    *scene = part          ? aiImportFileFromMemory(bytes.data, (unsigned)part, 0, source->extension.text)
-             : mask->count ? io_import_masked(source->file, mask, &sink->alloc, &memory)
-                           : aiImportFile(source->file, 0);
+    *scene = part                 ? aiImportFileFromMemory(bytes.data, (unsigned)part, 0, source->extension.text)
+             : io_is_gltf(source) ? io_import_masked(source->file, mask, &sink->alloc, &memory)
+                                  : aiImportFile(source->file, 0);
     io_log_end();
     status = !memory ? support_fail_memory(sink->diag) : *scene ? FROE_OK : refuse_import(source, sink);
     pthread_mutex_unlock(&import_lock);

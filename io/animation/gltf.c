@@ -176,13 +176,6 @@ static bool decode_base64(const froe_allocator *alloc, const char *text, formats
     return true;
 }
 
-static int hex_digit(char c) {
-    return c >= '0' && c <= '9'   ? c - '0'
-           : c >= 'a' && c <= 'f' ? c - 'a' + 10
-           : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                  : -1;
-}
-
 /* A file beside the model, or below its folder. */
 static froe_status load_beside(gltf_file *g, const char *name, gltf_bytes *out) {
     const formats_source *from = g->animation->source;
@@ -193,12 +186,7 @@ static froe_status load_beside(gltf_file *g, const char *name, gltf_bytes *out) 
     if (*name == '/' || strstr(name, "..") || strchr(name, ':') || used < 0 ||
         (size_t)used + strlen(name) >= sizeof path)
         return fail_gltf(g, FROE_E_UNSUPPORTED, "A buffer is not at or below the folder of the file.");
-    for (; *name; name++) {
-        const int high = *name == '%' ? hex_digit(name[1]) : -1, low = high >= 0 ? hex_digit(name[2]) : -1;
-        path[used++] = low >= 0 ? (char)(16 * high + low) : *name;
-        if (low >= 0) name += 2;
-    }
-    path[used] = '\0';
+    io_unescape(name, path + used);
     formats_source source;
     froe_status status = formats_source_open(path, NULL, &source, g->animation->sink->diag);
     if (!status) status = formats_load(&source, g->animation->sink, true, &out->text);

@@ -40,9 +40,13 @@ froe_status io_xml_look(io_xml *xml, const formats_source *source, const io_xml_
 
 /** Places in a file of bytes for which assimp gets '_'. */
 typedef ARRAY(size_t) io_mask;
-/** Imports a file so. NULL: assimp has failed, or there is no memory, as *memory says. */
+/** Imports a file so. Other files that it names are found under their names without escapes such as %20, or as they are
+ * written. NULL: assimp has failed, or there is no memory, as *memory says. */
 const struct aiScene *io_import_masked(const char *path, const io_mask *mask, const froe_allocator *alloc,
                                        bool *memory);
+
+/** A name without its escapes such as %20; `out` has room for the name as it is. */
+void io_unescape(const char *name, char *out);
 
 /** Is it glTF, of any version? */
 bool io_is_gltf(const formats_source *source);

@@ -1,4 +1,5 @@
-/* masked.c: files as assimp reads them, but for some bytes of the one that is imported. */
+/* masked.c: files as assimp reads them, but for some bytes of the one that is imported, and for the names of others in
+ * it, which may be escaped: %20 is a blank (RFC 3986, 2.1). */
 #include "check/check.h"
 #include <assimp/cfileio.h>
 #include <assimp/cimport.h>
@@ -63,9 +64,41 @@ static void close_masked(struct aiFileIO *io, struct aiFile *file) {
     support_free(((const masked_import *)io->UserData)->alloc, f, sizeof *f);
 }
 
+static int hex_digit(char c) {
+    return c >= '0' && c <= '9'   ? c - '0'
+           : c >= 'a' && c <= 'f' ? c - 'a' + 10
+           : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                  : -1;
+}
+
+void io_unescape(const char *name, char *out) {
+    for (; *name; name++) {
+        const int high = *name == '%' ? hex_digit(name[1]) : -1, low = high >= 0 ? hex_digit(name[2]) : -1;
+        const int byte = low >= 0 ? 16 * high + low : 0;
+        *out++ = byte ? (char)byte : *name;
+        if (byte) name += 2;
+    }
+    *out = '\0';
+}
+
+/* Opens a file that the imported one names, in its folder or below. Some programs write names as they are. */
+static FILE *open_named(masked_import *m, const char *path) {
+    const size_t size = strlen(path) + 1;
+    size_t folder = 0; /* what both names begin with */
+    for (size_t i = 0; path[i] && path[i] == m->path[i]; i++)
+        if (path[i] == '/') folder = i + 1;
+    char *plain = support_calloc(m->alloc, 1, size);
+    if (!plain) return m->memory = false, NULL;
+    memcpy(plain, path, folder);
+    io_unescape(path + folder, plain + folder);
+    FILE *stream = fopen(plain, "rb");
+    support_free(m->alloc, plain, size);
+    return stream ? stream : fopen(path, "rb");
+}
+
 static struct aiFile *open_masked(struct aiFileIO *io, const char *path, const char *mode) {
     masked_import *m = (masked_import *)io->UserData;
-    FILE *stream = *mode == 'r' ? fopen(path, "rb") : NULL;
+    FILE *stream = *mode != 'r' ? NULL : strcmp(path, m->path) ? open_named(m, path) : fopen(path, "rb");
     if (!stream) return NULL;
     masked_file *f = support_calloc(m->alloc, 1, sizeof *f);
     if (!f) return m->memory = false, fclose(stream), NULL;

@@ -53,8 +53,6 @@ static void every_container_has_the_same_motion(void **state) {
     animated_write_as(&m, "folder/beside.gltf", ANIMATED_BESIDE, "folder/all its numbers.bin",
                       "all%20its%20numbers%2Ebin");
     animated_write_as(&m, "chunks.glb", ANIMATED_CHUNKS, NULL, NULL);
-    char bytes[MOST]; /* some versions of assimp look for the name as it is written */
-    write_bytes("folder/all%20its%20numbers%2Ebin", bytes, slurp("folder/all its numbers.bin", bytes));
     assert_int_equal(follow("within.gltf", within, &why), FROE_OK);
     static const char *const others[] = {"folder/beside.gltf", "chunks.glb"};
     for (size_t i = 0; i < sizeof others / sizeof *others; i++) {
@@ -342,13 +340,12 @@ static void what_is_wrong_with_a_buffer_is_said(void **state) {
         {"1", "4,\"byteStride\":70000", "4,\"uri\":\"data:;base64,AAAAAA==\"", FROE_E_FORMAT, beyond},
         {"1", "4", "4,\"uri\":\"%67%6A%6b%G%1%4!.bin\"", FROE_E_FORMAT, no_output},
         {"1", "4", "4,\"uri\":\"%6g%6G.bin\"", FROE_E_FORMAT, no_output},
-        /* assimp reads the file whose name is as it is written, and this one has fewer bytes */
-        {"1", "4", "4,\"uri\":\"shor%74.bin\"", FROE_E_FORMAT, beyond},
-        {"1,\"byteOffset\":4", "8", "8,\"uri\":\"shor%74.bin\"", FROE_E_FORMAT, beyond},
+        /* assimp takes what is no digit for one, and has more bytes */
+        {"1", "4", "4,\"uri\":\"data:;base64,AAA!AA==\"", FROE_E_FORMAT, beyond},
+        {"1,\"byteOffset\":4", "8", "8,\"uri\":\"data:;base64,AAA!AAAAAAA=\"", FROE_E_FORMAT, beyond},
     };
-    write_bytes("gjk%G%1%4!.bin", "four", 4), write_bytes("%67%6A%6b%G%1%4!.bin", "four", 4);
+    write_bytes("gjk%G%1%4!.bin", "four", 4);
     write_bytes("%6g%6G.bin", "four", 4), write_bytes("%6Fnly.bin", "four", 4), remove("only.bin");
-    write_bytes("short.bin", "two", 2), write_bytes("shor%74.bin", "eight by", 8);
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         write_second(cases[i].count, cases[i].view, cases[i].buffer);
         must_say("buffer.gltf", cases[i].status, cases[i].message);

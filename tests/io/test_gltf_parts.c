@@ -1,6 +1,7 @@
 /* glTF as a scene, of which parts lie elsewhere: meshes and nodes that do not belong to the scene to be shown, and
- * buffers in other files. */
+ * buffers in other files, whose names are escaped (RFC 3986, 2.1). */
 #include "support.h"
+#include <sys/stat.h>
 
 /* A quadrilateral of two triangles, and another one whose last corner is not there; %s are nodes, more meshes, more
  * members, and where the numbers are. */
@@ -71,17 +72,56 @@ static void meshes_that_nothing_shows_do_not_hide_wrong_indices(void **state) {
     }
 }
 
+/* A name is first taken without its escapes, and then as it is written. */
+static void escaped_names_of_buffers_are_found(void **state) {
+    (void)state;
+    static const struct {
+        const char *file, *uri;
+    } names[] = {
+        {"parts of it/has space.bin", "has%20space.bin"},
+        {"parts of it/bl%C3%BCte.bin", "bl%C3%BCte.bin"},
+        {"parts of it/blute\xcc\x88.bin", "blute%cc%88.bin"},
+        {"parts of it/below/n.bin", "below%2Fn.bin"},
+        {"parts of it/100%.bin", "100%.bin"},
+        {"parts of it/100%a.bin", "100%a.bin"},
+        {"parts of it/100%g0.bin", "100%g0.bin"},
+        {"parts of it/100%@0.bin", "100%@0.bin"},
+        {"parts of it/100%G0.bin", "100%G0.bin"},
+        {"parts of it/100%:0.bin", "100%:0.bin"},
+        {"parts of it/100%25.bin", "100%2525.bin"},
+        {"parts of it/no%00.bin", "no%00.bin"},
+    };
+    (void)mkdir("parts of it", 0777);
+    (void)mkdir("parts of it/below", 0777);
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        write_numbers(names[i].file, 3);
+        write_model("parts of it/m.gltf", "{\"mesh\": 1}", "", names[i].uri);
+        froe_scene *scene = read_scene("parts of it/m.gltf", NULL);
+        if (froe_scene_object_count(scene) != 2) fail_msg("%s", names[i].uri);
+        froe_scene_free(scene);
+    }
+    /* both are there: the name without escapes counts. That of the folder is taken as it is. */
+    (void)mkdir("of%20it", 0777);
+    write_numbers("of%20it/two names.bin", 3);
+    write_numbers("of%20it/two%20names.bin", 4);
+    write_model("of%20it/two%20names.gltf", "{\"mesh\": 1}", "", "two%20names.bin");
+    expect_objects("of%20it/two%20names.gltf", 2);
+    write_model("of%20it/two%20names.gltf", "{\"mesh\": 1}", "", "other%20names.bin");
+    refuse("of%20it/two%20names.gltf", FROE_E_FORMAT, "could not open referenced file \"other%20names.bin\"");
+}
+
 static void every_failing_allocation_gives_a_status(void **state) {
     (void)state;
-    write_numbers("numbers.bin", 3);
+    write_numbers("its numbers.bin", 3);
     write_model("memory.gltf", "{\"mesh\": 0, \"children\": [1, 2, 3]}, {\"mesh\": 1}, {\"mesh\": 0}, {\"mesh\": 1}",
-                "\"skins\": [{\"joints\": [1]}], ", "numbers.bin");
+                "\"skins\": [{\"joints\": [1]}], ", "its%20numbers.bin");
     test_memory_each(read_with_memory, "memory.gltf");
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(meshes_that_nothing_shows_do_not_hide_wrong_indices),
+        cmocka_unit_test(escaped_names_of_buffers_are_found),
         cmocka_unit_test(every_failing_allocation_gives_a_status),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
