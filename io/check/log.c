@@ -25,8 +25,8 @@ static const rule rules[] = {
     {"Collada: Unable to find geometry for ID", NULL, NULL},
     {"3DS: Vertex index overflow", NULL, NULL},
     {"3DS: Chunk overflow", NULL, NULL},
-    {"AC3D: Invalid vertex reference", NULL, NULL},
     {"AC3D: Unexpected ", NULL, NULL},
+    {"AC3D: material index is out of range", NULL, NULL},
     {"has an invalid index. It will be ignored", NULL, NULL}, /* ASE */
     {"STEP: ignoring unexpected EOF", NULL, NULL},            /* IFC */
     {"an object with the id #", NULL, NULL},
