@@ -1,0 +1,116 @@
+/* x.c: whether faces of a DirectX file (.x) name vertices and materials that exist. assimp leaves out the corners and
+ * faces that name others, and of an index that is the number of vertices it reads any memory.
+ *
+ *     Mesh name { 3; 0;0;0;, 1;0;0;, 0;1;0;; 1; 3;0,1,2;;       vertices and faces
+ *       MeshMaterialList { 1; 1; 0;; Material { ... } } }       how many materials, faces, and the material of each
+ *
+ * What is not as expected is left to assimp, and so are files that are not text. */
+#include "check/check.h"
+#include <stdlib.h>
+#include <string.h>
+
+bool io_is_x(const formats_source *source) {
+    return !strncmp(source->head, "xof ", 4) && !strncmp(source->head + 8, "txt ", 4);
+}
+
+typedef enum x_kind { END, WORD, NUMBER, OPEN, CLOSE } x_kind;
+
+typedef struct x_check {
+    const char *at;
+    const char *word; /* the last word or number, and how long it is */
+    size_t length;
+    size_t number; /* of a whole number; SIZE_MAX: it is none */
+} x_check;
+
+static x_kind next(x_check *x) {
+    static const char between[] = " \t\r\n\v\f,;", ending[] = " \t\r\n\v\f,;{}";
+    for (x->at += strspn(x->at, between); *x->at == '#' || !strncmp(x->at, "//", 2); x->at += strspn(x->at, between))
+        x->at += strcspn(x->at, "\n");
+    if (!*x->at) return END;
+    x->word = x->at;
+    if (strchr("{}", *x->at)) return *x->at++ == '{' ? OPEN : CLOSE;
+    x->length = strcspn(x->at, ending);
+    if (*x->at == '"') x->length = strcspn(x->at + 1, "\"\n") + 1, x->length += x->at[x->length] == '"';
+    x->at += x->length;
+    const size_t digits = strspn(x->word, "0123456789");
+    x->number = digits && digits == x->length ? strtoul(x->word, NULL, 10) : SIZE_MAX;
+    return digits || strchr("+-.", *x->word) ? NUMBER : WORD;
+}
+
+static bool is_word(const x_check *x, const char *word) {
+    return x->length == strlen(word) && !strncmp(x->word, word, x->length);
+}
+
+static bool pass_numbers(x_check *x, size_t count) {
+    for (; count; count--)
+        if (next(x) != NUMBER) return false;
+    return true;
+}
+
+/* A brace, perhaps behind a name. */
+static bool pass_head(x_check *x) {
+    const x_kind kind = next(x);
+    return kind == OPEN || (kind == WORD && next(x) == OPEN);
+}
+
+static const char *look_at_mesh(x_check *x) {
+    if (!pass_head(x) || !pass_numbers(x, 1)) return NULL;
+    const size_t vertices = x->number;
+    for (size_t i = 0; i < vertices; i++)
+        if (!pass_numbers(x, 3)) return NULL;
+    if (!pass_numbers(x, 1)) return NULL;
+    for (size_t faces = x->number; faces; faces--) {
+        if (!pass_numbers(x, 1)) return NULL;
+        for (size_t corners = x->number; corners; corners--) {
+            if (!pass_numbers(x, 1)) return NULL;
+            if (x->number >= vertices) return "A face names a vertex that does not exist.";
+        }
+    }
+    return NULL;
+}
+
+static const char *look_at_materials(x_check *x) {
+    size_t largest = 0, given = 0;
+    if (!pass_head(x) || !pass_numbers(x, 2)) return NULL;
+    const size_t faces = x->number;
+    for (size_t i = 0; i < faces; i++) {
+        if (!pass_numbers(x, 1)) return NULL;
+        if (x->number > largest) largest = x->number;
+    }
+    for (size_t depth = 1; depth;) { /* each material is in braces */
+        const x_kind kind = next(x);
+        if (kind == END) return NULL;
+        given += kind == OPEN && depth == 1;
+        depth += (kind == OPEN) - (kind == CLOSE);
+    }
+    return !faces || largest < given ? NULL : "A face names a material that does not exist.";
+}
+
+/* What stands behind a word is its name. */
+static const char *find_fault(x_check *x) {
+    const char *fault = NULL;
+    bool named = false;
+    for (x_kind kind; !fault && (kind = next(x)) != END; named = kind == WORD && !named) {
+        if (kind != WORD || named) continue;
+        if (is_word(x, "template"))
+            while ((kind = next(x)) != CLOSE && kind != END) {
+            }
+        else if (is_word(x, "Mesh"))
+            fault = look_at_mesh(x), kind = NUMBER;
+        else if (is_word(x, "MeshMaterialList"))
+            fault = look_at_materials(x), kind = CLOSE;
+    }
+    return fault;
+}
+
+froe_status io_x_check(const formats_source *source, formats_sink *sink) {
+    formats_text text = {0};
+    const froe_status status = formats_load(source, sink, true, &text);
+    x_check x = {.at = text.data};
+    const char *sentence = status ? NULL : find_fault(&x);
+    size_t line = 1;
+    for (const char *at = text.data; sentence && at < x.word; at++) line += *at == '\n';
+    array_free(&sink->alloc, &text);
+    if (!sentence) return status;
+    return support_fail(sink->diag, FROE_E_FORMAT, "%s: line %zu: %s", support_short(source->path), line, sentence);
+}
