@@ -359,6 +359,7 @@ froe_status io_read_arranged(const formats_source *source, formats_sink *sink, i
     if (!status && io_is_lwo(source)) status = io_lwo_check(source, sink);
     if (!status && io_is_ac(source)) status = io_ac_check(source, sink);
     if (!status && io_is_x(source)) status = io_x_check(source, sink);
+    if (!status && io_is_ase(source)) status = io_ase_check(source, sink);
     if (!status && io_is_ifc(source)) status = io_ifc_check(source, sink);
     if (!status && io_is_amf(source)) status = io_amf_check(source, sink);
     if (!status && io_is_x3d(source)) status = io_x3d_check(source, sink);

@@ -95,6 +95,10 @@ froe_status io_lwo_check(const formats_source *source, formats_sink *sink);
 bool io_is_x(const formats_source *source);
 /** Before the import: FROE_E_FORMAT where faces of it name vertices or materials that do not exist. */
 froe_status io_x_check(const formats_source *source, formats_sink *sink);
+/** Is it ASE, by its extension? */
+bool io_is_ase(const formats_source *source);
+/** Before the import: FROE_E_FORMAT where lists of it do not fit. */
+froe_status io_ase_check(const formats_source *source, formats_sink *sink);
 /** Is it AC3D, by its first bytes? */
 bool io_is_ac(const formats_source *source);
 /** Before the import: FROE_E_FORMAT or FROE_E_UNSUPPORTED where an AC3D file has what assimp reads as another thing. */

@@ -28,7 +28,9 @@ static const rule rules[] = {
     {"AC3D: Unexpected ", NULL, NULL},
     {"AC3D: material index is out of range", NULL, NULL},
     {"has an invalid index. It will be ignored", NULL, NULL}, /* ASE */
-    {"STEP: ignoring unexpected EOF", NULL, NULL},            /* IFC */
+    {"Unable to parse float", NULL, NULL},
+    {"Found *MESH_ANIMATION element", NULL, NULL}, /* its last shape would be read */
+    {"STEP: ignoring unexpected EOF", NULL, NULL}, /* IFC */
     {"an object with the id #", NULL, NULL},
     {"expected token ')'", NULL, NULL},
     {"error occurred while processing curve", NULL, "broken curves"},
