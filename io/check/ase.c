@@ -24,7 +24,7 @@ static const char blanks[] = " \t", digits[] = "0123456789";
 /* What stands behind a word; NULL: it is another one. */
 static const char *behind(const char *at, const char *word) {
     const size_t length = strlen(word);
-    return !strncmp(at, word, length) && at[length] && strchr(" \t\r\n", at[length]) ? at + length : NULL;
+    return !strncmp(at, word, length) && strchr(" \t\r\n", at[length]) ? at + length : NULL;
 }
 
 /* Passes a whole number and blanks around it; false: there is none. */

@@ -84,8 +84,8 @@ void io_unescape(const char *name, char *out) {
 /* Opens a file that the imported one names, in its folder or below. Some programs write names as they are. */
 static FILE *open_named(masked_import *m, const char *path) {
     const size_t size = strlen(path) + 1;
-    size_t folder = 0; /* what both names begin with */
-    for (size_t i = 0; path[i] && path[i] == m->path[i]; i++)
+    size_t folder = 0;                             /* what both names begin with */
+    for (size_t i = 0; path[i] == m->path[i]; i++) /* they are not the same */
         if (path[i] == '/') folder = i + 1;
     char *plain = support_calloc(m->alloc, 1, size);
     if (!plain) return m->memory = false, NULL;

@@ -73,6 +73,20 @@ static void expect_objects(const char *path, size_t count) {
     froe_scene_free(scene);
 }
 
+/* Nothing is counted behind it. */
+static void roots_may_be_cut_off(void **state) {
+    (void)state;
+    static const char begin[] = "AC3Db\nMATERIAL \"\" rgb 1 1 1  amb 1 1 1  emis 0 0 0  spec 0 0 0  shi 0  trans 0\n"
+                                "OBJECT poly\nnumvert 3\n0 0 0\n1 0 0\n";
+    static const char *const ends[] = {"", "0 1 0\nnumsurf 1\nSURF 0x0\nmat 0\nrefs 3\n0 0 0\n1 0 0\n"};
+    for (size_t i = 0; i < 2; i++) {
+        char text[sizeof begin + 64];
+        snprintf(text, sizeof text, "%s%s", begin, ends[i]);
+        write_text("cut.ac", text);
+        refuse("cut.ac", FROE_E_FORMAT, "The file ends before all is there that was counted.");
+    }
+}
+
 static void what_fits_is_read(void **state) {
     (void)state;
     static const struct {
@@ -83,6 +97,9 @@ static void what_fits_is_read(void **state) {
         {"name \"a\"", "data 14\n7 letters \n4 5", 4}, /* bytes of any text */
         {"name \"a\"", "data 500\n", 0},
         {"numvert 4\n", "numvert 4 \n ", 4},
+        {"name", "locked\nname", 4},
+        {"5 5 5\nkids 0\n", "5 5 5\nkids 0\n  ", 4},
+        {"SURF 0x0\nmat 0\nrefs 3", "SURF 0x2\nmat 0\nrefs 3", 5},
         {"0 0 0\nrot", "0 0 0\r\nrot", 4},
         {"SURF 0x0", "SURF 0x10", 4},
         {"SURF 0x2", "SURF 0x1", 5},
@@ -163,6 +180,7 @@ static void every_failing_allocation_gives_a_status(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_assimp_takes_for_something_else_is_refused),
+        cmocka_unit_test(roots_may_be_cut_off),
         cmocka_unit_test(what_fits_is_read),
         cmocka_unit_test(what_is_moved_in_one_way_is_read),
         cmocka_unit_test(points_alone_are_left_out),
