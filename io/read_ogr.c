@@ -1,4 +1,5 @@
 /* read_ogr.c: plane maps in all formats of OGR. The first failure that GDAL tells of becomes the diagnostic. */
+#include "check/check.h"
 #include "crs.h"
 #include "formats/input/csv_header.h"
 #include "heard.h"
@@ -350,6 +351,7 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
         m.shapes.cuts = strstr(sink->report.format, "JSON") != NULL;
         m.crs.promise = io_crs_promise_of(m.data);
         if (!strcmp(sink->report.format, "ESRI Shapefile")) status = check_tables(&m);
+        if (!strcmp(sink->report.format, "TopoJSON")) status = io_topojson_check(GDALGetDescription(m.data), sink);
         if (!status) status = add_layers(&m);
     }
     io_crs_free(&m.crs);

@@ -1,5 +1,5 @@
-/* check.h: what a file says that assimp passes over in silence, so that the model would be another one. Each format is
- * looked through before the import, and where it says such a thing it is refused by name. */
+/* check.h: what a file says that assimp or GDAL passes over in silence, so that the model or map would be another one.
+ * Each format is looked through before, and where it says such a thing it is refused by name. */
 #ifndef FROE_IO_CHECK_CHECK_H
 #define FROE_IO_CHECK_CHECK_H
 #include "formats/input/json.h"
@@ -121,4 +121,7 @@ bool io_is_collada(const formats_source *source);
 /** Before the import: FROE_E_UNSUPPORTED or FROE_E_FORMAT where a COLLADA file has what assimp passes over in silence.
  * Geometries that are no meshes are counted in the report. */
 froe_status io_collada_check(const formats_source *source, formats_sink *sink);
+/** FROE_E_FORMAT where geometries of a TopoJSON file name arcs that do not exist. The path may be one in the virtual
+ * file systems of GDAL. FROE_E_MEMORY. */
+froe_status io_topojson_check(const char *path, formats_sink *sink);
 #endif

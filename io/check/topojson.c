@@ -1,0 +1,72 @@
+/* topojson.c: whether geometries of a TopoJSON file (version 1.0.0) name arcs that exist. GDAL leaves out others, and
+ * so parts of lines and rings. An index below zero stands for an arc that is passed backwards: -1 for the first.
+ *
+ *     {"type": "Topology", "objects": {"a": {"type": "LineString", "arcs": [0, -2]}}, "arcs": [[[0, 0], [1, 2]], ...]}
+ *
+ * A text that is no JSON is left to GDAL. */
+#include "check/check.h"
+#include <cpl_vsi.h>
+#include <string.h>
+
+static bool has_arcs(const formats_json *value) {
+    static const char *const types[] = {"LineString", "MultiLineString", "Polygon", "MultiPolygon"};
+    const char *type = formats_json_string(formats_json_get(value, "type"));
+    for (size_t i = 0; type && i < sizeof types / sizeof *types; i++)
+        if (!strcmp(type, types[i])) return true;
+    return false;
+}
+
+/* The first value in the arcs of a geometry that is neither an array nor an index of an arc; NULL: there is none. */
+static const formats_json *find_fault(const formats_json *geometry, double count) {
+    const formats_json *arcs = formats_json_get(geometry, "arcs");
+    for (size_t i = 0; arcs && i < arcs->span; i++) {
+        const double number = arcs[i].number;
+        const bool is_index = formats_json_is(arcs + i, FORMATS_JSON_NUMBER) && number >= -count && number < count &&
+                              strcspn(arcs[i].text, ".eE") >= strcspn(arcs[i].text, ",] \t\r\n");
+        if (!is_index && !formats_json_is(arcs + i, FORMATS_JSON_ARRAY)) return arcs + i;
+    }
+    return NULL;
+}
+
+static froe_status check_objects(formats_sink *sink, const formats_json *root) {
+    const formats_json *objects = formats_json_get(root, "objects");
+    if (!objects) return FROE_OK; /* one way: GDAL takes no such file for TopoJSON */
+    const formats_json *name = objects + 1;
+    const size_t count = formats_json_size(formats_json_get(root, "arcs"));
+    for (size_t i = 0; i < objects->count; i++, name = formats_json_next(name + 1))
+        for (const formats_json *value = name + 1; value < formats_json_next(name + 1); value++) {
+            const formats_json *fault = has_arcs(value) ? find_fault(value, (double)count) : NULL;
+            if (!fault) continue;
+            return support_fail(sink->diag, FROE_E_FORMAT,
+                                "%s: object '%.60s': A geometry names arc '%.*s', and there %s %zu of them.",
+                                support_short(sink->path), name->text, (int)strcspn(fault->text, ",] \t\r\n"),
+                                fault->text, count == 1 ? "is" : "are", count);
+        }
+    return FROE_OK;
+}
+
+froe_status io_topojson_check(const char *path, formats_sink *sink) {
+    enum { AHEAD = 16 }; /* zeros behind the text: numbers are read ahead */
+    formats_text text = {0};
+    formats_json_values values = {0};
+    formats_json_error error;
+    GByte *bytes = NULL;
+    vsi_l_offset size = 0;
+    if (!VSIIngestFile(NULL, path, &bytes, &size, -1)) /* one way: GDAL has read it just now */
+        return support_fail_memory(sink->diag);
+    bool room = array_append(&sink->alloc, &text, (const char *)bytes, (size_t)size) &&
+                array_reserve(&sink->alloc, &text, AHEAD);
+    VSIFree(bytes);
+    froe_status read = FROE_E_FORMAT;
+    if (room) {
+        memset(text.data + text.count, 0, AHEAD);
+        read = formats_json_read(&sink->alloc, text.data, text.count, &values, &error);
+        room = read != FROE_E_MEMORY;
+    }
+    const froe_status status = !room  ? support_fail_memory(sink->diag)
+                               : read ? FROE_OK
+                                      : check_objects(sink, values.data);
+    array_free(&sink->alloc, &text);
+    array_free(&sink->alloc, &values);
+    return status;
+}
