@@ -17,12 +17,21 @@ static void hear_note(io_heard *h, const char *text) {
     if (strcmp(name, "VIEWPORT") != 0 && !strstr(all, one)) io_names_put(&h->left, name);
 }
 
+/* So does the reader of OSM of ways with fewer nodes than they name, which it draws without them or leaves out, and of
+ * relations without all their ways, which parts of larger files mostly have. */
+static bool is_cut(io_heard *h, const char *text) {
+    static const char relations[] = "incomplete relations";
+    if (strstr(text, "has missing ways") && !strstr(h->left.text, relations)) io_names_put(&h->left, relations);
+    return !strncmp(text, "OSM", 3) && (strstr(text, "nodes that could be found") || strstr(text, "nodes instead of"));
+}
+
 static void CPL_STDCALL hear(CPLErr class, CPLErrorNum number, const char *text) {
     (void)number;
     io_heard *h = CPLGetErrorHandlerUserData();
     if (class == CE_Debug) hear_note(h, text);
+    const bool cut = class == CE_Debug && is_cut(h, text);
     bool about_axes = !strncmp(text, "PROJ", 4); /* froe takes coordinates as they are */
-    if (class < CE_Failure || h->failed || about_axes) return;
+    if ((class < CE_Failure && !cut) || h->failed || about_axes) return;
     h->failed = true;
     snprintf(h->text, sizeof h->text, "%s", strstr(text, h->path) ? "" : text);
     for (char *c = h->text; *c; ++c)
@@ -38,7 +47,7 @@ void io_gdal_begin(io_heard *heard) {
     CPLPushErrorHandlerEx(hear, heard);
     /* Notes are a file beside a map, NAME.gz.properties, that tells how large it is when unpacked. */
     io_setting_begin(&heard->notes, "CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO");
-    io_setting_begin(&heard->debug, "CPL_DEBUG", "DXF");
+    io_setting_begin(&heard->debug, "CPL_DEBUG", "DXF,OSM");
     pthread_once(&once, register_drivers);
     if (!heard->online) io_offline_begin(&heard->offline);
 }
