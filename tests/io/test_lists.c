@@ -1,0 +1,423 @@
+/* Models as text with lists that do not fit, or name what does not exist: AC3D, ASE (of 3ds Max) and DirectX. */
+#include "support.h"
+
+/* ------------------------------------------------------------------------ AC3D -- */
+
+/* A quadrilateral, a triangle and a line that share four vertices, and a kid of the world behind them. */
+static const char ac_whole[] = "AC3Db\nMATERIAL \"\" rgb 1 1 1  amb 1 1 1  emis 0 0 0  spec 0 0 0  shi 0  trans 0\n"
+                               "OBJECT world\nkids 2\nOBJECT poly\nname \"a\"\n"
+                               "loc 0 0 0\nrot 1 0 0 0 1 0 0 0 1\n"
+                               "numvert 4\n0 0 0\n1 0 0\n1 1 0\n0 +1 -0\nnumsurf 3\n"
+                               "SURF 0x0\nmat 0\nrefs 4\n0 0 0\n1 1 0\n2 1 1\n3 0 1\n"
+                               "SURF 0x0\nmat 0\nrefs 3\n0 0 0\n1 1 0\n2 1 1\n"
+                               "SURF 0x2\nmat 0\nrefs 2\n0 0 0\n2 1 1\n"
+                               "kids 0\nOBJECT poly\nnumvert 1\n5 5 5\nkids 0\n";
+
+enum { AC_MOST = sizeof ac_whole + 256 };
+
+static void write_ac_changed(const char *path, const char *word, const char *other) {
+    char text[AC_MOST];
+    const char *at = strstr(ac_whole, word);
+    assert_non_null(at);
+    snprintf(text, sizeof text, "%.*s%s%s", (int)(at - ac_whole), ac_whole, other, at + strlen(word));
+    write_text(path, text);
+}
+
+static void what_assimp_takes_for_something_else_is_refused(void **state) {
+    (void)state;
+    static const char fewer[] = "There are fewer lines of numbers than were counted.",
+                      more[] = "There are more lines of numbers than were counted.",
+                      no_count[] = "A count is no whole number.",
+                      no_vertex[] = "A surface names a vertex that does not exist.",
+                      moved[] = "Objects that are moved (loc) and turned (rot), or have lines or kids, are not read.";
+    static const struct {
+        const char *word, *other;
+        froe_status status;
+        int line;
+        const char *sentence;
+    } changes[] = {
+        {"refs 4", "refs -1", FROE_E_FORMAT, 17, no_count},
+        {"refs 4", "refs", FROE_E_FORMAT, 17, no_count},
+        {"refs 4", "refs 4.5", FROE_E_FORMAT, 17, no_count},
+        {"refs 4", "refs 5", FROE_E_FORMAT, 22, fewer},
+        {"refs 4", "refs 3", FROE_E_FORMAT, 21, more},
+        {"refs 4", "refs 99999999999999999999", FROE_E_FORMAT, 17, no_count},
+        {"\n3 0 1", "\n4 0 1", FROE_E_FORMAT, 21, no_vertex},
+        {"\n3 0 1", "\n-1 0 1", FROE_E_FORMAT, 21, no_vertex},
+        {"\n3 0 1", "\n3.0 0 1", FROE_E_FORMAT, 21, no_vertex},
+        {"\n3 0 1", "\n+3 0 1", FROE_E_FORMAT, 21, no_vertex},
+        {"numvert 4", "numvert 3", FROE_E_FORMAT, 13, more},
+        {"numvert 4", "numvert 5", FROE_E_FORMAT, 14, fewer},
+        {"numvert 4", "numvert x", FROE_E_FORMAT, 9, no_count},
+        {"numsurf 3", "numsurf 2", FROE_E_FORMAT, 30, "There are more surfaces than were counted."},
+        {"numsurf 3", "numsurf 4", FROE_E_FORMAT, 33, "There are fewer surfaces than were counted."},
+        {"kids 2", "kids 3", FROE_E_FORMAT, 37, "The file ends before all is there that was counted."},
+        {"5 5 5\nkids 0\n", "", FROE_E_FORMAT, 35, "The file ends before all is there that was counted."},
+        {"2 1 1\nkids 0\nOBJECT poly\nnumvert 1\n5 5 5\nkids 0\n", "", FROE_E_FORMAT, 31,
+         "The file ends before all is there that was counted."},
+        {"name", "data two\n", FROE_E_FORMAT, 6, no_count},
+        {"loc 0 0 0", "loc 0 0 1", FROE_E_UNSUPPORTED, 33, moved},
+        {"loc 0 0 0\nrot 1 0 0 0 1 0 0 0 1", "loc 3 0 0\nrot 0 1 0 -1 0 0 0 0 1", FROE_E_UNSUPPORTED, 33, moved},
+    };
+    for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
+        char sentence[160];
+        snprintf(sentence, sizeof sentence, "changed.ac: line %d: %s", changes[i].line, changes[i].sentence);
+        write_ac_changed("changed.ac", changes[i].word, changes[i].other);
+        refuse("changed.ac", changes[i].status, sentence);
+    }
+    write_ac_changed("changed.ac", "mat 0", "mat 1");
+    refuse("changed.ac", FROE_E_FORMAT, "AC3D: material index is out of range");
+}
+
+static void expect_objects(const char *path, size_t count) {
+    froe_scene *scene = read_scene(path, NULL);
+    if (froe_scene_object_count(scene) != count) fail_msg("%s: %zu", path, froe_scene_object_count(scene));
+    froe_scene_free(scene);
+}
+
+/* Nothing is counted behind it. */
+static void roots_may_be_cut_off(void **state) {
+    (void)state;
+    static const char begin[] = "AC3Db\nMATERIAL \"\" rgb 1 1 1  amb 1 1 1  emis 0 0 0  spec 0 0 0  shi 0  trans 0\n"
+                                "OBJECT poly\nnumvert 3\n0 0 0\n1 0 0\n";
+    static const char *const ends[] = {"", "0 1 0\nnumsurf 1\nSURF 0x0\nmat 0\nrefs 3\n0 0 0\n1 0 0\n"};
+    for (size_t i = 0; i < 2; i++) {
+        char text[sizeof begin + 64];
+        snprintf(text, sizeof text, "%s%s", begin, ends[i]);
+        write_text("cut.ac", text);
+        refuse("cut.ac", FROE_E_FORMAT, "The file ends before all is there that was counted.");
+    }
+}
+
+static void what_fits_in_ac_is_read(void **state) {
+    (void)state;
+    static const struct {
+        const char *word, *other;
+        size_t objects;
+    } changes[] = {
+        {"AC3Db", "AC3Db", 4},
+        {"name \"a\"", "data 14\n7 letters \n4 5", 4}, /* bytes of any text */
+        {"name \"a\"", "data 500\n", 0},
+        {"numvert 4\n", "numvert 4 \n ", 4},
+        {"name", "locked\nname", 4},
+        {"5 5 5\nkids 0\n", "5 5 5\nkids 0\n  ", 4},
+        {"SURF 0x0\nmat 0\nrefs 3", "SURF 0x2\nmat 0\nrefs 3", 5},
+        {"0 0 0\nrot", "0 0 0\r\nrot", 4},
+        {"SURF 0x0", "SURF 0x10", 4},
+        {"SURF 0x2", "SURF 0x1", 5},
+        {"SURF 0x0\nmat 0\nrefs 4", "SURF 0x4\nmat 0\nrefs 4", 4}, /* a strip */
+        {"kids 2\nOBJECT poly", "kids 1\nOBJECT poly", 4},         /* and another root */
+    };
+    for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
+        write_ac_changed("fits.ac", changes[i].word, changes[i].other);
+        if (changes[i].objects)
+            expect_objects("fits.ac", changes[i].objects);
+        else
+            refuse("fits.ac", FROE_E_FORMAT, "The file ends before all is there");
+    }
+}
+
+/* The same triangle in an object of which one thing is changed. */
+static void write_moved(const char *kind, const char *at, const char *surface, const char *kids) {
+    char text[AC_MOST];
+    snprintf(text, sizeof text,
+             "AC3Db\nMATERIAL \"\" rgb 1 1 1  amb 1 1 1  emis 0 0 0  spec 0 0 0  shi 0  trans 0\nOBJECT %s\n%s"
+             "numvert 3\n0 0 0\n1 0 0\n0 1 0\n%s%s",
+             kind, at, surface, kids);
+    write_text("moved.ac", text);
+}
+
+static void what_is_moved_in_one_way_is_read(void **state) {
+    (void)state;
+    static const char triangle[] = "numsurf 1\nSURF 0x0\nmat 0\nrefs 3\n0 0 0\n1 0 0\n2 0 0\n",
+                      line[] = "numsurf 1\nSURF 0x2\nmat 0\nrefs 2\n0 0 0\n1 0 0\n",
+                      kid[] = "kids 1\nOBJECT poly\nkids 0\n";
+    static const struct {
+        const char *at, *surface, *kids;
+        double x; /* of the first corner; -1: refused */
+    } cases[] = {
+        {"loc 2 0 0\n", triangle, "kids 0\n", 2},
+        {"rot 0 1 0 -1 0 0 0 0 1\n", triangle, "kids 0\n", 0},
+        {"loc 0 0 0\n", line, "kids 0\n", 0},
+        {"loc 0 0 0\n", triangle, kid, 0},
+        {"loc 2 0 0\n", line, "kids 0\n", -1},
+        {"loc 2 0 0\n", triangle, kid, -1},
+        {"loc 2 0 0\nrot 0 1 0 -1 0 0 0 0 1\n", triangle, "kids 0\n", -1},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        write_moved("poly", cases[i].at, cases[i].surface, cases[i].kids);
+        if (cases[i].x < 0) {
+            refuse("moved.ac", FROE_E_UNSUPPORTED,
+                   "Objects that are moved (loc) and turned (rot), or have lines or kids");
+            continue;
+        }
+        froe_scene *scene = read_scene("moved.ac", NULL);
+        if (corner(scene, 0, 0)[0] != cases[i].x) fail_msg("%zu: %g", i, corner(scene, 0, 0)[0]);
+        froe_scene_free(scene);
+    }
+}
+
+/* Points that are in no surface are told of; only their kids are moved. */
+static void points_alone_are_left_out(void **state) {
+    (void)state;
+    static const char *const surfaces[] = {"", "numsurf 1\nSURF 0x2\nmat 0\nrefs 0\n"};
+    for (size_t i = 0; i < 2; i++) {
+        froe_read_report report;
+        write_moved("group", "loc 2 0 0\n", surfaces[i],
+                    "kids 1\nOBJECT poly\nnumvert 3\n0 0 0\n1 0 0\n0 1 0\nnumsurf 1\nSURF 0x0\nmat 0\n"
+                    "refs 3\n0 0 0\n1 0 0\n2 0 0\nkids 0\n");
+        froe_scene *scene = read_scene("moved.ac", &report);
+        assert_true(froe_scene_object_count(scene) == 1 && corner(scene, 0, 0)[0] == 2);
+        assert_string_equal(report.sorts_left, "points");
+        froe_scene_free(scene);
+    }
+}
+
+static void memory_may_end_in_ac(void **state) {
+    (void)state;
+    write_text("whole.ac", ac_whole);
+    test_memory_each(read_with_memory, "whole.ac");
+}
+
+/* ------------------------------------------------------------------------- ASE -- */
+
+static const char ase_whole[] =
+    "*3DSMAX_ASCIIEXPORT\t200\n*GEOMOBJECT {\n*NODE_NAME \"a\"\n*MESH {\n"
+    "*MESH_NUMVERTEX 3\n*MESH_NUMFACES 1\n*MESH_VERTEX_LIST {\n"
+    "*MESH_VERTEX 0\t0.0 0.0 0.0\n*MESH_VERTEX 1 1.0 0.0 0.0\n*MESH_VERTEX 2 0.0 1.5 0.0\n}\n"
+    "*MESH_FACE_LIST {\n*MESH_FACE 0:  A:  0 B: 1 C:\t2 AB: 1 BC: 1 CA: 10\n}\n"
+    "*MESH_NUMTVERTEX 2\n*MESH_TVERTLIST {\n*MESH_TVERT 0 0.0 0.0 0.0\n*MESH_TVERT 1 1.0 0.0 0.0\n}\n"
+    "*MESH_NUMTVFACES 1\n*MESH_TFACELIST {\n*MESH_TFACE 0 0 1 1\n}\n"
+    "*MESH_NUMCVERTEX 1\n*MESH_CVERTLIST {\n*MESH_VERTCOL 0 1.0 0.0 0.0\n}\n"
+    "*MESH_NUMCVFACES 1\n*MESH_CFACELIST {\n*MESH_CFACE 0 0 0 0\n}\n"
+    "}\n}\n*GEOMOBJECT {\n*NODE_NAME \"b\"\n*MESH {\n*MESH_NUMVERTEX 3\n*MESH_NUMFACES 1\n"
+    "*MESH_VERTEX_LIST {\n*MESH_VERTEX 0 0.0 0.0 1.0\n*MESH_VERTEX 1 1.0 0.0 1.0\n"
+    "*MESH_VERTEX 2 0.0 1.5 1.0\n}\n*MESH_FACE_LIST {\n*MESH_FACE 0: A: 0 B: 1 C: 2\n}\n}\n}\n";
+
+enum { ASE_MOST = sizeof ase_whole + 256 };
+
+static void write_ase_changed(const char *path, const char *word, const char *other) {
+    char text[ASE_MOST];
+    const char *at = strstr(ase_whole, word);
+    assert_non_null(at);
+    snprintf(text, sizeof text, "%.*s%s%s", (int)(at - ase_whole), ase_whole, other, at + strlen(word));
+    write_text(path, text);
+}
+
+static void what_does_not_fit_is_refused(void **state) {
+    (void)state;
+    static const char corner[] = "A face names a vertex that does not exist.",
+                      broken[] = "A face is not three corners.",
+                      order[] = "Vertices and faces are not numbered from 0 on.",
+                      points[] = "The mesh has fewer vertices than it counts.",
+                      faces[] = "The mesh has another number of faces than it counts.";
+    static const struct {
+        const char *word, *other;
+        int line; /* 0: as assimp has it */
+        const char *sentence;
+    } changes[] = {
+        {"A:  0", "A: 3", 13, corner},
+        {"B: 1", "B: 3", 13, corner},
+        {"C:\t2", "C:\t99999999999999999999", 13, corner},
+        {"B: 1", "B: -1", 13, broken},
+        {"B: 1", "B:", 13, broken},
+        {"B: 1", "D: 1", 13, broken},
+        {"B: 1", "AB: 1", 13, broken},
+        {"B: 1", "B 1", 13, broken},
+        {"B: 1", "c: 1", 13, broken},
+        {"*MESH_FACE 0:", "*MESH_FACE 1:", 13, order},
+        {"*MESH_FACE 0:", "*MESH_FACE :", 13, order},
+        {"*MESH_VERTEX 1", "*MESH_VERTEX 2", 9, order},
+        {"*MESH_VERTEX 1", "*MESH_VERTEX x", 9, order},
+        {"*MESH_NUMVERTEX 3", "*MESH_NUMVERTEX 2", 13, corner},
+        {"*MESH_NUMVERTEX 3", "*MESH_NUMVERTEX 4", 36, points},
+        {"*MESH_VERTEX 2 0.0 1.5 0.0\n}", "}", 35, points},
+        {"*MESH_NUMFACES 1", "*MESH_NUMFACES 2", 36, faces},
+        {"*MESH_VERTEX 2 0.0 1.5 1.0\n", "", 48, points},
+        {"B: 1 C: 2\n", "B: 1 C: 2\n*MESH_FACE 1: A: 0 B: 1 C: 2\n", 50, faces},
+        {"0 0 1 1", "0 0 1 2", 22, corner},
+        {"0 0 1 1", "0 0 1", 22, broken},
+        {"0 0 1 1", "1 0 1 1", 22, order},
+        {"0 0 0 0", "0 0 1 0", 30, corner},
+        {"*MESH_TFACE 0 0 1 1\n", "", 35, faces},
+        {"*MESH_CFACE 0 0 0 0\n", "", 35, faces},
+        {"*MESH_NUMCVERTEX", "*MESH_MAPPINGCHANNEL 2 {\n*MESH_NUMTVERTEX 1\n}\n*MESH_NUMCVERTEX", 39, faces},
+        {"*MESH_TFACE 0 0 1 1\n}\n", "}\n*MESH_NUMTVERTEX 1\n", 23, faces},
+        {"1 1.0 0.0 0.0", "1 1.0 0.0", 0, "Unable to parse float: unexpected EOL"},
+        {"*MESH_NUMTVERTEX", "*MESH_ANIMATION {\n}\n*MESH_NUMTVERTEX", 0, "Found *MESH_ANIMATION element"},
+    };
+    for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
+        char sentence[160];
+        snprintf(sentence, sizeof sentence, "changed.ase: line %d: %s", changes[i].line, changes[i].sentence);
+        write_ase_changed("changed.ase", changes[i].word, changes[i].other);
+        refuse("changed.ase", FROE_E_FORMAT, changes[i].line ? sentence : changes[i].sentence);
+    }
+}
+
+static void what_fits_in_ase_is_read(void **state) {
+    (void)state;
+    static const char *const changes[][2] = {
+        {"A:  0", "A:  0"},
+        {"0:  A", "0  A"},
+        /* where there are none, none are taken */
+        {"*MESH_NUMTVERTEX 2\n*MESH_TVERTLIST {\n*MESH_TVERT 0 0.0 0.0 0.0\n*MESH_TVERT 1 1.0 0.0 0.0\n}\n", ""},
+        {"*MESH_NUMCVERTEX 1\n*MESH_CVERTLIST {\n*MESH_VERTCOL 0 1.0 0.0 0.0\n}\n", ""},
+    };
+    for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
+        write_ase_changed("fits.ask", changes[i][0], changes[i][1]);
+        froe_scene *scene = read_scene("fits.ask", NULL);
+        assert_int_equal(froe_scene_object_count(scene), 2);
+        froe_scene_free(scene);
+    }
+}
+
+/* assimp takes the zeros in it for ends. */
+static void text_of_two_bytes_a_letter_is_refused(void **state) {
+    (void)state;
+    char wide[2 * sizeof ase_whole + 2] = "\xff\xfe";
+    for (size_t i = 0; i < sizeof ase_whole - 1; i++) wide[2 + 2 * i] = ase_whole[i];
+    write_bytes("wide.ase", wide, 2 * sizeof ase_whole);
+    refuse("wide.ase", FROE_E_FORMAT, "The text is in UTF-16");
+}
+
+static void memory_may_end_in_ase(void **state) {
+    (void)state;
+    write_text("whole.ase", ase_whole);
+    test_memory_each(read_with_memory, "whole.ase");
+}
+
+/* --------------------------------------------------------------------- DirectX -- */
+
+/* Two triangles of a mesh that is called as a type is, in a frame that is so, too. */
+static const char x_whole[] =
+    "xof 0302txt 0032\n"
+    "template Mesh {\n <3D82AB44-62DA-11cf-AB39-0020AF71E433>\n DWORD nVertices;\n array Vector "
+    "vertices[nVertices];\n}\n"
+    "Frame Mesh { // Mesh {\n"
+    " FrameTransformMatrix { 1.0,0.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0,0.0,1.0,0.0,0.0,0.0,0.0,1.0;; }\n"
+    " Mesh Mesh {\n"
+    "  4;\n  0.0;0.0;0.0;,\n  1.0;0.0;-0.0;,\n  0.5;1.0;.0;,\n  1.0;1.0;0.0;;\n"
+    "  2;\n  3;0,1,2;,\n  3;1,3,2;;\n"
+    "  MeshMaterialList {\n   2;\n   2;\n   0,\n   1;;\n"
+    "   Material M { 1.0;0.0;0.0;1.0;; 5.0; 0.0;0.0;0.0;; 0.0;0.0;0.0;; TextureFilename { \"a Mesh {.png\"; } }\n"
+    "   { Other }\n  }\n }\n}\n"
+    "# Mesh {\n"
+    "Material Other { 1.0;1.0;0.0;1.0;; 5.0; 0.0;0.0;0.0;; 0.0;0.0;0.0;; }\n";
+
+enum { X_MOST = sizeof x_whole + 256 };
+
+static void write_x_changed(const char *path, const char *word, const char *other) {
+    char text[X_MOST];
+    const char *at = strstr(x_whole, word);
+    assert_non_null(at);
+    snprintf(text, sizeof text, "%.*s%s%s", (int)(at - x_whole), x_whole, other, at + strlen(word));
+    write_text(path, text);
+}
+
+static void what_assimp_leaves_out_is_refused(void **state) {
+    (void)state;
+    static const char vertex[] = "A face names a vertex that does not exist.",
+                      material[] = "A face names a material that does not exist.";
+    static const struct {
+        const char *word, *other;
+        int line;
+        const char *sentence;
+    } changes[] = {
+        {"1,3,2;;", "1,4,2;;", 17, vertex},   {"1,3,2;;", "1,5,2;;", 17, vertex},
+        {"1,3,2;;", "1,-3,2;;", 17, vertex},  {"1,3,2;;", "1,99999999999999999999,2;;", 17, vertex},
+        {"   1;;", "   2;;", 25, material},   {"   1;;", "   -1;;", 25, material},
+        {"   { Other }\n", "", 24, material},
+    };
+    for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
+        char sentence[120];
+        snprintf(sentence, sizeof sentence, "changed.x: line %d: %s", changes[i].line, changes[i].sentence);
+        write_x_changed("changed.x", changes[i].word, changes[i].other);
+        refuse("changed.x", FROE_E_FORMAT, sentence);
+    }
+}
+
+static void what_is_right_is_read(void **state) {
+    (void)state;
+    static const char *const changes[][2] = {
+        {"Frame", "Frame"},
+        {" Mesh Mesh {", " Mesh {"},
+        {" Mesh Mesh {", " Mesh // {\n # {\n {"},
+        {"   2;\n   2;\n   0,\n   1;;\n", "   2;\n   1;\n   1;;\n"}, /* one for all faces */
+        {"   { Other }\n", "   { Other } { Other }\n"},
+        {"# Mesh {\n", "{ Mesh }\n"},
+    };
+    for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
+        write_x_changed("right.x", changes[i][0], changes[i][1]);
+        froe_scene *scene = read_scene("right.x", NULL);
+        if (froe_scene_object_count(scene) != 2) fail_msg("%s", changes[i][1]);
+        froe_scene_free(scene);
+    }
+}
+
+/* What is cut off, or no number, assimp refuses by itself; what it takes all the same is not looked at. */
+static void what_is_not_as_expected_is_left_to_assimp(void **state) {
+    (void)state;
+    static const char *const cuts[] = {"nVertices", "Mesh Mesh {",      "Mesh {\n  4;", "4;\n",
+                                       "0.0;-0.0",  "2;\n  3;",         "3;0,1",        "0,1,2",
+                                       "1,2;,",     "MeshMaterialList", "{\n   2;",     "2;\n   2;\n   0",
+                                       "0,\n   1",  "   Material",      "M { 1.0"};
+    static const char *const words[][2] = {{" Mesh Mesh {", " Mesh Mesh Mesh {"},
+                                           {"  4;", "  x;"},
+                                           {"  1.0;0.0;-0.0;", "  1.0;x;-0.0;"},
+                                           {"  2;\n  3;", "  x;\n  3;"},
+                                           {"  3;0,1,2", "  x;0,1,2"},
+                                           {"  3;0,1,2", "  3;0,x,2"},
+                                           {"List {\n   2;", "List x x\n   2;"},
+                                           {"List {\n   2;", "List {\n   x;"},
+                                           {"   0,\n", "   x,\n"}};
+    char text[X_MOST];
+    for (size_t i = 0; i < sizeof cuts / sizeof *cuts; i++) {
+        const char *at = strstr(x_whole, cuts[i]);
+        assert_non_null(at);
+        snprintf(text, sizeof text, "%.*s", (int)(at - x_whole), x_whole);
+        write_text("cut.x", text);
+        refuse("cut.x", FROE_E_FORMAT, "The reader assimp reports '");
+    }
+    for (size_t i = 0; i < sizeof words / sizeof *words; i++) {
+        write_x_changed("words.x", words[i][0], words[i][1]);
+        refuse("words.x", FROE_E_FORMAT, "The reader assimp reports '");
+    }
+    write_x_changed("binary.x", "txt", "bin");
+    refuse("binary.x", FROE_E_FORMAT, "The reader assimp reports 'No root node'.");
+}
+
+static void meshes_may_have_no_faces(void **state) {
+    (void)state;
+    write_text("none.x", "xof 0302txt 0032\nMesh { 1; 0;0;0;; 0; MeshMaterialList { 0; 0; } }\n"
+                         "Mesh { 3; 0;0;0;, 1;0;0;, 0;1;0;; 1; 3;0,1,2;; }\n");
+    froe_scene *scene = read_scene("none.x", NULL);
+    assert_int_equal(froe_scene_object_count(scene), 1);
+    froe_scene_free(scene);
+}
+
+static void memory_may_end_in_x(void **state) {
+    (void)state;
+    write_text("whole.x", x_whole);
+    test_memory_each(read_with_memory, "whole.x");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(what_assimp_takes_for_something_else_is_refused),
+        cmocka_unit_test(roots_may_be_cut_off),
+        cmocka_unit_test(what_fits_in_ac_is_read),
+        cmocka_unit_test(what_is_moved_in_one_way_is_read),
+        cmocka_unit_test(points_alone_are_left_out),
+        cmocka_unit_test(memory_may_end_in_ac),
+        cmocka_unit_test(what_does_not_fit_is_refused),
+        cmocka_unit_test(what_fits_in_ase_is_read),
+        cmocka_unit_test(text_of_two_bytes_a_letter_is_refused),
+        cmocka_unit_test(memory_may_end_in_ase),
+        cmocka_unit_test(what_assimp_leaves_out_is_refused),
+        cmocka_unit_test(what_is_right_is_read),
+        cmocka_unit_test(what_is_not_as_expected_is_left_to_assimp),
+        cmocka_unit_test(meshes_may_have_no_faces),
+        cmocka_unit_test(memory_may_end_in_x),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

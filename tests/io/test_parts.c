@@ -1,0 +1,254 @@
+/* Files of which parts are missing, damaged, or elsewhere: meshes and nodes of glTF that do not belong to the scene, and
+ * buffers in other files, whose names are escaped (RFC 3986, 2.1); arcs of TopoJSON and nodes of OSM that do not exist. */
+#include "support.h"
+#include <cpl_vsi.h>
+#include <sys/stat.h>
+
+/* ------------------------------------------------------------------------ glTF -- */
+
+/* A quadrilateral of two triangles, and another one whose last corner is not there; %s are nodes, more meshes, more
+ * members, and where the numbers are. */
+static const char model[] =
+    "{\"asset\": {\"version\": \"2.0\"}, \"scenes\": [{\"nodes\": [0]}, {\"nodes\": [1]}], \"nodes\": [%s],\n"
+    "\"meshes\": [{\"primitives\": [{\"attributes\": {\"POSITION\": 0}, \"indices\": 1}]},\n"
+    "{\"primitives\": [{\"attributes\": {\"POSITION\": 0}, \"indices\": 2}]}],\n"
+    "\"accessors\": [{\"bufferView\": 0, \"componentType\": 5126, \"type\": \"VEC3\", \"count\": 4},\n"
+    "{\"bufferView\": 1, \"componentType\": 5123, \"type\": \"SCALAR\", \"count\": 6},\n"
+    "{\"bufferView\": 2, \"componentType\": 5123, \"type\": \"SCALAR\", \"count\": 6}],\n"
+    "\"bufferViews\": [{\"buffer\": 0, \"byteOffset\": 0, \"byteLength\": 48},\n"
+    "{\"buffer\": 0, \"byteOffset\": 48, \"byteLength\": 12}, {\"buffer\": 0, \"byteOffset\": 60, \"byteLength\": "
+    "12}],\n"
+    "%s\"buffers\": [{\"byteLength\": 72, \"uri\": \"%s\"}]}\n";
+
+static void write_model(const char *path, const char *nodes, const char *more, const char *uri) {
+    char text[sizeof model + 512];
+    assert_true((size_t)snprintf(text, sizeof text, model, nodes, more, uri) < sizeof text);
+    write_text(path, text);
+}
+
+/* Writes those numbers, with a right last corner or with one that is not there. */
+static void write_numbers(const char *path, unsigned short last) {
+    static const float corners[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
+    const unsigned short indices[12] = {0, 1, 2, 1, 3, 2, 0, 1, 2, 1, last, 2};
+    char bytes[sizeof corners + sizeof indices];
+    memcpy(bytes, corners, sizeof corners);
+    memcpy(bytes + sizeof corners, indices, sizeof indices);
+    write_bytes(path, bytes, sizeof bytes);
+}
+
+static void expect_objects(const char *path, size_t count) {
+    froe_scene *scene = read_scene(path, NULL);
+    assert_int_equal(froe_scene_object_count(scene), count);
+    froe_scene_free(scene);
+}
+
+/* Mesh 0 is right. Mesh 1 matters wherever assimp reads it, and nowhere else. */
+static void meshes_that_nothing_shows_do_not_hide_wrong_indices(void **state) {
+    (void)state;
+    static const struct {
+        const char *nodes, *more;
+        size_t objects; /* 0: refused */
+    } files[] = {
+        {"{\"mesh\": 0}", "", 2},
+        {"{\"mesh\": 1}", "", 0},
+        {"{\"mesh\": 0}, {\"mesh\": 1}", "", 2},
+        {"{\"mesh\": 1}, {\"mesh\": 0}", "", 0},
+        {"{\"mesh\": 0}, {\"mesh\": 1}", "\"scene\": 0, ", 2},
+        {"{\"mesh\": 0}, {\"mesh\": 1}", "\"scene\": 1, ", 0},
+        {"{\"mesh\": 1}, {\"mesh\": 0}", "\"scene\": 1, ", 2},
+        {"{\"mesh\": 0, \"children\": [1, 2]}, {\"children\": [3]}, {}, {\"mesh\": 1}", "", 0},
+        {"{\"mesh\": 0, \"children\": [1, 2]}, {\"children\": [3]}, {}, {\"mesh\": 0}, {\"mesh\": 1}", "", 4},
+        {"{\"mesh\": 0}, {\"mesh\": 1}", "\"skins\": [{\"joints\": [0, 1]}], ", 0},
+        {"{\"mesh\": 0}, {\"mesh\": 1}", "\"skins\": [{\"joints\": [0]}], ", 2},
+        {"{\"mesh\": 0}, {\"mesh\": 1}", "\"animations\": [{\"channels\": [{\"target\": {\"node\": 1}}]}], ", 0},
+        {"{\"mesh\": 0}, {\"mesh\": 1}", "\"animations\": [{\"channels\": [{\"target\": {\"node\": 0}}]}], ", 2},
+        {"{\"mesh\": 0}, {\"mesh\": 1}", "\"animations\": [{\"channels\": [{\"target\": {\"path\": \"scale\"}}]}], ",
+         2},
+    };
+    write_numbers("numbers.bin", 4);
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        write_model("parts.gltf", files[i].nodes, files[i].more, "numbers.bin");
+        if (files[i].objects)
+            expect_objects("parts.gltf", files[i].objects);
+        else
+            refuse("parts.gltf", FROE_E_FORMAT, "points, edges or triangles 1 name vertices that do not exist.");
+    }
+}
+
+/* A name is first taken without its escapes, and then as it is written. */
+static void escaped_names_of_buffers_are_found(void **state) {
+    (void)state;
+    static const struct {
+        const char *file, *uri;
+    } names[] = {
+        {"parts of it/has space.bin", "has%20space.bin"},
+        {"parts of it/bl%C3%BCte.bin", "bl%C3%BCte.bin"},
+        {"parts of it/blute\xcc\x88.bin", "blute%cc%88.bin"},
+        {"parts of it/below/n.bin", "below%2Fn.bin"},
+        {"parts of it/100%.bin", "100%.bin"},
+        {"parts of it/100%a.bin", "100%a.bin"},
+        {"parts of it/100%g0.bin", "100%g0.bin"},
+        {"parts of it/100%@0.bin", "100%@0.bin"},
+        {"parts of it/100%G0.bin", "100%G0.bin"},
+        {"parts of it/100%:0.bin", "100%:0.bin"},
+        {"parts of it/100%25.bin", "100%2525.bin"},
+        {"parts of it/no%00.bin", "no%00.bin"},
+    };
+    (void)mkdir("parts of it", 0777);
+    (void)mkdir("parts of it/below", 0777);
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        write_numbers(names[i].file, 3);
+        write_model("parts of it/m.gltf", "{\"mesh\": 1}", "", names[i].uri);
+        froe_scene *scene = read_scene("parts of it/m.gltf", NULL);
+        if (froe_scene_object_count(scene) != 2) fail_msg("%s", names[i].uri);
+        froe_scene_free(scene);
+    }
+    /* both are there: the name without escapes counts. That of the folder is taken as it is. */
+    (void)mkdir("of%20it", 0777);
+    write_numbers("of%20it/two names.bin", 3);
+    write_numbers("of%20it/two%20names.bin", 4);
+    write_model("of%20it/two%20names.gltf", "{\"mesh\": 1}", "", "two%20names.bin");
+    expect_objects("of%20it/two%20names.gltf", 2);
+    write_model("of%20it/two%20names.gltf", "{\"mesh\": 1}", "", "other%20names.bin");
+    refuse("of%20it/two%20names.gltf", FROE_E_FORMAT, "could not open referenced file \"other%20names.bin\"");
+}
+
+static void memory_may_end_in_gltf(void **state) {
+    (void)state;
+    write_numbers("its numbers.bin", 3);
+    write_model("memory.gltf", "{\"mesh\": 0, \"children\": [1, 2, 3]}, {\"mesh\": 1}, {\"mesh\": 0}, {\"mesh\": 1}",
+                "\"skins\": [{\"joints\": [1]}], ", "its%20numbers.bin");
+    test_memory_each(read_with_memory, "memory.gltf");
+}
+
+/* -------------------------------------------------------------------- TopoJSON -- */
+
+/* Arc 0 is a line, arc 1 a ring. */
+static void write_topology(const char *path, const char *geometry) {
+    char text[1024];
+    assert_true((size_t)snprintf(text, sizeof text,
+                                 "{\"type\": \"Topology\", \"transform\": {\"scale\": [1, 1], \"translate\": [0, 0]},\n"
+                                 "\"objects\": {\"a\": {\"type\": \"GeometryCollection\", \"geometries\": [{\"type\": "
+                                 "\"LineString\", \"arcs\": [0]}]}, \"b\": %s},\n"
+                                 "\"arcs\": [[[0, 0], [1, 2]], [[5, 0], [4, 0], [0, 4], [-4, -4]]]}\n",
+                                 geometry) < sizeof text);
+    write_text(path, text);
+}
+
+static void arcs_that_do_not_exist_are_refused(void **state) {
+    (void)state;
+    static const struct {
+        const char *geometry, *arc;
+    } cases[] = {
+        {"{\"type\": \"LineString\", \"arcs\": [2]}", "2"},
+        {"{\"type\": \"LineString\", \"arcs\": [ 0, 9 ]}", "9"},
+        {"{\"type\": \"LineString\", \"arcs\": [-3]}", "-3"},
+        {"{\"type\": \"LineString\", \"arcs\": [0.5]}", "0.5"},
+        {"{\"type\": \"LineString\", \"arcs\": [1e0]}", "1e0"},
+        {"{\"type\": \"LineString\", \"arcs\": [null]}", "null"},
+        {"{\"type\": \"LineString\", \"arcs\": [0, \"one\"]}", "one"},
+        {"{\"type\": \"MultiLineString\", \"arcs\": [[0], [2]]}", "2"},
+        {"{\"type\": \"Polygon\", \"arcs\": [[1], [7]]}", "7"},
+        {"{\"type\": \"MultiPolygon\", \"arcs\": [[[1]], [[8]]]}", "8"},
+        {"{\"type\": \"GeometryCollection\", \"geometries\": [{\"type\": \"Polygon\", \"arcs\": [[3]]}]}", "3"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char sentence[100];
+        write_topology("t.json", cases[i].geometry);
+        snprintf(sentence, sizeof sentence, "t.json: object 'b': A geometry names arc '%s', and there are 2 of them.",
+                 cases[i].arc);
+        refuse("t.json", FROE_E_FORMAT, sentence);
+    }
+    write_text("one.json", "{\"type\": \"Topology\", \"objects\": {\"b\": {\"type\": \"LineString\", \"arcs\": [1]}},\n"
+                           "\"arcs\": [[[0, 0], [1, 2]]]}");
+    refuse("one.json", FROE_E_FORMAT, "arc '1', and there is 1 of them.");
+}
+
+static void arcs_that_exist_are_read(void **state) {
+    (void)state;
+    static const char *const geometries[] = {
+        "{\"type\": \"LineString\", \"arcs\": [-1, -2]}",
+        "{\"type\": \"MultiLineString\", \"arcs\": [[0], [ 1 ]]}",
+        "{\"type\": \"Polygon\", \"arcs\": [[1]], \"properties\": {\"arcs\": [7]}}",
+        "{\"type\": \"Polygon\", \"arcs\": [[1]], \"properties\": {\"name\": \"caf\xe9\"}}", /* which is no JSON */
+        "{\"type\": \"Point\", \"coordinates\": [3, 3], \"arcs\": [7]}",
+        "{\"type\": \"Polygon\"}",
+        "{\"other\": 1}",
+    };
+    for (size_t i = 0; i < sizeof geometries / sizeof *geometries; i++) {
+        write_topology("t.json", geometries[i]);
+        froe_scene *scene = read_scene("t.json", NULL);
+        assert_true(froe_scene_object_count(scene) > 0);
+        froe_scene_free(scene);
+    }
+}
+
+static void archives_are_looked_into(void **state) {
+    (void)state;
+    static const char text[] =
+        "{\"type\": \"Topology\", \"objects\": {\"b\": {\"type\": \"LineString\", \"arcs\": [1]}},\n"
+        "\"arcs\": [[[0, 0], [1, 2]]]}";
+    VSILFILE *file = VSIFOpenL("/vsigzip/t.json.gz", "wb");
+    assert_int_equal(VSIFWriteL(text, 1, sizeof text - 1, file), sizeof text - 1);
+    assert_int_equal(VSIFCloseL(file), 0);
+    refuse("t.json.gz", FROE_E_FORMAT, "arc '1', and there is 1 of them.");
+}
+
+static void memory_may_end_in_topojson(void **state) {
+    (void)state;
+    write_topology("t.json", "{\"type\": \"Polygon\", \"arcs\": [[1]]}");
+    test_memory_each(read_with_memory, "t.json");
+}
+
+/* ------------------------------------------------------------------------- OSM -- */
+
+static void write_osm(const char *path, const char *ways) {
+    char text[2048];
+    assert_true((size_t)snprintf(text, sizeof text,
+                                 "<?xml version=\"1.0\"?>\n<osm version=\"0.6\">\n"
+                                 "<node id=\"1\" lat=\"5\" lon=\"5\"/><node id=\"2\" lat=\"5\" lon=\"6\"/>\n"
+                                 "<node id=\"3\" lat=\"6\" lon=\"6\"/>\n%s\n</osm>\n",
+                                 ways) < sizeof text);
+    write_text(path, text);
+}
+
+#define ROAD "<tag k=\"highway\" v=\"residential\"/></way>"
+#define RING "<way id=\"11\"><nd ref=\"1\"/><nd ref=\"2\"/><nd ref=\"3\"/><nd ref=\"1\"/></way>"
+#define FOREST "<tag k=\"type\" v=\"multipolygon\"/><tag k=\"landuse\" v=\"forest\"/></relation>"
+
+static void ways_without_all_their_nodes_are_refused(void **state) {
+    (void)state;
+    write_osm("cut.osm", "<way id=\"10\"><nd ref=\"1\"/><nd ref=\"99\"/><nd ref=\"2\"/>" ROAD);
+    refuse("cut.osm", FROE_E_FORMAT, "cut.osm: OGR reports 'OSM: For way 10, got only 2 nodes instead of 3'.");
+    write_osm("cut.osm", "<way id=\"10\"><nd ref=\"98\"/><nd ref=\"2\"/>" ROAD
+                         "<way id=\"11\"><nd ref=\"97\"/><nd ref=\"2\"/>" ROAD);
+    refuse("cut.osm", FROE_E_FORMAT, "OSM: Way 10 with 1 nodes that could be found. Discarding it'.");
+}
+
+static void relations_without_all_their_ways_are_told_of(void **state) {
+    (void)state;
+    froe_read_report report;
+    write_osm("part.osm", "<way id=\"10\"><nd ref=\"1\"/><nd ref=\"2\"/>" ROAD RING
+                          "<relation id=\"20\"><member type=\"way\" ref=\"11\" role=\"outer\"/>" FOREST
+                          "<relation id=\"21\"><member type=\"way\" ref=\"77\" role=\"outer\"/>" FOREST
+                          "<relation id=\"22\"><member type=\"way\" ref=\"78\" role=\"outer\"/>" FOREST);
+    froe_scene *scene = read_scene("part.osm", &report);
+    assert_int_equal(froe_scene_object_count(scene), 4); /* a line and a ring */
+    assert_string_equal(report.sorts_left, "incomplete relations");
+    froe_scene_free(scene);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(meshes_that_nothing_shows_do_not_hide_wrong_indices),
+        cmocka_unit_test(escaped_names_of_buffers_are_found),
+        cmocka_unit_test(memory_may_end_in_gltf),
+        cmocka_unit_test(arcs_that_do_not_exist_are_refused),
+        cmocka_unit_test(arcs_that_exist_are_read),
+        cmocka_unit_test(archives_are_looked_into),
+        cmocka_unit_test(memory_may_end_in_topojson),
+        cmocka_unit_test(ways_without_all_their_nodes_are_refused),
+        cmocka_unit_test(relations_without_all_their_ways_are_told_of),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
