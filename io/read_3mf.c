@@ -7,6 +7,7 @@
  * Colours come from base materials and from colour groups (3MF Materials and Properties Extension). Coordinates are
  * decimal numbers, each rounded once. GDAL opens the archive, and expat parses its parts. Components are followed with
  * an explicit stack. */
+#include "check/check.h"
 #include "formats/input/colour.h"
 #include "formats/input/paint.h"
 #include "heard.h"
@@ -452,7 +453,6 @@ static froe_status place_objects(archive *a) {
 
 static froe_status load_parts(archive *a) {
     const size_t relationships = 1; /* in `text`; they are part 0 until the root is known */
-    a->status = formats_sink_open(a->sink, 3);
     if (!array_append(&a->sink->alloc, &a->text, "\0_rels/.rels", sizeof "\0_rels/.rels") ||
         !array_push(&a->sink->alloc, &a->parts, relationships))
         return support_fail_memory(a->sink->diag);
@@ -477,8 +477,10 @@ froe_status io_read_3mf(const formats_source *source, formats_sink *sink) {
     formats_report_format(sink, "float64", "3MF");
     sink->unit = "triangle";
     sink->report.layers = 1;
+    froe_status status = formats_sink_open(sink, 3);
+    if (!status) status = io_stored_check(source, sink);
     io_gdal_begin(&a.heard);
-    froe_status status = load_parts(&a);
+    if (!status) status = load_parts(&a);
     io_gdal_end(&a.heard);
     if (!status) status = place_objects(&a);
     if (!status) status = formats_sink_end_feature(sink);

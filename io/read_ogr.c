@@ -335,8 +335,9 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
     sink->unit = "feature";
     froe_status status = formats_sink_open(sink, 2);
     if (status) return status;
+    if (!strncmp(name, "/vsizip/", 8) && !source->beyond) status = io_stored_check(source, sink);
     io_gdal_begin(&m.heard);
-    status = refuse_virtual(&m, name);
+    if (!status) status = refuse_virtual(&m, name);
     if (!status) {
         const char *const *options = !strcmp(extension.text, "gml") ? no_notes
                                      : !is_table(name, extension)   ? NULL

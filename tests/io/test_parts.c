@@ -1,5 +1,6 @@
-/* Files of which parts are missing, damaged, or elsewhere: meshes and nodes of glTF that do not belong to the scene, and
- * buffers in other files, whose names are escaped (RFC 3986, 2.1); arcs of TopoJSON and nodes of OSM that do not exist. */
+/* Files of which parts are missing, damaged, or elsewhere: meshes and nodes of glTF that do not belong to the scene,
+ * buffers in other files, whose names are escaped (RFC 3986, 2.1); arcs of TopoJSON and nodes of OSM that do not exist;
+ * what is stored in archives. */
 #include "support.h"
 #include <cpl_vsi.h>
 #include <sys/stat.h>
@@ -238,6 +239,163 @@ static void relations_without_all_their_ways_are_told_of(void **state) {
     froe_scene_free(scene);
 }
 
+/* ------------------------------------------------------------- stored archives -- */
+
+static const char relations[] = "<Relationships xmlns=\"r\"><Relationship Target=\"/m\" Id=\"a\" "
+                                "Type=\"http://x/3dmodel\"/></Relationships>";
+static const char mesh[] = "<model xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\"><resources>"
+                           "<object id=\"1\"><mesh><vertices><vertex x=\"0\" y=\"0\" z=\"0\"/>"
+                           "<vertex x=\"1\" y=\"0\" z=\"0\"/><vertex x=\"0\" y=\"1\" z=\"0\"/></vertices>"
+                           "<triangles><triangle v1=\"0\" v2=\"1\" v3=\"2\"/></triangles></mesh></object></resources>"
+                           "<build><item objectid=\"1\"/></build></model>";
+
+static size_t crc_of(const char *bytes, size_t count) {
+    size_t sum = UINT32_MAX;
+    for (size_t i = 0; i < count; i++) {
+        sum ^= (unsigned char)bytes[i];
+        for (int bit = 0; bit < 8; bit++) sum = sum >> 1 ^ (sum & 1 ? 0xedb88320 : 0);
+    }
+    return sum ^ UINT32_MAX;
+}
+
+static void put(char **to, size_t value, int bytes) {
+    for (int i = 0; i < bytes; i++) *(*to)++ = (char)(value >> 8 * i);
+}
+
+typedef struct archive {
+    char bytes[1 << 21], directory[512];
+    char *end, *entry; /* of both so far */
+    size_t count;
+} archive;
+
+static void begin_archive(archive *a) {
+    a->count = 0;
+    a->end = a->bytes, a->entry = a->directory;
+}
+
+/* Stores a file, without compression. */
+static void store(archive *a, const char *name, const char *text, size_t size) {
+    const size_t at = (size_t)(a->end - a->bytes), length = strlen(name), sum = crc_of(text, size);
+    put(&a->end, 0x04034b50, 4), put(&a->end, 10, 2), put(&a->end, 0, 8), put(&a->end, sum, 4);
+    put(&a->end, size, 4), put(&a->end, size, 4), put(&a->end, length, 2), put(&a->end, 0, 2);
+    memcpy(a->end, name, length), a->end += length;
+    memcpy(a->end, text, size), a->end += size;
+    put(&a->entry, 0x02014b50, 4), put(&a->entry, 10, 2), put(&a->entry, 10, 2), put(&a->entry, 0, 8);
+    put(&a->entry, sum, 4), put(&a->entry, size, 4), put(&a->entry, size, 4), put(&a->entry, length, 2);
+    put(&a->entry, 0, 12), put(&a->entry, at, 4);
+    memcpy(a->entry, name, length), a->entry += length;
+    a->count++;
+}
+
+static void write_archive(archive *a, const char *path) {
+    const size_t at = (size_t)(a->end - a->bytes), size = (size_t)(a->entry - a->directory);
+    memcpy(a->end, a->directory, size), a->end += size;
+    put(&a->end, 0x06054b50, 4), put(&a->end, 0, 4), put(&a->end, a->count, 2), put(&a->end, a->count, 2);
+    put(&a->end, size, 4), put(&a->end, at, 4), put(&a->end, 0, 2);
+    write_bytes(path, a->bytes, (size_t)(a->end - a->bytes));
+}
+
+static void store_model(archive *a) {
+    begin_archive(a);
+    store(a, "_rels/.rels", relations, sizeof relations - 1);
+    store(a, "m", mesh, sizeof mesh - 1);
+}
+
+static void stored_files_have_their_checksums(void **state) {
+    (void)state;
+    static archive a;
+    static const char table[] = "x,y\n1,2\n", long_name[] =
+                                                  "a-name-of-more-than-eighty-letters-that-says-nothing-of-what-"
+                                                  "is-in-the-file-but-that-it-is-a-table.csv";
+    store_model(&a);
+    write_archive(&a, "stored.3mf");
+    expect_objects("stored.3mf", 1);
+    store_model(&a);
+    a.end[strstr(mesh, "\"1\" y=") + 1 - mesh - (ptrdiff_t)(sizeof mesh - 1)] = '7';
+    write_archive(&a, "stored.3mf");
+    refuse("stored.3mf", FROE_E_FORMAT, "stored.3mf: 'm' is damaged in the archive.");
+    for (int good = 0; good < 2; good++) {
+        begin_archive(&a);
+        store(&a, long_name, table, sizeof table - 1);
+        if (!good) a.end[-2] = '3';
+        write_archive(&a, "stored.zip");
+        if (good)
+            expect_objects("stored.zip", 1);
+        else
+            refuse("stored.zip", FROE_E_FORMAT, "is-in-the-file-but-' is damaged in the archive.");
+    }
+}
+
+static bool cancel(void *user, double done) {
+    (void)user, (void)done;
+    return false;
+}
+
+/* It is looked at in pieces. */
+static void large_files_may_be_stored(void **state) {
+    (void)state;
+    enum { ROWS = 1 << 18 };
+    static archive a;
+    static char table[4 + 5 * ROWS];
+    memcpy(table, "x,y\n", 4);
+    for (int i = 0; i < ROWS; i++) memcpy(table + 4 + 5 * i, "1,23\n", 5);
+    for (int good = 0; good < 2; good++) {
+        begin_archive(&a);
+        store(&a, "t.csv", table, sizeof table);
+        if (!good) a.end[-2] = '4';
+        write_archive(&a, "large.zip");
+        if (good)
+            expect_objects("large.zip", ROWS);
+        else
+            refuse("large.zip", FROE_E_FORMAT, "large.zip: 't.csv' is damaged in the archive.");
+    }
+    froe_read_options o = froe_read_defaults();
+    froe_scene *scene = NULL;
+    o.progress = cancel;
+    assert_int_equal(froe_read("large.zip", &o, &scene, NULL, NULL), FROE_E_CANCELLED);
+}
+
+/* There is a scene, or a sentence. */
+static void read_any(const char *path) {
+    froe_scene *scene = NULL;
+    froe_diagnostic why = {.message = ""};
+    const froe_status status = froe_read(path, NULL, &scene, NULL, &why);
+    if (!status == !scene || (status && !*why.message)) fail_msg("%s: status %d: %s", path, status, why.message);
+    if (status) assert_null(strstr(why.message, "is damaged in the archive"));
+    froe_scene_free(scene);
+}
+
+/* What the check does not know is left to the readers. */
+static void archives_of_other_kinds_are_left_to_their_readers(void **state) {
+    (void)state;
+    static archive a;
+    static const struct {
+        size_t place; /* in the first entry of the directory */
+        unsigned char bytes[4];
+    } changes[] = {{0, "QK\1\2"},        {8, {1, 0, 8, 0}}, {8, {1}},          {10, {8}}, {20, "\xff\xff\xff\xff"},
+                   {28, {127, 1, 0, 0}}, {42, {1}},         {42, {0, 0, 1, 0}}};
+    for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
+        store_model(&a);
+        memcpy(a.directory + changes[i].place, changes[i].bytes, 4);
+        write_archive(&a, "other.3mf");
+        read_any("other.3mf");
+    }
+    write_text("other.3mf", "PK\3\4");
+    read_any("other.3mf");
+    write_text("other.3mf", "PK\3\4 and no directory behind it");
+    read_any("other.3mf");
+    write_text("other.zae", "PK\3\4 and no directory behind it");
+    read_any("other.zae");
+}
+
+static void memory_may_end_in_archives(void **state) {
+    (void)state;
+    static archive a;
+    store_model(&a);
+    write_archive(&a, "memory.3mf");
+    test_memory_each(read_with_memory, "memory.3mf");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(meshes_that_nothing_shows_do_not_hide_wrong_indices),
@@ -249,6 +407,10 @@ int main(void) {
         cmocka_unit_test(memory_may_end_in_topojson),
         cmocka_unit_test(ways_without_all_their_nodes_are_refused),
         cmocka_unit_test(relations_without_all_their_ways_are_told_of),
+        cmocka_unit_test(stored_files_have_their_checksums),
+        cmocka_unit_test(large_files_may_be_stored),
+        cmocka_unit_test(archives_of_other_kinds_are_left_to_their_readers),
+        cmocka_unit_test(memory_may_end_in_archives),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
