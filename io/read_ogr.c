@@ -211,6 +211,21 @@ static froe_status check_rows(const map *m, const char *index, const char *table
                         support_plural(rows), (unsigned long long)shapes);
 }
 
+/* GDAL reads as many rows of the table of a MIF file (.mid) as that has objects; a line is a row. */
+static froe_status check_lines(const map *m, const char *table) {
+    VSILFILE *in = VSIFOpenL(table, "rb");
+    size_t rows = 0;
+    if (!in) return FROE_OK; /* one way: GDAL has read it just now */
+    for (const char *line; (line = CPLReadLineL(in));) rows += line[strspn(line, " \t\r")] != '\0';
+    VSIFCloseL(in);
+    const size_t objects = (size_t)OGR_L_GetFeatureCount(GDALDatasetGetLayer(m->data, 0), TRUE);
+    if (rows <= objects) return FROE_OK;
+    return support_fail(m->sink->diag, FROE_E_FORMAT,
+                        "%.60s: The table '%.60s' has %zu rows, and there %s %zu object%s.",
+                        support_short(m->source->path), support_short(table), rows, objects == 1 ? "is" : "are",
+                        objects, support_plural(objects));
+}
+
 static froe_status check_tables(const map *m) {
     char **files = GDALGetFileList(m->data);
     froe_status status = FROE_OK;
@@ -219,6 +234,7 @@ static froe_status check_tables(const map *m) {
         for (char **table = files; *table && !status && support_equal_nocase(*index + stem, "shx"); table++)
             if (!strncmp(*table, *index, stem) && support_equal_nocase(*table + stem, "dbf"))
                 status = check_rows(m, *index, *table);
+        if (!status && support_equal_nocase(*index + stem, "mid")) status = check_lines(m, *index);
     }
     CSLDestroy(files);
     return status;
@@ -351,8 +367,11 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
         m.is_table = !strcmp(sink->report.format, "CSV");
         m.shapes.cuts = strstr(sink->report.format, "JSON") != NULL;
         m.crs.promise = io_crs_promise_of(m.data);
-        if (!strcmp(sink->report.format, "ESRI Shapefile")) status = check_tables(&m);
-        if (!strcmp(sink->report.format, "TopoJSON")) status = io_topojson_check(GDALGetDescription(m.data), sink);
+        if (!source->beyond && !m.container && !strcmp(extension.text, "mif")) status = io_mif_check(source, sink);
+        if (!status && (!strcmp(sink->report.format, "ESRI Shapefile") || !strcmp(sink->report.format, "MapInfo File")))
+            status = check_tables(&m);
+        if (!status && !strcmp(sink->report.format, "TopoJSON"))
+            status = io_topojson_check(GDALGetDescription(m.data), sink);
         if (!status) status = add_layers(&m);
     }
     io_crs_free(&m.crs);

@@ -121,6 +121,8 @@ bool io_is_collada(const formats_source *source);
 /** Before the import: FROE_E_UNSUPPORTED or FROE_E_FORMAT where a COLLADA file has what assimp passes over in silence.
  * Geometries that are no meshes are counted in the report. */
 froe_status io_collada_check(const formats_source *source, formats_sink *sink);
+/** FROE_E_FORMAT where lines and regions of a MIF file have other points than they count. */
+froe_status io_mif_check(const formats_source *source, formats_sink *sink);
 /** FROE_E_FORMAT where a file that is stored in a zip archive, without compression, is not what it was. */
 froe_status io_stored_check(const formats_source *source, formats_sink *sink);
 /** FROE_E_FORMAT where geometries of a TopoJSON file name arcs that do not exist. The path may be one in the virtual

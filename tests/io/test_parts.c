@@ -239,6 +239,79 @@ static void relations_without_all_their_ways_are_told_of(void **state) {
     froe_scene_free(scene);
 }
 
+/* --------------------------------------------------------------------- MapInfo -- */
+
+static const char mif[] = "Version 300\nCharset \"Neutral\"\nDelimiter \",\"\nColumns 1\n  id Integer\nData\n\n"
+                          "Pline 3\n1 1\n2 -2.5\n3 +3\n    Pen (1,2,0)\n"
+                          "PLINE Multiple 2\n  2\n1 1\n2 2\n  2\n3 3\n4 4\n"
+                          "Region 1\n  4\n0 0\n4 0\n4 4\n0 0\n    Brush (1,0)\n"
+                          "Multipoint 2\n.5 9\n9 8\n"
+                          "Arc 0 0 2 2\n0 90\n"
+                          "Point 9 9\n";
+
+static void write_mif(const char *word, const char *other, const char *rows) {
+    char text[sizeof mif + 64];
+    const char *at = strstr(mif, word);
+    assert_non_null(at);
+    snprintf(text, sizeof text, "%.*s%s%s", (int)(at - mif), mif, other, at + strlen(word));
+    write_text("m.mif", text);
+    write_text("m.mid", rows);
+}
+
+static void points_of_mapinfo_fit_their_counts(void **state) {
+    (void)state;
+    static const char six[] = "1\n2\n3\n4\n5\n6\n";
+    static const struct {
+        const char *word, *other;
+        int line; /* 0: it is read */
+        const char *sentence;
+    } changes[] = {
+        {"Pline 3", "Pline 4", 12, "A point is missing, or it is not two numbers."},
+        {"2 -2.5", "2 x", 10, "A point is missing, or it is not two numbers."},
+        {"2 -2.5", "2 2x", 10, "A point is missing, or it is not two numbers."},
+        {"2 -2.5", "x -2.5", 10, "A point is missing, or it is not two numbers."},
+        {"Pline 3", "Pline 2", 11, "There are more points than were counted."},
+        {"Multiple 2", "Multiple 3", 20, "A count of points is missing."},
+        {"Multiple 2", "Multiple 1", 17, "There are more points than were counted."},
+        {"9 8\nArc 0 0 2 2\n0 90\nPoint 9 9\n", "", 28, "The file ends before all is there that was counted."},
+        {"Multipoint 2\n.5 9\n9 8\nArc 0 0 2 2\n0 90\nPoint 9 9\n", "Region 2\n1\n1 1\n", 29,
+         "The file ends before all is there that was counted."},
+        {"Arc 0 0 2 2\n0 90\nPoint 9 9\n", "  ", 0, NULL},
+        {"Pline 3", "Pline 3 ", 0, NULL},
+        {"Pline 3", "Pline\n3", 0, NULL},
+        {"Brush", "Regional", 0, NULL},
+        {"Pline 3", "pline 3", 0, NULL},
+        {"Multiple 2\n  2", "Multiple 2 2", 0, NULL},
+        {"4 0", "4, 0", 0, NULL},
+        {"Point 9 9\n", "Point 9 9\n  \n", 0, NULL},
+    };
+    for (size_t i = 0; i < sizeof changes / sizeof *changes; i++) {
+        char sentence[120];
+        snprintf(sentence, sizeof sentence, "m.mif: line %d: %s", changes[i].line, changes[i].sentence);
+        const size_t rows = i >= 7 && i <= 9 ? 4 : 6;
+        char table[16];
+        snprintf(table, sizeof table, "%.*s", (int)(2 * rows), six);
+        write_mif(changes[i].word, changes[i].other, table);
+        if (changes[i].line)
+            refuse("m.mif", FROE_E_FORMAT, sentence);
+        else
+            froe_scene_free(read_scene("m.mif", NULL));
+    }
+    write_mif("Data", "Data", six);
+    test_memory_each(read_with_memory, "m.mif");
+    froe_scene_free(read_scene("/vsisubfile/0_10000,m.mif", NULL));
+}
+
+static void tables_of_mapinfo_have_a_row_for_each_object(void **state) {
+    (void)state;
+    write_mif("Data", "Data", "1\n2\n3\n4\n5\n6\n  \n");
+    froe_scene_free(read_scene("m.mif", NULL));
+    write_mif("Data", "Data", "1\n2\n3\n4\n5\n6\n7");
+    refuse("m.mif", FROE_E_FORMAT, "m.mif: The table 'm.mid' has 7 rows, and there are 6 objects.");
+    write_text("m.mif", "Version 300\nColumns 1\n  id Integer\nData\nPoint 1 1\n");
+    refuse("m.mif", FROE_E_FORMAT, "m.mif: The table 'm.mid' has 7 rows, and there is 1 object.");
+}
+
 /* ------------------------------------------------------------- stored archives -- */
 
 static const char relations[] = "<Relationships xmlns=\"r\"><Relationship Target=\"/m\" Id=\"a\" "
@@ -407,6 +480,8 @@ int main(void) {
         cmocka_unit_test(memory_may_end_in_topojson),
         cmocka_unit_test(ways_without_all_their_nodes_are_refused),
         cmocka_unit_test(relations_without_all_their_ways_are_told_of),
+        cmocka_unit_test(points_of_mapinfo_fit_their_counts),
+        cmocka_unit_test(tables_of_mapinfo_have_a_row_for_each_object),
         cmocka_unit_test(stored_files_have_their_checksums),
         cmocka_unit_test(large_files_may_be_stored),
         cmocka_unit_test(archives_of_other_kinds_are_left_to_their_readers),

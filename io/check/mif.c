@@ -1,0 +1,96 @@
+/* mif.c: whether lines and regions of a MIF file (of MapInfo) have as many points as they count. GDAL takes what is no
+ * number for 0, and leaves out what is more.
+ *
+ *     Data
+ *     Pline 2         or Pline Multiple 2, Region 2: as many parts, each a count and its points
+ *     1 2.5
+ *     3 4
+ *         Pen (1,2,0)
+ */
+#include "check/check.h"
+#include "support/decimal/decimal.h"
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct mif_check {
+    size_t parts, points; /* still to come */
+    bool listed;          /* no other numbers belong to the object */
+} mif_check;
+
+/* What stands behind a word; NULL: it is another one. */
+static const char *behind(const char *line, const char *word) {
+    for (; *word; line++, word++)
+        if ((*line | 32) != *word) return NULL; /* in either case */
+    return strchr(" \t\r\n", *line) ? line + strspn(line, " \t") : NULL;
+}
+
+static bool is_number(const char *at) {
+    return *at >= '0' && *at <= '9';
+}
+
+static bool is_point(const char *at) {
+    for (int i = 0; i < 2; i++) {
+        char *end;
+        support_decimal(at, &end);
+        if (end == at || !strchr(" \t,\r\n", *end)) return false;
+        at = end + strspn(end, " \t,");
+    }
+    return true;
+}
+
+/* The line of a word: is it of an object with points? */
+static void look_at_word(mif_check *c, const char *line) {
+    const char *next, *multiple = NULL;
+    c->listed = true;
+    if ((next = behind(line, "multipoint"))) {
+        c->points = strtoul(next, NULL, 10);
+    } else if ((next = behind(line, "region"))) {
+        c->parts = strtoul(next, NULL, 10);
+    } else if ((next = behind(line, "pline"))) {
+        char *end = (char *)next;
+        if ((multiple = behind(next, "multiple"))) c->parts = strtoul(multiple, &end, 10);
+        end += strspn(end, " \t");
+        if (is_number(end)) /* the first count stands here */
+            c->points = strtoul(end, NULL, 10), c->parts -= c->parts > 0;
+        else if (!multiple)
+            c->parts = 1;
+    } else {
+        c->listed = false;
+    }
+}
+
+static const char *look_at_line(mif_check *c, const char *line) {
+    if (c->points) return is_point(line) ? c->points--, NULL : "A point is missing, or it is not two numbers.";
+    if (c->parts) {
+        c->parts--, c->points = strtoul(line, NULL, 10);
+        return is_number(line) ? NULL : "A count of points is missing.";
+    }
+    if (c->listed && *line && strchr("+-.0123456789", *line)) return "There are more points than were counted.";
+    look_at_word(c, line);
+    return NULL;
+}
+
+static const char *find_fault(const char *text, size_t *line) {
+    mif_check c = {.points = 0};
+    bool data = false;
+    *line = 0;
+    for (const char *at = text, *fault; *at; at += *at == '\n') {
+        ++*line;
+        at += strspn(at, " \t\r");
+        fault = data && *at != '\n' ? look_at_line(&c, at) : NULL;
+        if (fault) return fault;
+        data = data || behind(at, "data");
+        at += strcspn(at, "\n");
+    }
+    return c.points || c.parts ? "The file ends before all is there that was counted." : NULL;
+}
+
+froe_status io_mif_check(const formats_source *source, formats_sink *sink) {
+    formats_text text = {0};
+    const froe_status status = formats_load(source, sink, true, &text);
+    size_t line;
+    const char *sentence = status ? NULL : find_fault(text.data, &line);
+    array_free(&sink->alloc, &text);
+    if (!sentence) return status;
+    return support_fail(sink->diag, FROE_E_FORMAT, "%s: line %zu: %s", support_short(source->path), line, sentence);
+}
