@@ -23,7 +23,7 @@ typedef struct ac_check {
     froe_status status;                            /* of the fault */
 } ac_check;
 
-static bool is_word(const char *line, const char *word) {
+static bool begins_with(const char *line, const char *word) {
     const size_t length = strlen(word);
     return !strncmp(line, word, length) && strchr(" \t\r\n", line[length]);
 }
@@ -69,19 +69,19 @@ static void look_at_surface(ac_check *c, const char *at) {
     c->lined = c->lined || sort == 1 || sort == 2;
 }
 
-static const char *look_at_word(ac_check *c, const char *line) {
+static const char *look_at_ac_word(ac_check *c, const char *line) {
     static const double still[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, origin[3] = {0};
     static const char *const counting[] = {"numvert", "numsurf", "refs", "kids", "data"};
     enum { POINTS, SURFACES, CORNERS, KIDS, BYTES };
     size_t count = 0, kind = 0;
     if (c->points || c->corners) return "There are fewer lines of numbers than were counted.";
-    while (kind <= BYTES && !is_word(line, counting[kind])) kind++;
+    while (kind <= BYTES && !begins_with(line, counting[kind])) kind++;
     if (kind <= BYTES) count = whole_number(line + strlen(counting[kind]));
     if (count == SIZE_MAX) return "A count is no whole number.";
-    if (is_word(line, "OBJECT")) *c = (ac_check){c->sink, .kids = c->kids - (c->kids > 0), .status = c->status};
-    if (is_word(line, "loc")) c->moved = differ(line + 3, origin, 3);
-    if (is_word(line, "rot")) c->turned = differ(line + 3, still, 9);
-    if (is_word(line, "SURF")) look_at_surface(c, line + 4);
+    if (begins_with(line, "OBJECT")) *c = (ac_check){c->sink, .kids = c->kids - (c->kids > 0), .status = c->status};
+    if (begins_with(line, "loc")) c->moved = differ(line + 3, origin, 3);
+    if (begins_with(line, "rot")) c->turned = differ(line + 3, still, 9);
+    if (begins_with(line, "SURF")) look_at_surface(c, line + 4);
     if (kind == POINTS) c->points = count, c->vertices += count;
     if (kind == SURFACES) c->surfaces = count;
     if (kind == CORNERS && !c->surfaces--) return "There are more surfaces than were counted.";
@@ -90,13 +90,13 @@ static const char *look_at_word(ac_check *c, const char *line) {
     return kind == KIDS ? look_at_kids(c, count) : NULL;
 }
 
-static const char *find_fault(const char *text, ac_check *c, size_t *line) {
+static const char *find_ac_fault(const char *text, ac_check *c, size_t *line) {
     *line = 0;
     for (const char *at = text; *at;) {
         ++*line;
         at += strspn(at, " \t\r");
         const bool none = !*at || *at == '\n', numbers = !none && strchr("+-0123456789", *at);
-        const char *fault = none ? NULL : numbers ? look_at_numbers(c, at) : look_at_word(c, at);
+        const char *fault = none ? NULL : numbers ? look_at_numbers(c, at) : look_at_ac_word(c, at);
         if (fault) return fault;
         at += strcspn(at, "\n");
         at += *at == '\n';
@@ -110,7 +110,7 @@ froe_status io_ac_check(const formats_source *source, formats_sink *sink) {
     const froe_status status = formats_load(source, sink, true, &text);
     ac_check c = {sink, .status = FROE_E_FORMAT};
     size_t line;
-    const char *sentence = status ? NULL : find_fault(text.data, &c, &line);
+    const char *sentence = status ? NULL : find_ac_fault(text.data, &c, &line);
     array_free(&sink->alloc, &text);
     if (!sentence) return status;
     return support_fail(sink->diag, c.status, "%s: line %zu: %s", support_short(source->path), line, sentence);

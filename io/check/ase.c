@@ -77,7 +77,7 @@ static const char *look_at_mesh(const ase_check *c) {
     return fault;
 }
 
-static const char *look_at_word(ase_check *c, const char *at) {
+static const char *look_at_ase_word(ase_check *c, const char *at) {
     static const char *const counts[] = {"MESH_NUMVERTEX", "MESH_NUMTVERTEX", "MESH_NUMCVERTEX"};
     static const char *const faces[] = {"MESH_FACE", "MESH_TFACE", "MESH_CFACE"};
     static const char order[] = "Vertices and faces are not numbered from 0 on.";
@@ -110,7 +110,7 @@ froe_status io_ase_check(const formats_source *source, formats_sink *sink) {
     const char *sentence = NULL;
     for (const char *at = text.data; !status && !sentence && *at; at++) {
         line += *at == '\n';
-        if (*at == '*') sentence = look_at_word(&c, at + 1);
+        if (*at == '*') sentence = look_at_ase_word(&c, at + 1);
     }
     if (!status && !sentence) sentence = look_at_mesh(&c);
     array_free(&sink->alloc, &text);

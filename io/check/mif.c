@@ -39,7 +39,7 @@ static bool is_point(const char *at) {
 }
 
 /* The line of a word: is it of an object with points? */
-static void look_at_word(mif_check *c, const char *line) {
+static void look_at_object(mif_check *c, const char *line) {
     const char *next, *multiple = NULL;
     c->listed = true;
     if ((next = behind(line, "multipoint"))) {
@@ -66,11 +66,11 @@ static const char *look_at_line(mif_check *c, const char *line) {
         return is_number(line) ? NULL : "A count of points is missing.";
     }
     if (c->listed && *line && strchr("+-.0123456789", *line)) return "There are more points than were counted.";
-    look_at_word(c, line);
+    look_at_object(c, line);
     return NULL;
 }
 
-static const char *find_fault(const char *text, size_t *line) {
+static const char *find_mif_fault(const char *text, size_t *line) {
     mif_check c = {.points = 0};
     bool data = false;
     *line = 0;
@@ -89,7 +89,7 @@ froe_status io_mif_check(const formats_source *source, formats_sink *sink) {
     formats_text text = {0};
     const froe_status status = formats_load(source, sink, true, &text);
     size_t line;
-    const char *sentence = status ? NULL : find_fault(text.data, &line);
+    const char *sentence = status ? NULL : find_mif_fault(text.data, &line);
     array_free(&sink->alloc, &text);
     if (!sentence) return status;
     return support_fail(sink->diag, FROE_E_FORMAT, "%s: line %zu: %s", support_short(source->path), line, sentence);

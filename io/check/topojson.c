@@ -17,7 +17,7 @@ static bool has_arcs(const formats_json *value) {
 }
 
 /* The first value in the arcs of a geometry that is neither an array nor an index of an arc; NULL: there is none. */
-static const formats_json *find_fault(const formats_json *geometry, double count) {
+static const formats_json *find_no_arc(const formats_json *geometry, double count) {
     const formats_json *arcs = formats_json_get(geometry, "arcs");
     for (size_t i = 0; arcs && i < arcs->span; i++) {
         const double number = arcs[i].number;
@@ -35,7 +35,7 @@ static froe_status check_objects(formats_sink *sink, const formats_json *root) {
     const size_t count = formats_json_size(formats_json_get(root, "arcs"));
     for (size_t i = 0; i < objects->count; i++, name = formats_json_next(name + 1))
         for (const formats_json *value = name + 1; value < formats_json_next(name + 1); value++) {
-            const formats_json *fault = has_arcs(value) ? find_fault(value, (double)count) : NULL;
+            const formats_json *fault = has_arcs(value) ? find_no_arc(value, (double)count) : NULL;
             if (!fault) continue;
             return support_fail(sink->diag, FROE_E_FORMAT,
                                 "%s: object '%.60s': A geometry names arc '%.*s', and there %s %zu of them.",

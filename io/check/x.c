@@ -22,7 +22,7 @@ typedef struct x_check {
     size_t number; /* of a whole number; SIZE_MAX: it is none */
 } x_check;
 
-static x_kind next(x_check *x) {
+static x_kind next_token(x_check *x) {
     static const char between[] = " \t\r\n\v\f,;", ending[] = " \t\r\n\v\f,;{}";
     for (x->at += strspn(x->at, between); *x->at == '#' || !strncmp(x->at, "//", 2); x->at += strspn(x->at, between))
         x->at += strcspn(x->at, "\n");
@@ -37,20 +37,20 @@ static x_kind next(x_check *x) {
     return digits || strchr("+-.", *x->word) ? NUMBER : WORD;
 }
 
-static bool is_word(const x_check *x, const char *word) {
+static bool word_is(const x_check *x, const char *word) {
     return x->length == strlen(word) && !strncmp(x->word, word, x->length);
 }
 
 static bool pass_numbers(x_check *x, size_t count) {
     for (; count; count--)
-        if (next(x) != NUMBER) return false;
+        if (next_token(x) != NUMBER) return false;
     return true;
 }
 
 /* A brace, perhaps behind a name. */
 static bool pass_head(x_check *x) {
-    const x_kind kind = next(x);
-    return kind == OPEN || (kind == WORD && next(x) == OPEN);
+    const x_kind kind = next_token(x);
+    return kind == OPEN || (kind == WORD && next_token(x) == OPEN);
 }
 
 static const char *look_at_mesh(x_check *x) {
@@ -78,7 +78,7 @@ static const char *look_at_materials(x_check *x) {
         if (x->number > largest) largest = x->number;
     }
     for (size_t depth = 1; depth;) { /* each material is in braces */
-        const x_kind kind = next(x);
+        const x_kind kind = next_token(x);
         if (kind == END) return NULL;
         given += kind == OPEN && depth == 1;
         depth += (kind == OPEN) - (kind == CLOSE);
@@ -87,17 +87,17 @@ static const char *look_at_materials(x_check *x) {
 }
 
 /* What stands behind a word is its name. */
-static const char *find_fault(x_check *x) {
+static const char *find_x_fault(x_check *x) {
     const char *fault = NULL;
     bool named = false;
-    for (x_kind kind; !fault && (kind = next(x)) != END; named = kind == WORD && !named) {
+    for (x_kind kind; !fault && (kind = next_token(x)) != END; named = kind == WORD && !named) {
         if (kind != WORD || named) continue;
-        if (is_word(x, "template"))
-            while ((kind = next(x)) != CLOSE && kind != END) {
+        if (word_is(x, "template"))
+            while ((kind = next_token(x)) != CLOSE && kind != END) {
             }
-        else if (is_word(x, "Mesh"))
+        else if (word_is(x, "Mesh"))
             fault = look_at_mesh(x), kind = NUMBER;
-        else if (is_word(x, "MeshMaterialList"))
+        else if (word_is(x, "MeshMaterialList"))
             fault = look_at_materials(x), kind = CLOSE;
     }
     return fault;
@@ -107,7 +107,7 @@ froe_status io_x_check(const formats_source *source, formats_sink *sink) {
     formats_text text = {0};
     const froe_status status = formats_load(source, sink, true, &text);
     x_check x = {.at = text.data};
-    const char *sentence = status ? NULL : find_fault(&x);
+    const char *sentence = status ? NULL : find_x_fault(&x);
     size_t line = 1;
     for (const char *at = text.data; sentence && at < x.word; at++) line += *at == '\n';
     array_free(&sink->alloc, &text);
