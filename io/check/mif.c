@@ -79,7 +79,8 @@ static const char *find_mif_fault(const char *text, size_t *line) {
         at += strspn(at, " \t\r");
         fault = data && *at != '\n' ? look_at_line(&c, at) : NULL;
         if (fault) return fault;
-        data = data || behind(at, "data");
+        const char *next = behind(at, "data"); /* a column may be called so, too */
+        data = data || (next && strchr("\r\n", *next));
         at += strcspn(at, "\n");
     }
     return c.points || c.parts ? "The file ends before all is there that was counted." : NULL;

@@ -302,6 +302,13 @@ static void points_of_mapinfo_fit_their_counts(void **state) {
     froe_scene_free(read_scene("/vsisubfile/0_10000,m.mif", NULL));
 }
 
+static void columns_of_mapinfo_have_any_names(void **state) {
+    (void)state;
+    write_text("m.mif", "Version 300\nDelimiter \",\"\nColumns 2\n  data Integer\n  name Integer\nData\nPoint 1 1\n");
+    write_text("m.mid", "1,2\n");
+    expect_objects("m.mif", 1);
+}
+
 static void tables_of_mapinfo_have_a_row_for_each_object(void **state) {
     (void)state;
     write_mif("Data", "Data", "1\n2\n3\n4\n5\n6\n  \n");
@@ -481,6 +488,7 @@ int main(void) {
         cmocka_unit_test(ways_without_all_their_nodes_are_refused),
         cmocka_unit_test(relations_without_all_their_ways_are_told_of),
         cmocka_unit_test(points_of_mapinfo_fit_their_counts),
+        cmocka_unit_test(columns_of_mapinfo_have_any_names),
         cmocka_unit_test(tables_of_mapinfo_have_a_row_for_each_object),
         cmocka_unit_test(stored_files_have_their_checksums),
         cmocka_unit_test(large_files_may_be_stored),
