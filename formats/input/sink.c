@@ -394,7 +394,8 @@ static froe_status add_face(formats_sink *sink, const double *corners, const uin
         status = put_in_sink(sink, FROE_POLYGON, corners, indices, count);
     else if (++sink->report.triangulated, !formats_triangulate(&sink->alloc, corners, count, &triangles))
         status = support_fail_memory(sink->diag);
-    for (const uint32_t *at = triangles.data, *end = at + triangles.count; at != end && !status; at += 3) {
+    for (size_t t = 0; t < triangles.count && !status; t += 3) { /* there may be none */
+        const uint32_t *at = triangles.data + t;
         double triangle[9];
         const uint32_t named[3] = {indices ? indices[at[0]] : 0, indices ? indices[at[1]] : 0,
                                    indices ? indices[at[2]] : 0};
