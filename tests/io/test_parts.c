@@ -339,7 +339,7 @@ static size_t crc_of(const char *bytes, size_t count) {
 }
 
 static void put(char **to, size_t value, int bytes) {
-    for (int i = 0; i < bytes; i++) *(*to)++ = (char)(value >> 8 * i);
+    for (; bytes; bytes--, value >>= 8) *(*to)++ = (char)value;
 }
 
 typedef struct archive {
