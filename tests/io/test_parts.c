@@ -76,6 +76,16 @@ static void meshes_that_nothing_shows_do_not_hide_wrong_indices(void **state) {
     }
 }
 
+/* It would be more than assimp counts. */
+static void counts_have_32_bits(void **state) {
+    (void)state;
+    write_text("count.gltf",
+               "{\"asset\": {\"version\": \"2.0\"}, \"scenes\": [{\"nodes\": [0]}], \"nodes\": [{\"mesh\": 0}],\n"
+               "\"meshes\": [{\"primitives\": [{\"attributes\": {\"POSITION\": 0}}]}],\n"
+               "\"accessors\": [{\"componentType\": 5126, \"type\": \"VEC3\", \"count\": 4294967296}]}\n");
+    refuse("count.gltf", FROE_E_FORMAT, "The reader assimp reports '");
+}
+
 /* A name is first taken without its escapes, and then as it is written. */
 static void escaped_names_of_buffers_are_found(void **state) {
     (void)state;
@@ -479,6 +489,7 @@ static void memory_may_end_in_archives(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(meshes_that_nothing_shows_do_not_hide_wrong_indices),
+        cmocka_unit_test(counts_have_32_bits),
         cmocka_unit_test(escaped_names_of_buffers_are_found),
         cmocka_unit_test(memory_may_end_in_gltf),
         cmocka_unit_test(arcs_that_do_not_exist_are_refused),
