@@ -65,8 +65,10 @@ typedef struct packed_near {
 typedef struct packed_kernels {
     const char *name;
     /** Fragments that report for a window: they meet it, and the segment enters it with them, for p is outside or its
-     * own first end. Exactly one fragment of each segment that meets a convex window does. */
-    void (*window)(const packed_header *block, uint32_t count, const packed_window *window, packed_answers *out);
+     * own first end. Exactly one fragment of each segment that meets a convex window does. With `whole`, whole units
+     * come first: sooner, unless a fragment is near the window and has no end in it. */
+    void (*window)(const packed_header *block, uint32_t count, const packed_window *window, bool whole,
+                   packed_answers *out);
     /** The segments met first by the ray from (x, y), upwards (1) or downwards (-1), that starts in the closed cell or
      * enters it. */
     void (*vertical)(const packed_header *block, uint32_t count, const double *point, int direction,

@@ -11,6 +11,7 @@
 #include <string.h>
 
 enum { ALL_OPEN = 15, MOST_STARTS = 9, MANY_VISITS = 64, USUAL_ANSWERS = 64 };
+enum { SOME_VISITS = 8 };                     /* of a window so large that most fragments near it have an end in it */
 enum { VISITS_AHEAD = 24, OWNERS_AHEAD = 6 }; /* visits whose blocks are on their way from memory */
 enum { FLOCK = 8, FLOCK_VISITS = 48 };      /* windows of which all visits are found before the first is made; visits */
 enum { NODES_AHEAD = 8, TABLE_AHEAD = 16 }; /* windows */
@@ -220,8 +221,9 @@ static inline bool is_good(froe_query *q, const packed_visit *v) {
     return !q->ready || (v->end ? query_owners_are_good(q, v->block, v->end) : query_leaf_is_good(q, v->block));
 }
 
-/* Appends the answers of one visit to query->found. False without memory, or where the visit is not good. */
-static bool answer_window(froe_query *q, const packed_visit *v, const packed_window *w) {
+/* Appends the answers of one visit to query->found; with `whole`, of its leaf by whole units first. False without
+ * memory, or where the visit is not good. */
+static bool answer_window(froe_query *q, const packed_visit *v, const packed_window *w, bool whole) {
     const packed_header *block = packed_block_at(q->tree, v->block);
     packed_work *work = q->packed;
     if (!is_good(q, v)) return false;
@@ -237,7 +239,7 @@ static bool answer_window(froe_query *q, const packed_visit *v, const packed_win
         !array_reserve(&q->alloc, &work->unsure, v->count))
         return false;
     packed_answers out = {q->found.data, q->found.count, work->unsure.data, work->unsure.count};
-    work->kernels->window(block, v->count, w, &out);
+    work->kernels->window(block, v->count, w, whole, &out);
     q->found.count = out.count;
     work->unsure.count = out.unsure_count;
     q->stats.leaves++;
@@ -300,7 +302,7 @@ static bool expect_answers(froe_query *q, size_t from, size_t to) {
 static bool answer_visits(froe_query *q, size_t from, size_t to, const packed_window *w) {
     if (!expect_answers(q, from, to)) return false;
     for (size_t i = from; i < to; i++)
-        if (!answer_window(q, make_visit(q, i), w)) return false;
+        if (!answer_window(q, make_visit(q, i), w, to - from >= SOME_VISITS)) return false;
     return settle_unsure(q, w);
 }
 
@@ -317,7 +319,7 @@ froe_status packed_count_range(froe_query *q, const double *lo, const double *hi
         const packed_visit *v = make_visit(q, i);
         memory = is_good(q, v);
         if (v->end && memory) sum += owners_of(q->tree, v), q->stats.slices++;
-        if (!v->end && memory) memory = answer_window(q, v, &w);
+        if (!v->end && memory) memory = answer_window(q, v, &w, q->packed->visits.count >= SOME_VISITS);
         sum += q->found.count;
         q->found.count = 0;
     }
@@ -331,7 +333,7 @@ froe_status packed_any(froe_query *q, const double *lo, const double *hi) {
     const packed_window w = window_of(lo, hi);
     bool memory = collect_alone(q, &w);
     for (size_t i = 0; i < q->packed->visits.count && memory && !q->found.count; i++) {
-        memory = answer_window(q, make_visit(q, i), &w);
+        memory = answer_window(q, make_visit(q, i), &w, false);
         if (memory) decide_unsure(q, &w);
     }
     return memory ? FROE_OK : FROE_E_MEMORY;
