@@ -20,8 +20,6 @@ typedef froe_status io_arrange_fn(void *user, const formats_source *source, form
 /** As io_read_assimp(), with such a function in between. The list is the caller's; nodes are gone afterwards. */
 froe_status io_read_arranged(const formats_source *source, formats_sink *sink, io_nodes *nodes, io_arrange_fn *arrange,
                              void *user);
-/** What assimp calls the format of a scene; "": nothing. */
-const char *io_assimp_format(const struct aiScene *scene);
 /** out = a b, of 3 x 4 matrices; out is another. */
 void io_matrix_multiply(const double a[12], const double b[12], double out[12]);
 #endif

@@ -2,14 +2,13 @@
  * file: no post-processing step of assimp runs, for those that weld, drop or split do
  * so within tolerances. Its coordinates are single precision; node transforms are
  * multiplied out in double. Nodes are listed with an explicit stack. */
+#include "assimp_metadata.h"
 #include "assimp_nodes.h"
 #include "assimp_paint.h"
 #include "check/check.h"
 #include "readers.h"
 #include <assimp/cimport.h>
-#include <assimp/commonMetaData.h>
 #include <assimp/material.h>
-#include <assimp/metadata.h>
 #include <assimp/scene.h>
 #include <assimp/version.h>
 #include <pthread.h>
@@ -226,16 +225,6 @@ static froe_status refuse_import(const formats_source *source, formats_sink *sin
                         support_short(source->path));
 }
 
-/* A whole number that a file says about itself. */
-static int32_t stated_number(const struct aiScene *scene, const char *name, int32_t otherwise) {
-    for (unsigned i = 0; scene->mMetaData && i < scene->mMetaData->mNumProperties; ++i) {
-        const struct aiMetadataEntry *entry = &scene->mMetaData->mValues[i];
-        if (!strcmp(scene->mMetaData->mKeys[i].data, name) && entry->mType == AI_INT32)
-            memcpy(&otherwise, entry->mData, sizeof otherwise);
-    }
-    return otherwise;
-}
-
 /* The axis that points up in what assimp hands over. glTF has y up by its specification, and so have X3D, BVH, and the
  * files of AC3D, Blitz3D, DirectX, IQM, Irrlicht, LightWave, MilkShape, Nendo, NFF and Silo. From IFC, 3DS, Blender,
  * Collada and the models of Quake assimp turns the model so that y is up. FBX says it. Other formats are mostly of
@@ -263,7 +252,7 @@ static int up_of(const struct aiScene *scene, const char *format) {
                                        "Return To Castle Wolfenstein"};
     for (size_t i = 0; i < sizeof y_up / sizeof *y_up; ++i)
         if (!strncmp(format, y_up[i], strlen(y_up[i]))) return 1;
-    const int32_t axis = stated_number(scene, "UpAxis", 2);
+    const int32_t axis = io_assimp_number(scene, "UpAxis", 2);
     return axis >= 0 && axis <= 2 ? axis : 2;
 }
 
@@ -297,15 +286,6 @@ static froe_status import(const formats_source *source, formats_sink *sink, size
     return status;
 }
 
-const char *io_assimp_format(const struct aiScene *scene) {
-    for (unsigned i = 0; scene->mMetaData && i < scene->mMetaData->mNumProperties; ++i) {
-        const struct aiMetadataEntry *entry = &scene->mMetaData->mValues[i];
-        if (!strcmp(scene->mMetaData->mKeys[i].data, AI_METADATA_SOURCE_FORMAT) && entry->mType == AI_AISTRING)
-            return ((const struct aiString *)entry->mData)->data;
-    }
-    return "";
-}
-
 /* Colours of three numbers are opaque in glTF, and assimp has the opacity 0 with them. */
 static void make_opaque(const struct aiMesh *mesh) {
     struct aiColor4D *colours = mesh->mColors[0];
@@ -327,7 +307,7 @@ static froe_status read_scene(const formats_source *source, formats_sink *sink, 
     if (suffix) *suffix = '\0';
     formats_report_format(sink, "float32", "%s (assimp)", format);
     formats_sink_up(sink, up_of(scene, format));
-    if (stated_number(scene, "UpAxisSign", 1) < 0) io_leave(sink, "UpAxisSign -1", 13);
+    if (io_assimp_number(scene, "UpAxisSign", 1) < 0) io_leave(sink, "UpAxisSign -1", 13);
     w.linear = !strncmp(sink->report.format, "glTF", 4);
     for (unsigned i = 0; i < scene->mNumMeshes && w.linear; ++i) make_opaque(scene->mMeshes[i]);
     sink->unit = "face";

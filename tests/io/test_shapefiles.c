@@ -40,7 +40,7 @@ static int write_whole(void **state) {
     return 0;
 }
 
-/* Writes heads.shp and the files beside it: the first `size` bytes of one, with another byte; size -1: it is missing. */
+/* Writes heads.shp and the files beside it: the first `size` bytes of one, with another byte; -1: it is missing. */
 static void write_heads(int changed, long size, int at, int value) {
     for (int i = 0; i < PARTS; i++) {
         char path[16], copy[MOST];

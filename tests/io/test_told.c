@@ -238,8 +238,8 @@ static void axes_of_fbx_are_looked_at(void **state) {
 
 /* ----------------------------------------------------------------------------- DXF -- */
 
-/* GDAL passes over entities, and froe names their sorts: each once, and as many as there is room for. Windows of a sheet
- * are nothing to draw. */
+/* GDAL passes over entities, and froe names their sorts: each once, and as many as there is room for. Windows of a
+ * sheet are nothing to draw. */
 static void sorts_of_entities_that_are_not_read_are_named(void **state) {
     (void)state;
     static const struct {

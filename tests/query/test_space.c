@@ -477,8 +477,8 @@ static void kernels_are_sure_only_of_what_is_met(void **state) {
     }
 }
 
-/* Small triangles in a leaf whose units are 1, at quarters of units: whatever is tested is off by a unit or so. They are
- * in the middle of the units that there are, from 0 to 65535, or at either end. */
+/* Small triangles in a leaf whose units are 1, at quarters of units: whatever is tested is off by a unit or so. They
+ * are in the middle of the units that there are, from 0 to 65535, or at either end. */
 static const double places_of_units[] = {20000, 0, 65525};
 enum { PLACES = sizeof places_of_units / sizeof *places_of_units };
 
