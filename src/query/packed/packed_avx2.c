@@ -65,10 +65,10 @@ LANES lanes lanes_bytes(const uint8_t *p) {
     __m256i a = _mm256_cvtepu8_epi32(all), b = _mm256_cvtepu8_epi32(_mm_srli_si128(all, 8));
     return (lanes){_mm256_cvtepi32_ps(a), _mm256_cvtepi32_ps(b)};
 }
-LANES space_ints lanes_four(const uint8_t *p) {
+LANES four_ints lanes_four(const uint8_t *p) {
     int32_t bytes;
     memcpy(&bytes, p, sizeof bytes);
-    return (space_ints)_mm_cvtepu8_epi32(_mm_cvtsi32_si128(bytes));
+    return (four_ints)_mm_cvtepu8_epi32(_mm_cvtsi32_si128(bytes));
 }
 LANES void lanes_store(float *x, lanes a) {
     _mm256_storeu_ps(x, a.a);

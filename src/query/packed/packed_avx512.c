@@ -58,10 +58,10 @@ LANES uint32_t ulanes_bits(ulanes_mask m) {
 LANES lanes lanes_bytes(const uint8_t *p) {
     return _mm512_cvtepi32_ps(_mm512_cvtepu8_epi32(_mm_loadu_si128((const void *)p)));
 }
-LANES space_ints lanes_four(const uint8_t *p) {
+LANES four_ints lanes_four(const uint8_t *p) {
     int32_t bytes;
     memcpy(&bytes, p, sizeof bytes);
-    return (space_ints)_mm_cvtepu8_epi32(_mm_cvtsi32_si128(bytes));
+    return (four_ints)_mm_cvtepu8_epi32(_mm_cvtsi32_si128(bytes));
 }
 LANES void lanes_store(float *x, lanes a) {
     _mm512_storeu_ps(x, a);

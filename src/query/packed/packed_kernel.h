@@ -18,6 +18,12 @@
 
 enum { PACKED_LANES = 16 };
 
+/** Short vectors in the notation that gcc and clang have for any machine: of the axes, the rest unused. */
+typedef double four_doubles __attribute__((vector_size(32)));
+typedef int64_t four_longs __attribute__((vector_size(32)));
+typedef float four_floats __attribute__((vector_size(16)));
+typedef int32_t four_ints __attribute__((vector_size(16)));
+
 /** A closed axis-parallel window; bounds may be infinite. */
 typedef packed_box packed_window;
 

@@ -100,8 +100,8 @@ LANES lanes lanes_bytes(const uint8_t *p) {
     EACH_QUARTER r.x[i] = (floats){p[4 * i], p[4 * i + 1], p[4 * i + 2], p[4 * i + 3]};
     return r;
 }
-LANES space_ints lanes_four(const uint8_t *p) {
-    return (space_ints){p[0], p[1], p[2], p[3]};
+LANES four_ints lanes_four(const uint8_t *p) {
+    return (four_ints){p[0], p[1], p[2], p[3]};
 }
 LANES void lanes_store(float *x, lanes a) {
     memcpy(x, &a, sizeof a);

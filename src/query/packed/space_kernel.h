@@ -10,12 +10,6 @@
 #include "tree/packed/wide.h"
 #include <string.h>
 
-/** Short vectors in the notation that gcc and clang have for any machine: the axes, and something unused. */
-typedef double space_doubles __attribute__((vector_size(32)));
-typedef int64_t space_longs __attribute__((vector_size(32)));
-typedef float space_floats __attribute__((vector_size(16)));
-typedef int32_t space_ints __attribute__((vector_size(16)));
-
 /** A ray o + u d in the coordinates of a wide tree, in whose box it is for u >= start only. Keys are u - start. Fourth
  * components are 0, since kernels load four. */
 typedef struct space_ray {
