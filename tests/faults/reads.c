@@ -54,11 +54,17 @@ static ssize_t read_stream(void *cookie, char *bytes, size_t count) {
     return __wrap_read((int)(intptr_t)cookie, bytes, count);
 }
 
+static int seek_stream(void *cookie, off64_t *place, int whence) {
+    const off64_t at = lseek64((int)(intptr_t)cookie, *place, whence);
+    if (at >= 0) *place = at;
+    return at < 0 ? -1 : 0;
+}
+
 static int close_stream(void *cookie) {
     return __real_close((int)(intptr_t)cookie);
 }
 
 FILE *fault_stream(int file) {
-    const cookie_io_functions_t functions = {.read = read_stream, .close = close_stream};
+    const cookie_io_functions_t functions = {.read = read_stream, .seek = seek_stream, .close = close_stream};
     return file < 0 ? NULL : fopencookie((void *)(intptr_t)file, "r", functions);
 }
