@@ -41,12 +41,14 @@ const round = (x) => Number(x.toPrecision(6));
 /** The line that draws the same from the saved tree, which is called `file`.froe. */
 export function commandOf(options, state, model, file) {
     const axis = "xyz"[upOf(state, model)], kinds = LINES[state.lines], page = `${options.width}x${options.height}`;
+    const lined = !kinds || kinds.length, creased = !kinds || kinds.includes("crease"); // the program refuses what changes nothing
     return ["froe render", quote(`${file}.froe`), "-o", quote(`${file}.svg`), `--up ${axis}`, `--eye=${options.eye}`, `--target=${options.target}`,
         options.parallel ? `--parallel --scale ${options.scale}` : `--fov ${options.fov}`,
         `--size ${page}${options.millimetres ? "mm" : ""}`, `--margin ${options.margin}`,
         `--style ${options.shading}`, options.ownColours ? "--colours own" : "", kinds ? `--line-kinds ${kinds.join() || "none"}` : "",
-        `--line-width ${options.lineWidth} --seam-width ${options.seamWidth}`, `--decimals ${options.decimals}`,
-        options.hidden ? "--hidden dashed" : "", `--crease ${options.crease}`, options.plane ? `--section=${options.plane}` : "",
+        lined ? `--line-width ${options.lineWidth}` : "", `--seam-width ${options.seamWidth} --decimals ${options.decimals}`,
+        lined && options.hidden ? "--hidden dashed" : "", creased ? `--crease ${options.crease}` : "",
+        options.plane ? `--section=${options.plane}` : "",
         `--title ${quote(options.title)}`].filter(Boolean).join(" ");
 }
 const quote = (text) => (/^[\w./-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
