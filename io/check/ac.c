@@ -90,28 +90,23 @@ static const char *look_at_ac_word(ac_check *c, const char *line) {
     return kind == KIDS ? look_at_kids(c, count) : NULL;
 }
 
-static const char *find_ac_fault(const char *text, ac_check *c, size_t *line) {
-    *line = 0;
+static io_fault find_ac_fault(formats_sink *sink, const char *text) {
+    ac_check c = {sink, .status = FROE_E_FORMAT};
+    size_t line = 0;
     for (const char *at = text; *at;) {
-        ++*line;
+        ++line;
         at += strspn(at, " \t\r");
         const bool none = !*at || *at == '\n', numbers = !none && strchr("+-0123456789", *at);
-        const char *fault = none ? NULL : numbers ? look_at_numbers(c, at) : look_at_ac_word(c, at);
-        if (fault) return fault;
+        const char *fault = none ? NULL : numbers ? look_at_numbers(&c, at) : look_at_ac_word(&c, at);
+        if (fault) return (io_fault){fault, line, c.status};
         at += strcspn(at, "\n");
         at += *at == '\n';
-        for (; c->bytes && *at; c->bytes--) *line += *at++ == '\n'; /* of any text */
+        for (; c.bytes && *at; c.bytes--) line += *at++ == '\n'; /* of any text */
     }
-    return c->kids || c->points || c->corners ? "The file ends before all is there that was counted." : NULL;
+    const bool cut = c.kids || c.points || c.corners;
+    return (io_fault){cut ? "The file ends before all is there that was counted." : NULL, line, c.status};
 }
 
 froe_status io_ac_check(const formats_source *source, formats_sink *sink) {
-    formats_text text = {0};
-    const froe_status status = formats_load(source, sink, true, &text);
-    ac_check c = {sink, .status = FROE_E_FORMAT};
-    size_t line;
-    const char *sentence = status ? NULL : find_ac_fault(text.data, &c, &line);
-    array_free(&sink->alloc, &text);
-    if (!sentence) return status;
-    return support_fail(sink->diag, c.status, "%s: line %zu: %s", support_short(source->path), line, sentence);
+    return io_text_look(source, sink, true, find_ac_fault);
 }

@@ -38,6 +38,17 @@ void io_xml_refuse(io_xml *xml, froe_status status, const char *sentence);
  * refused. FROE_E_IO, FROE_E_MEMORY, FROE_E_CANCELLED. */
 froe_status io_xml_look(io_xml *xml, const formats_source *source, const io_xml_handlers *handlers, bool *whole);
 
+/** What a text is refused for. */
+typedef struct io_fault {
+    const char *sentence; /**< NULL: nothing */
+    size_t line;
+    froe_status status;
+} io_fault;
+/** Looks for the first fault of a text, which ends with a NUL. What the library leaves out may go to the report. */
+typedef io_fault io_find_fault(formats_sink *sink, const char *text);
+/** Loads a text, as formats_load() does, and refuses it for what is found. */
+froe_status io_text_look(const formats_source *source, formats_sink *sink, bool binary, io_find_fault *find);
+
 /** Places in a file of bytes for which assimp gets '_'. */
 typedef ARRAY(size_t) io_mask;
 /** Imports a file so. Other files that it names are found under their names without escapes such as %20, or as they are

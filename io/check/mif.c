@@ -70,28 +70,24 @@ static const char *look_at_line(mif_check *c, const char *line) {
     return NULL;
 }
 
-static const char *find_mif_fault(const char *text, size_t *line) {
+static io_fault find_mif_fault(formats_sink *sink, const char *text) {
     mif_check c = {.points = 0};
     bool data = false;
-    *line = 0;
+    size_t line = 0;
+    (void)sink;
     for (const char *at = text, *fault; *at; at += *at == '\n') {
-        ++*line;
+        ++line;
         at += strspn(at, " \t\r");
         fault = data && *at != '\n' ? look_at_line(&c, at) : NULL;
-        if (fault) return fault;
+        if (fault) return (io_fault){fault, line, FROE_E_FORMAT};
         const char *next = behind(at, "data"); /* a column may be called so, too */
         data = data || (next && strchr("\r\n", *next));
         at += strcspn(at, "\n");
     }
-    return c.points || c.parts ? "The file ends before all is there that was counted." : NULL;
+    const bool cut = c.points || c.parts;
+    return (io_fault){cut ? "The file ends before all is there that was counted." : NULL, line, FROE_E_FORMAT};
 }
 
 froe_status io_mif_check(const formats_source *source, formats_sink *sink) {
-    formats_text text = {0};
-    const froe_status status = formats_load(source, sink, true, &text);
-    size_t line;
-    const char *sentence = status ? NULL : find_mif_fault(text.data, &line);
-    array_free(&sink->alloc, &text);
-    if (!sentence) return status;
-    return support_fail(sink->diag, FROE_E_FORMAT, "%s: line %zu: %s", support_short(source->path), line, sentence);
+    return io_text_look(source, sink, true, find_mif_fault);
 }
