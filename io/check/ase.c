@@ -102,18 +102,18 @@ static const char *look_at_ase_word(ase_check *c, const char *at) {
     return fault;
 }
 
-froe_status io_ase_check(const formats_source *source, formats_sink *sink) {
-    formats_text text = {0};
-    const froe_status status = formats_load(source, sink, false, &text);
+static io_fault find_ase_fault(formats_sink *sink, const char *text) {
     ase_check c = {.faces = 0};
     size_t line = 1;
-    const char *sentence = NULL;
-    for (const char *at = text.data; !status && !sentence && *at; at++) {
+    const char *fault = NULL;
+    (void)sink;
+    for (const char *at = text; !fault && *at; at++) {
         line += *at == '\n';
-        if (*at == '*') sentence = look_at_ase_word(&c, at + 1);
+        if (*at == '*') fault = look_at_ase_word(&c, at + 1);
     }
-    if (!status && !sentence) sentence = look_at_mesh(&c);
-    array_free(&sink->alloc, &text);
-    if (!sentence) return status;
-    return support_fail(sink->diag, FROE_E_FORMAT, "%s: line %zu: %s", support_short(source->path), line, sentence);
+    return (io_fault){fault ? fault : look_at_mesh(&c), line, FROE_E_FORMAT};
+}
+
+froe_status io_ase_check(const formats_source *source, formats_sink *sink) {
+    return io_text_look(source, sink, false, find_ase_fault);
 }

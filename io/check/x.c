@@ -87,30 +87,26 @@ static const char *look_at_materials(x_check *x) {
 }
 
 /* What stands behind a word is its name. */
-static const char *find_x_fault(x_check *x) {
+static io_fault find_x_fault(formats_sink *sink, const char *text) {
+    x_check x = {.at = text};
     const char *fault = NULL;
+    size_t line = 1;
     bool named = false;
-    for (x_kind kind; !fault && (kind = next_token(x)) != END; named = kind == WORD && !named) {
+    (void)sink;
+    for (x_kind kind; !fault && (kind = next_token(&x)) != END; named = kind == WORD && !named) {
         if (kind != WORD || named) continue;
-        if (word_is(x, "template"))
-            while ((kind = next_token(x)) != CLOSE && kind != END) {
+        if (word_is(&x, "template"))
+            while ((kind = next_token(&x)) != CLOSE && kind != END) {
             }
-        else if (word_is(x, "Mesh"))
-            fault = look_at_mesh(x), kind = NUMBER;
-        else if (word_is(x, "MeshMaterialList"))
-            fault = look_at_materials(x), kind = CLOSE;
+        else if (word_is(&x, "Mesh"))
+            fault = look_at_mesh(&x), kind = NUMBER;
+        else if (word_is(&x, "MeshMaterialList"))
+            fault = look_at_materials(&x), kind = CLOSE;
     }
-    return fault;
+    for (const char *at = text; fault && at < x.word; at++) line += *at == '\n';
+    return (io_fault){fault, line, FROE_E_FORMAT};
 }
 
 froe_status io_x_check(const formats_source *source, formats_sink *sink) {
-    formats_text text = {0};
-    const froe_status status = formats_load(source, sink, true, &text);
-    x_check x = {.at = text.data};
-    const char *sentence = status ? NULL : find_x_fault(&x);
-    size_t line = 1;
-    for (const char *at = text.data; sentence && at < x.word; at++) line += *at == '\n';
-    array_free(&sink->alloc, &text);
-    if (!sentence) return status;
-    return support_fail(sink->diag, FROE_E_FORMAT, "%s: line %zu: %s", support_short(source->path), line, sentence);
+    return io_text_look(source, sink, true, find_x_fault);
 }
