@@ -38,14 +38,8 @@ static bool note(void *user, const froe_event *event) {
 typedef enum manner { ONE, RANGES, UNGUARDED, WIDE } manner;
 
 static void set_tuning(froe_kinetic *k, manner how) {
-    k->ranges.tuning = (ranges_tuning){.least = 4,
-                                       .alone = 4,
-                                       .pays = 0.02,
-                                       .most = 3,
-                                       .again = 100,
-                                       .guard = {0x1p-8, 0x1p-5},
-                                       .each = 2,
-                                       .size = 64};
+    k->ranges.tuning = (ranges_tuning){
+        .least = 4, .alone = 4, .pays = 0.02, .most = 3, .again = 100, .gaps = 0.5, .guard = 0x1p-5, .size = 16};
     k->ranges.tuning.unguarded = how == UNGUARDED;
     k->ranges.tuning.wide = how == WIDE;
 }

@@ -19,14 +19,8 @@
 enum { SAMPLES = 2048, EXTENTS_PER_JOB = 256 };
 
 ranges_tuning ranges_defaults(void) {
-    return (ranges_tuning){.least = 512,
-                           .alone = 4096,
-                           .pays = 3,
-                           .most = 24,
-                           .again = 1.3,
-                           .guard = {0x1p-12, 0x1p-4},
-                           .each = 2,
-                           .size = 1024};
+    return (ranges_tuning){
+        .least = 512, .alone = 4096, .pays = 3, .most = 32, .again = 1.3, .gaps = 6, .guard = 0x1p-4, .size = 1024};
 }
 
 /* Where a segment is during the window, as now_lifted(). */
@@ -68,8 +62,7 @@ static size_t least_ranges(const froe_kinetic *k) {
 
 static bool new_window(froe_kinetic *k, window *out) {
     const froe_allocator *alloc = &k->call.alloc;
-    const size_t n = k->tree.segments.count, some = least_ranges(k) * k->ranges.tuning.each;
-    const size_t many = n / k->ranges.tuning.size;
+    const size_t n = k->tree.segments.count, some = least_ranges(k), many = n / k->ranges.tuning.size;
     *out = (window){.k = k, .n = n, .room = many > some ? many : some};
     out->extents = support_calloc(alloc, out->n, sizeof *out->extents);
     out->home = support_calloc(alloc, out->n, sizeof *out->home);
@@ -329,9 +322,9 @@ static void widen_guards(window *w, int64_t end) {
         const kinetic_range *range = w->ranges + i;
         if (range->wide == 0 || range->stopped - 2 != end) continue;
         const double times = 2.25 * range->wide / range->guard; /* NaN, infinite: as wide as may be */
-        guard = fmax(guard, times < r->tuning.guard[1] / r->guard ? fmax(2, times) * r->guard : r->tuning.guard[1]);
+        guard = fmax(guard, times < r->tuning.guard / r->guard ? fmax(2, times) * r->guard : r->tuning.guard);
     }
-    if (guard > 0) w->k->ranges.guard = fmin(guard, r->tuning.guard[1]);
+    if (guard > 0) w->k->ranges.guard = fmin(guard, r->tuning.guard);
 }
 
 /* Goes through one window, towards a tick. */
@@ -393,7 +386,8 @@ bool ranges_advance(froe_kinetic *k, int64_t tick, const event_watcher *watcher,
     const int64_t before = k->now.tick;
     window_outcome out = THROUGH;
     *status = FROE_OK;
-    if (!(k->ranges.guard > 0)) k->ranges.guard = k->ranges.tuning.guard[0];
+    const double first = k->ranges.tuning.gaps / (double)k->tree.segments.count;
+    if (!(k->ranges.guard > 0)) k->ranges.guard = fmin(first, k->ranges.tuning.guard);
     const double guard = k->ranges.guard;
     if (!may_pay(k, tick)) return false;
     while (out == THROUGH && *go_on && k->now.tick < tick && may_pay(k, tick))

@@ -10,9 +10,10 @@ typedef struct ranges_tuning {
     uint32_t alone;    /**< and with fewer than so many it does not on one thread */
     double pays, most; /**< events for each segment that it has to pay for, and that a window has */
     double again;      /**< all parts together have so many times the segments, at most */
-    double guard[2];   /**< share of the whole width: at first, and at most */
-    unsigned each;     /**< ranges for each thread, */
-    uint32_t size;     /**< or as many as have so many segments each: small partitions are in nearer caches */
+    double gaps;       /**< guard at first: so many mean distances from segment to segment, */
+    double guard;      /**< and at most: share of the whole width */
+    uint32_t size;     /**< more ranges than threads where each has so many segments: small partitions are in nearer
+                        * caches */
     bool unguarded;    /**< crippled: segments belong to a range by where they are at the beginning */
     bool wide;         /**< crippled: what is wider than the guard is told, too */
 } ranges_tuning;
