@@ -70,7 +70,7 @@ static int compare(const mpq_t q, double x) {
 static void check_box(const froe_motion *m, uint32_t vertex, double from, double to) {
     const motion_piece piece = motion_piece_at_time(m, vertex, from);
     double lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
-    motion_extend(m, &piece, from, to, lo, hi);
+    motion_extend(m, &piece, from, to, m->dim, lo, hi);
     mpq_t a, b, at[3];
     mpq_inits(a, b, at[0], at[1], at[2], NULL);
     for (int i = 0; i <= 8; i++) {

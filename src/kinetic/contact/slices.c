@@ -47,7 +47,7 @@ static bool put_slice(slicing *s, uint32_t object, const motion_piece piece[3], 
     const int dim = s->m->dim;
     double lo[4], hi[4];
     empty_box(lo, hi);
-    for (int i = 0; i < dim; i++) motion_extend(s->m, &piece[i], from, to, lo, hi);
+    for (int i = 0; i < dim; i++) motion_extend(s->m, &piece[i], from, to, dim, lo, hi);
     lo[dim] = from, hi[dim] = to;
     const froe_allocator *alloc = &s->m->alloc;
     slices_table *out = s->out;
@@ -62,7 +62,7 @@ static bool cut_piece(slicing *s, uint32_t object, const motion_piece piece[3], 
     for (int i = 0; i < m->dim; i++) {
         double hi[3];
         empty_box(at[i], hi);
-        motion_extend(m, &piece[i], from, to, at[i], hi);
+        motion_extend(m, &piece[i], from, to, m->dim, at[i], hi);
         for (int k = 0; k < m->dim; k++)
             if (hi[k] - at[i][k] > way) way = hi[k] - at[i][k];
     }

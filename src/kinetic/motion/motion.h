@@ -129,8 +129,10 @@ void motion_ball(const froe_motion *m, const motion_piece *piece, int64_t tick, 
  * no telling). */
 double motion_near(const froe_motion *m, const motion_piece *piece, int64_t tick, double *out);
 
-/** Extends lo .. hi to hold the piece between two times, rounded outwards, to at most +-DBL_MAX. */
-void motion_extend(const froe_motion *m, const motion_piece *piece, double from, double to, double *lo, double *hi);
+/** Extends lo .. hi, of the first `dim` coordinates, to hold the piece between two times, rounded outwards, to at most
+ * +-DBL_MAX. */
+void motion_extend(const froe_motion *m, const motion_piece *piece, double from, double to, int dim, double *lo,
+                   double *hi);
 
 /** The piece as polynomials in ticks s counted from `tick`:
  *     X = x[0] + x[1] s + x[2] s^2 + x[3] s^3,  Y and Z alike,  W = w (constant)

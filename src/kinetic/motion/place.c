@@ -228,11 +228,11 @@ double motion_near(const froe_motion *m, const motion_piece *piece, int64_t tick
 }
 
 /* The arc of a vertex of a body between two shares lies between its ends and where its tangents meet. */
-static void extend_by_turn(const motion_piece *piece, num_ball s, num_ball t, double lo[3], double hi[3]) {
+static void extend_by_turn(const motion_piece *piece, num_ball s, num_ball t, int dim, double lo[3], double hi[3]) {
     num_ball from[4], to[4];
     quaternion_at(piece, s, from);
     quaternion_at(piece, t, to);
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < dim; k++) {
         extend(turned(from, from, piece->corner, k), &lo[k], &hi[k]);
         extend(turned(to, to, piece->corner, k), &lo[k], &hi[k]);
         extend(turned(from, to, piece->corner, k), &lo[k], &hi[k]);
@@ -240,9 +240,8 @@ static void extend_by_turn(const motion_piece *piece, num_ball s, num_ball t, do
 }
 
 /* The ends and the control points of the part (blossoms of both shares). */
-static void extend_by_flight(const froe_motion *m, const motion_piece *piece, num_ball s, num_ball t, double *lo,
-                             double *hi) {
-    for (int k = 0; k < m->dim; k++) {
+static void extend_by_flight(const motion_piece *piece, num_ball s, num_ball t, int dim, double *lo, double *hi) {
+    for (int k = 0; k < dim; k++) {
         extend(along_at(piece, s, k), &lo[k], &hi[k]);
         extend(along_at(piece, t, k), &lo[k], &hi[k]);
         if (piece->degree > 1) extend(along(piece, s, t, s, k), &lo[k], &hi[k]);
@@ -255,19 +254,20 @@ static double bound_sum(double a, double b) {
     return fabs(b) == DBL_MAX ? b : a + b;
 }
 
-void motion_extend(const froe_motion *m, const motion_piece *piece, double from, double to, double *lo, double *hi) {
+void motion_extend(const froe_motion *m, const motion_piece *piece, double from, double to, int dim, double *lo,
+                   double *hi) {
     num_ball begin = num_ball_from(m->begin);
     num_ball s = share_of_piece(m, piece, num_ball_sub(num_ball_from(from), begin));
     num_ball t = share_of_piece(m, piece, num_ball_sub(num_ball_from(to), begin));
     double arm_lo[3], arm_hi[3], centre_lo[3], centre_hi[3];
     if (!piece->corner) {
-        extend_by_flight(m, piece, s, t, lo, hi);
+        extend_by_flight(piece, s, t, dim, lo, hi);
         return;
     }
     for (int k = 0; k < 3; k++) arm_lo[k] = centre_lo[k] = DBL_MAX, arm_hi[k] = centre_hi[k] = -DBL_MAX;
-    extend_by_flight(m, piece, s, t, centre_lo, centre_hi);
-    extend_by_turn(piece, s, t, arm_lo, arm_hi);
-    for (int k = 0; k < m->dim; k++) {
+    extend_by_flight(piece, s, t, dim, centre_lo, centre_hi);
+    extend_by_turn(piece, s, t, dim, arm_lo, arm_hi);
+    for (int k = 0; k < dim; k++) {
         extend((num_ball){bound_sum(centre_lo[k], arm_lo[k]), 0}, &lo[k], &hi[k]);
         extend((num_ball){bound_sum(centre_hi[k], arm_hi[k]), 0}, &lo[k], &hi[k]);
     }

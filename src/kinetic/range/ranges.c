@@ -74,13 +74,12 @@ static bool new_window(froe_kinetic *k, window *out) {
 
 /* ----------------------------------------------------------------- extents -- */
 
-static void extend_by(double x, double low[3], double high[3]) {
-    low[0] = fmin(low[0], x), high[0] = fmax(high[0], x); /* NaN: there is none */
+static void extend_by(double x, double *low, double *high) {
+    *low = fmin(*low, x), *high = fmax(*high, x); /* NaN: there is none */
 }
 
 /* Where a vertex comes between two times, in x. */
-static void extend_by_plan(const froe_motion *m, uint32_t vertex, double from, double to, double low[3],
-                           double high[3]) {
+static void extend_by_plan(const froe_motion *m, uint32_t vertex, double from, double to, double *low, double *high) {
     const motion_plan *plan = m->plans.data + vertex;
     const bool own = plan->body == FROE_NONE;
     const motion_knot *first = m->knots.data + (own ? plan : &m->bodies.data[plan->body].plan)->first;
@@ -92,7 +91,7 @@ static void extend_by_plan(const froe_motion *m, uint32_t vertex, double from, d
             extend_by(piece.from->control[0], low, high);
             if (piece.second) extend_by(piece.second[0], low, high);
         } else {
-            motion_extend(m, &piece, from, ends ? piece.to->time : to, low, high);
+            motion_extend(m, &piece, from, ends ? piece.to->time : to, 1, low, high);
         }
         if (!ends) return;
         from = piece.to->time;
@@ -105,11 +104,10 @@ static range_extent extent_of(const window *w, uint32_t object) {
     const motion_object *o = now->motion->objects.data + object;
     const double begin = now_time_of(now, now->tick), end = now_time_of(now, w->tick);
     const double from = fmax(begin, o->birth), to = w->k->ranges.tuning.unguarded ? from : fmin(end, o->death);
-    double low[3], high[3];
+    double low = (double)INFINITY, high = -low;
     if (!(from <= to)) return (range_extent){1, -1};
-    for (int i = 0; i < 3; i++) low[i] = (double)INFINITY, high[i] = -(double)INFINITY;
-    for (int e = 0; e < 2; e++) extend_by_plan(now->motion, o->vertices[e], from, to, low, high);
-    return (range_extent){now_lifted(now, low[0]), now_lifted(now, high[0])};
+    for (int e = 0; e < 2; e++) extend_by_plan(now->motion, o->vertices[e], from, to, &low, &high);
+    return (range_extent){now_lifted(now, low), now_lifted(now, high)};
 }
 
 static froe_status find_extents(void *user, unsigned worker, size_t job) {
