@@ -38,8 +38,16 @@ static bool note(void *user, const froe_event *event) {
 typedef enum manner { ONE, RANGES, UNGUARDED, WIDE } manner;
 
 static void set_tuning(froe_kinetic *k, manner how) {
-    k->ranges.tuning = (ranges_tuning){
-        .least = 4, .alone = 4, .pays = 0.02, .most = 3, .again = 100, .gaps = 0.5, .guard = 0x1p-5, .size = 16};
+    k->ranges.tuning = (ranges_tuning){.least = 4,
+                                       .alone = 4,
+                                       .pays = 0.02,
+                                       .making = 0.1,
+
+                                       .most = 3,
+                                       .again = 100,
+                                       .gaps = 0.5,
+                                       .guard = 0x1p-5,
+                                       .size = 16};
     k->ranges.tuning.unguarded = how == UNGUARDED;
     k->ranges.tuning.wide = how == WIDE;
 }
@@ -379,6 +387,22 @@ static void test_one_partition_otherwise(void **state) {
     froe_motion_free(m);
 }
 
+/* As many ranges as threads would have most segments in common, however short the window: fewer ranges have not. */
+static void test_more_threads_than_ranges(void **state) {
+    (void)state;
+    froe_motion *m = moving_new(&many, 1, NULL);
+    const unsigned threads[] = {2, 16, 64, 256};
+    for (int i = 0; i < 4; i++) {
+        froe_kinetic *k = start(m, threads[i], 1, RANGES);
+        k->ranges.tuning.again = 1.5;
+        k->ranges.tuning.pays = 0.5;
+        assert_int_equal(froe_kinetic_advance(k, MOVING_TIME / 4.0, NULL, NULL, NULL), FROE_OK);
+        assert_true(k->ranges.windows > 0);
+        froe_kinetic_free(k);
+    }
+    froe_motion_free(m);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_events_and_trees_do_not_depend_on_threads),
@@ -392,6 +416,7 @@ int main(void) {
         cmocka_unit_test(test_visitors_that_stop_have_few_windows),
         cmocka_unit_test(test_memory_runs_out),
         cmocka_unit_test(test_one_partition_otherwise),
+        cmocka_unit_test(test_more_threads_than_ranges),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

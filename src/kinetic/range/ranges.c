@@ -19,8 +19,15 @@
 enum { SAMPLES = 2048, EXTENTS_PER_JOB = 256 };
 
 ranges_tuning ranges_defaults(void) {
-    return (ranges_tuning){
-        .least = 512, .alone = 4096, .pays = 3, .most = 32, .again = 1.3, .gaps = 6, .guard = 0x1p-4, .size = 1024};
+    return (ranges_tuning){.least = 512,
+                           .alone = 4096,
+                           .pays = 3,
+                           .making = 5,
+                           .most = 32,
+                           .again = 1.3,
+                           .gaps = 6,
+                           .guard = 0x1p-4,
+                           .size = 1024};
 }
 
 /* Where a segment is during the window, as now_lifted(). */
@@ -55,14 +62,10 @@ static void free_window(window *w) {
     if (w->heap) support_free(alloc, w->heap, w->room * sizeof(kinetic_range *));
 }
 
-/* One range for each thread, and two for one thread. */
-static size_t least_ranges(const froe_kinetic *k) {
-    return k->call.task.threads > 2 ? k->call.task.threads : 2;
-}
-
 static bool new_window(froe_kinetic *k, window *out) {
     const froe_allocator *alloc = &k->call.alloc;
-    const size_t n = k->tree.segments.count, some = least_ranges(k), many = n / k->ranges.tuning.size;
+    const size_t n = k->tree.segments.count, many = n / k->ranges.tuning.size;
+    const size_t some = k->call.task.threads > 2 ? k->call.task.threads : 2;
     *out = (window){.k = k, .n = n, .room = many > some ? many : some};
     out->extents = support_calloc(alloc, out->n, sizeof *out->extents);
     out->home = support_calloc(alloc, out->n, sizeof *out->home);
@@ -189,21 +192,50 @@ static bool list_members(window *w) {
     return true;
 }
 
-/* Has fewer ranges, and a shorter window, until parts have little in common. No ranges: it does not pay any more. */
+/* Divides the window into so many ranges. False: their parts have too much in common, or there is no memory. */
+static bool divide_into(window *w, size_t ranges) {
+    free_ranges(w);
+    place_borders(w, ranges);
+    return w->count > 1 && list_members(w) && (double)w->members <= w->k->ranges.tuning.again * (double)w->n;
+}
+
+static froe_status set_end(window *w, int64_t tick) {
+    w->tick = tick;
+    return base_run(&w->k->call.task, 0, (w->n + EXTENTS_PER_JOB - 1) / EXTENTS_PER_JOB, find_extents, w);
+}
+
+/* About how many times as fast as one thread, where a window has so many events for each segment. */
+static double gain_of(const window *w, size_t ranges, double events) {
+    const size_t threads = w->k->call.task.threads > 1 ? w->k->call.task.threads : 1;
+    return (double)(ranges < threads ? ranges : threads) / (1 + w->k->ranges.tuning.making / events);
+}
+
+/* Many ranges need short windows, in which parts have little in common, and few may go through long ones, in which
+ * their making counts little: takes what gains most. No ranges: nothing does. */
 static froe_status divide(window *w, double rate) {
-    const ranges_tuning *tuning = &w->k->ranges.tuning;
-    const int64_t now = w->k->now.tick;
-    const size_t jobs = (w->n + EXTENTS_PER_JOB - 1) / EXTENTS_PER_JOB, least = least_ranges(w->k);
-    for (size_t most = w->room;; most = most / 2 > least ? most / 2 : least) {
-        free_ranges(w);
-        if (rate * (double)(w->tick - now) < tuning->pays * (double)w->n) return FROE_OK;
-        froe_status status = base_run(&w->k->call.task, 0, jobs, find_extents, w);
+    const int64_t now = w->k->now.tick, end = w->tick;
+    int64_t best = now;
+    size_t chosen = 0;
+    double gain = 0;
+    bool divided = false; /* as chosen */
+    for (int64_t tick = end;; tick = now + (tick - now) / 4 * 2) {
+        const double events = rate * (double)(tick - now) / (double)w->n;
+        if (events < w->k->ranges.tuning.pays || gain_of(w, w->room, events) <= gain) break;
+        const froe_status status = set_end(w, tick);
         if (status) return status;
-        place_borders(w, most);
-        if (w->count && !list_members(w)) return FROE_E_MEMORY;
-        if (w->count > 1 && (double)w->members <= tuning->again * (double)w->n) return FROE_OK;
-        if (most == least) w->tick = now + ((w->tick - now) / 4) * 2;
+        for (size_t ranges = w->room; ranges > 1 && gain_of(w, ranges, events) > gain;
+             ranges = ranges > 3 ? ranges / 2 : ranges - 1) {
+            divided = divide_into(w, ranges);
+            if (divided) best = tick, chosen = ranges, gain = gain_of(w, ranges, events);
+        }
     }
+    if (!divided && chosen) {
+        const froe_status status = set_end(w, best);
+        if (status) return status;
+        divided = divide_into(w, chosen);
+    }
+    if (!divided) free_ranges(w);
+    return FROE_OK;
 }
 
 /* ------------------------------------------------------------------ window -- */

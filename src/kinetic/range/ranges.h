@@ -9,6 +9,7 @@ typedef struct ranges_tuning {
     uint32_t least;    /**< with fewer segments it does not, */
     uint32_t alone;    /**< and with fewer than so many it does not on one thread */
     double pays, most; /**< events for each segment that it has to pay for, and that a window has */
+    double making;     /**< making a part takes as long as so many events for each of its segments */
     double again;      /**< all parts together have so many times the segments, at most */
     double gaps;       /**< guard at first: so many mean distances from segment to segment, */
     double guard;      /**< and at most: share of the whole width */
