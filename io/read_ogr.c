@@ -188,22 +188,39 @@ static froe_status add_features(map *m, OGRLayerH one) {
     return status;
 }
 
-static bool load_head(const char *name, unsigned char head[28]) {
+/* The first 28 bytes; *size: of all. */
+static bool load_head(const char *name, unsigned char head[28], uint64_t *size) {
     VSILFILE *in = VSIFOpenL(name, "rb");
-    const bool is_there = in && VSIFReadL(head, 1, 28, in) == 28;
+    const bool is_there = in && VSIFReadL(head, 1, 28, in) == 28 && !VSIFSeekL(in, 0, SEEK_END);
+    if (is_there) *size = VSIFTellL(in);
     if (in) VSIFCloseL(in);
     return is_there;
 }
 
-/* GDAL reads as many shapes of a Shapefile as its table of attributes has rows. An index (.shx) says its length in
- * units of 2 bytes, the highest byte first: 100 bytes, and 8 a shape. A table (.dbf) says its rows, the lowest
- * first. */
-static froe_status check_rows(const map *m, const char *index, const char *table) {
-    unsigned char x[28], t[28];
-    if (!load_head(index, x) || !load_head(table, t)) return FROE_OK;
-    const uint64_t words = (uint64_t)x[24] << 24 | (uint64_t)x[25] << 16 | (uint64_t)x[26] << 8 | x[27];
+/* GDAL reads as many shapes of a Shapefile as the head of its index (.shx) says, by its length in units of 2 bytes, the
+ * highest byte first: 100 bytes, and 8 a shape. A program that was ended while it wrote has not yet counted them all. */
+static froe_status check_index(const map *m, const char *index, uint64_t *shapes) {
+    enum { HEAD = 100, SHAPE = 8 };
+    unsigned char x[28];
+    uint64_t size = 0;
+    *shapes = 0;
+    if (!load_head(index, x, &size)) return FROE_OK;
+    const uint64_t length = 2 * ((uint64_t)x[24] << 24 | (uint64_t)x[25] << 16 | (uint64_t)x[26] << 8 | x[27]);
+    const uint64_t there = size < HEAD ? 0 : (size - HEAD) / SHAPE;
+    *shapes = length < HEAD ? 0 : (length - HEAD) / SHAPE;
+    if (*shapes >= there) return FROE_OK;
+    return support_fail(m->sink->diag, FROE_E_FORMAT,
+                        "%.60s: The head of the index '%.60s' counts %llu shape%s, and there %s %llu.",
+                        support_short(m->source->path), support_short(index), (unsigned long long)*shapes,
+                        support_plural(*shapes), there == 1 ? "is" : "are", (unsigned long long)there);
+}
+
+/* So it does of the rows that the head of its table (.dbf) says, the lowest byte first. */
+static froe_status check_rows(const map *m, const char *table, uint64_t shapes) {
+    unsigned char t[28];
+    uint64_t size;
+    if (!load_head(table, t, &size)) return FROE_OK;
     const uint64_t rows = (uint64_t)t[7] << 24 | (uint64_t)t[6] << 16 | (uint64_t)t[5] << 8 | t[4];
-    const uint64_t shapes = words < 50 ? 0 : (words - 50) / 4;
     if (rows >= shapes) return FROE_OK;
     return support_fail(m->sink->diag, FROE_E_FORMAT,
                         "%.60s: The table '%.60s' has %llu row%s, and there are %llu shapes.",
@@ -231,9 +248,12 @@ static froe_status check_tables(const map *m) {
     froe_status status = FROE_OK;
     for (char **index = files; index && *index; index++) {
         const size_t stem = strlen(*index) < 3 ? 0 : strlen(*index) - 3;
-        for (char **table = files; *table && !status && support_equal_nocase(*index + stem, "shx"); table++)
+        const bool is_index = support_equal_nocase(*index + stem, "shx");
+        uint64_t shapes;
+        if (!status && is_index) status = check_index(m, *index, &shapes);
+        for (char **table = files; *table && !status && is_index; table++)
             if (!strncmp(*table, *index, stem) && support_equal_nocase(*table + stem, "dbf"))
-                status = check_rows(m, *index, *table);
+                status = check_rows(m, *table, shapes);
         if (!status && support_equal_nocase(*index + stem, "mid")) status = check_lines(m, *index);
     }
     CSLDestroy(files);

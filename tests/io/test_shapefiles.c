@@ -68,8 +68,10 @@ static void parts_that_do_not_fit_are_refused(void **state) {
         {SHX, 20, 0, 0, FROE_E_FORMAT, "heads.shp: OGR reports '.shx file is unreadable, or corrupt.'."},
         {SHX, 104, 0, 0, FROE_E_FORMAT, "heads.shp: OGR reports 'Failed to read all values for 3 records in .shx"},
         {SHX, MOST, LENGTH, 10, FROE_E_FORMAT, "heads.shp: OGR reports 'Record count in .shx header is -10"},
-        {SHX, MOST, LENGTH, 48, FROE_E_INPUT, "heads.shp: The file holds no objects"}, /* shorter than its head */
-        {SHX, MOST, LENGTH, 50, FROE_E_INPUT, "heads.shp: The file holds no objects"},
+        {SHX, MOST, LENGTH, 48, FROE_E_FORMAT, "heads.shp: The head of the index 'heads.shx' counts 0 shapes, and"},
+        {SHX, MOST, LENGTH, 50, FROE_E_FORMAT, "heads.shp: The head of the index 'heads.shx' counts 0 shapes, and"},
+        {SHX, MOST, LENGTH, 54, FROE_E_FORMAT, "index 'heads.shx' counts 1 shape, and there are 3."},
+        {SHX, MOST, LENGTH, 58, FROE_E_FORMAT, "index 'heads.shx' counts 2 shapes, and there are 3."},
         {SHX, MOST, LENGTH - 1, 1, FROE_E_FORMAT, "heads.shp: OGR reports 'Failed to read all values for 67 records"},
         {SHP, 20, 0, 0, FROE_E_FORMAT, "heads.shp: OGR reports '.shp file is unreadable, or corrupt.'."},
         {SHP, 100, 0, 0, FROE_E_FORMAT, "heads.shp: OGR reports 'Error in fread() reading object of size 88"},
