@@ -390,6 +390,8 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
         if (!source->beyond && !m.container && !strcmp(extension.text, "mif")) status = io_mif_check(source, sink);
         if (!status && (!strcmp(sink->report.format, "ESRI Shapefile") || !strcmp(sink->report.format, "MapInfo File")))
             status = check_tables(&m);
+        if (!status && m.shapes.cuts && strcmp(sink->report.format, "GeoJSONSeq") != 0)
+            status = io_json_check(GDALGetDescription(m.data), sink);
         if (!status && !strcmp(sink->report.format, "TopoJSON"))
             status = io_topojson_check(GDALGetDescription(m.data), sink);
         if (!status) status = add_layers(&m);

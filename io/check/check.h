@@ -136,6 +136,9 @@ froe_status io_collada_check(const formats_source *source, formats_sink *sink);
 froe_status io_mif_check(const formats_source *source, formats_sink *sink);
 /** FROE_E_FORMAT where a file that is stored in a zip archive, without compression, is not what it was. */
 froe_status io_stored_check(const formats_source *source, formats_sink *sink);
+/** FROE_E_FORMAT where there is more in a file of JSON than one object. The path may be one in the virtual file systems
+ * of GDAL. FROE_E_MEMORY. */
+froe_status io_json_check(const char *path, formats_sink *sink);
 /** FROE_E_FORMAT where geometries of a TopoJSON file name arcs that do not exist. The path may be one in the virtual
  * file systems of GDAL. FROE_E_MEMORY. */
 froe_status io_topojson_check(const char *path, formats_sink *sink);

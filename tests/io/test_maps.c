@@ -487,6 +487,39 @@ static void triangles_and_empty_rings_are_read(void **state) {
     froe_scene_free(scene);
 }
 
+#define PLACE(x) "{\"type\":\"Feature\",\"properties\":{\"name\":\"a]}\\\"\"}," POINT(x) "}"
+#define POINT(x) "\"geometry\":{\"type\":\"Point\",\"coordinates\":[" #x ",2]}"
+
+/* GDAL reads the first object of a text that it does not take for features in lines. */
+static void nothing_stands_behind_an_object_of_json(void **state) {
+    (void)state;
+    static const struct {
+        const char *path, *text, *words; /* words: of the refusal */
+        size_t objects;
+    } cases[] = {
+        {"rows.json", PLACE(1) "\n" PLACE(3) "\n" PLACE(5), NULL, 3},
+        {"row.json", PLACE(1) "\n \t\r\n", NULL, 1},
+        {"call.json", "loadGeoJSON(" PLACE(1) ");\n", NULL, 1},
+        {"mark.json", "\xef\xbb\xbf" PLACE(1) "\n" PLACE(3), "mark.json: line 2: Behind the first object there is", 0},
+        {"commas.json", PLACE(1) ",\n" PLACE(3), "commas.json: line 1: Behind the first object", 0},
+        {"words.json", PLACE(1) "\n\nwords\n" PLACE(3), "words.json: line 3: Behind the first object", 0},
+        {"list.json", PLACE(1) "\n[" PLACE(3) "]", "list.json: line 2: Behind the first object", 0},
+        {"lines.json", PLACE(1) " " PLACE(3) "\n" PLACE(5), "lines.json: line 1: Behind the first object", 0},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        write_text(cases[i].path, cases[i].text);
+        if (cases[i].words) {
+            refuse(cases[i].path, FROE_E_FORMAT, cases[i].words);
+            continue;
+        }
+        froe_scene *scene = read_scene(cases[i].path, NULL);
+        assert_int_equal(froe_scene_object_count(scene), cases[i].objects);
+        froe_scene_free(scene);
+    }
+    write_text("memory.json", PLACE(1));
+    assert_true(test_memory_each(read_with_memory, "memory.json") > 2);
+}
+
 static void every_allocation_may_fail(void **state) {
     (void)state;
     write_text("memory.csv",
@@ -516,6 +549,7 @@ int main(void) {
         cmocka_unit_test(wrong_filters_are_told_in_a_line),
         cmocka_unit_test(geojson_has_the_system_that_its_member_names),
         cmocka_unit_test(triangles_and_empty_rings_are_read),
+        cmocka_unit_test(nothing_stands_behind_an_object_of_json),
         cmocka_unit_test(every_allocation_may_fail),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
