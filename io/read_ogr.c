@@ -5,6 +5,7 @@
 #include "heard.h"
 #include "ogr_shapes.h"
 #include "readers.h"
+#include "support/text/csv.h"
 #include <cpl_conv.h>
 #include <cpl_string.h>
 #include <cpl_vsi.h>
@@ -243,6 +244,30 @@ static froe_status check_lines(const map *m, const char *table) {
                         objects, support_plural(objects));
 }
 
+/* GDAL takes a line of a table with an odd number of quotation marks for the beginning of a longer one, wherever they
+ * stand, and so rows behind a name such as 5" pipe for a part of it. */
+static froe_status check_quotes(const map *m) {
+    VSILFILE *in = VSIFOpenL(GDALGetDescription(m->data), "rb");
+    size_t number = 0, began = 0;
+    char separator = '\0';
+    bool within = false, odd = false;
+    for (const char *line; in && odd == within && (line = CPLReadLineL(in));) {
+        number++;
+        if (!separator) separator = support_csv_separator(line);
+        if (!within) began = number;
+        within = support_csv_goes_on(line, separator, within);
+        for (const char *at = line; (at = strchr(at, '"')); at++) odd = !odd;
+    }
+    if (in) VSIFCloseL(in);
+    if (odd == within && !within) return FROE_OK;
+    return support_fail(m->sink->diag, FROE_E_FORMAT, "%s: line %zu: %s", support_short(m->source->path),
+                        odd == within ? began : number,
+                        odd == within
+                            ? "A quotation mark is not closed."
+                            : "GDAL takes rows behind it for a part of it, because of a single quotation mark. "
+                              "It must be doubled, and stand in a field that begins and ends with others.");
+}
+
 static froe_status check_tables(const map *m) {
     char **files = GDALGetFileList(m->data);
     froe_status status = FROE_OK;
@@ -390,6 +415,7 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
         if (!source->beyond && !m.container && !strcmp(extension.text, "mif")) status = io_mif_check(source, sink);
         if (!status && (!strcmp(sink->report.format, "ESRI Shapefile") || !strcmp(sink->report.format, "MapInfo File")))
             status = check_tables(&m);
+        if (!status && m.is_table) status = check_quotes(&m);
         if (!status && m.shapes.cuts && strcmp(sink->report.format, "GeoJSONSeq") != 0)
             status = io_json_check(GDALGetDescription(m.data), sink);
         if (!status && !strcmp(sink->report.format, "TopoJSON"))

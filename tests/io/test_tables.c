@@ -113,6 +113,29 @@ static void geometries_that_are_absent_are_left_out(void **state) {
     refuse_table("id,geometry,WKT\n1,PINT (3 4),POINT (1 2)\n", FROE_E_FORMAT, "Its geometry 'PINT (3 4)' cannot");
 }
 
+/* GDAL counts them in whole lines. */
+static void quotation_marks_keep_rows_apart(void **state) {
+    (void)state;
+    static const char *const good[] = {
+        "id,WKT\n1,POINT (1 2)\n\"2\",\"POINT (3 4)\"\n",
+        "WKT;name\nPOINT (1 2);\"5\"\" pipe\"\nPOINT (3 4);b\n",
+        "WKT,name\n\"POINT (1 2)\",\"two\nlines, \"\"\n\"\n\"POINT (3 4)\",\"\"\n",
+        "WKT,name\nPOINT (1 2),a \"b\" c\nPOINT (3 4),d\n",
+        "\xef\xbb\xbf\"WKT\",\"name\"\r\n\"POINT (1 2)\",\"a\"\r\n\"POINT (3 4)\",\"b\"\r\n",
+    };
+    for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
+        write_text("quotes.csv", good[i]);
+        froe_scene *s = read_scene("quotes.csv", NULL);
+        assert_int_equal(froe_scene_object_count(s), 2);
+        froe_scene_free(s);
+    }
+    refuse_table("WKT,name\n\"POINT (1 2)\",a\n\"POINT (1 2)\",5\" pipe\n\"POINT (3 4)\",b\n\"POINT (5 6)\",6\" pipe\n",
+                 FROE_E_FORMAT, "bad.csv: line 3: GDAL takes rows behind it for a part of it");
+    refuse_table("WKT,name\n\"POINT (1 2)\",\"a\"b\"\nPOINT (3 4),c\n", FROE_E_FORMAT, "bad.csv: line 2: GDAL takes");
+    refuse_table("WKT,name\nPOINT (1 2),\"a\n\"\nPOINT (3 4),\"b\nPOINT (5 6),c\nPOINT (7 8),d\n", FROE_E_FORMAT,
+                 "bad.csv: line 4: A quotation mark is not closed.");
+}
+
 static void axes_have_several_names(void **state) {
     (void)state;
     static const char *const headers[] = {"lon,lat", "LNG,Lat", "longitude,latitude", "long,lat", "easting,northing"};
@@ -263,6 +286,7 @@ int main(void) {
         cmocka_unit_test(other_headers_are_left_to_ogr),
         cmocka_unit_test(lines_may_end_by_returns_alone),
         cmocka_unit_test(geometries_that_are_absent_are_left_out),
+        cmocka_unit_test(quotation_marks_keep_rows_apart),
         cmocka_unit_test(axes_have_several_names),
         cmocka_unit_test(decimal_commas_stand_between_semicolons),
         cmocka_unit_test(rows_of_one_name_are_a_group),
