@@ -60,6 +60,13 @@ static froe_status refuse_model(map *m, const char *name) {
     return status;
 }
 
+/* Is it a table of geometries alone? */
+static bool is_single_column(const map *m) {
+    const char *head = m->source->head;
+    return !strcmp(m->extension.text, "csv") && formats_csv_has_geometry(m->source) &&
+           strcspn(head, ",;\t") >= strcspn(head, "\r\n");
+}
+
 /* Says that nothing in it is a map; an archive is looked into. */
 static froe_status refuse_content(map *m, const char *name) {
     const froe_status status = strncmp(name, "/vsi", 4) ? FROE_OK : refuse_model(m, name);
@@ -77,6 +84,11 @@ static froe_status refuse_content(map *m, const char *name) {
     if (m->container && m->source->beyond)
         return map_fail(m, FROE_E_FORMAT, "It is a directory, and no map that can be read as a whole is in it.");
     if (formats_is_utf16(m->source)) return formats_refuse_utf16(m->source, m->sink);
+    if (is_single_column(m))
+        return support_fail(m->sink->diag, FROE_E_FORMAT,
+                            "%s: GDAL reads no table of one column. Another, which may be empty, must stand beside the "
+                            "geometry.",
+                            support_short(m->source->path));
     return map_fail(m, FROE_E_FORMAT, "The file is of no type that can be read.");
 }
 
@@ -116,18 +128,52 @@ static bool has_heights(OGRGeometryH geometry) {
     return box.MinZ < 0 || box.MaxZ > 0;
 }
 
-/* GDAL says nothing of a text in a table that is no geometry. Of several columns of geometry the first is read. */
-static froe_status check_absence(const map *m, OGRFeatureH feature) {
+/* What a table has in the place of the geometry; "": nothing. Of several such columns the first is read. */
+static const char *written_geometry(const map *m, OGRFeatureH feature) {
     OGRGeomFieldDefnH read = OGR_F_GetGeomFieldCount(feature) ? OGR_F_GetGeomFieldDefnRef(feature, 0) : NULL;
     const char *wanted = read ? OGR_GFld_GetNameRef(read) : "";
     if (!*wanted) wanted = "WKT"; /* which has no name then */
     for (int i = 0; m->is_table && i < OGR_F_GetFieldCount(feature); ++i) {
         const char *name = OGR_Fld_GetNameRef(OGR_F_GetFieldDefnRef(feature, i)), *text = text_of(feature, i);
         const bool absent = !text[strspn(text, " ")] || support_equal_nocase(text, "NULL");
-        if (!absent && support_equal_nocase(name, wanted))
-            return formats_sink_fail(m->sink, FROE_E_FORMAT, "Its geometry '%.40s' cannot be read.", text);
+        if (!absent && support_equal_nocase(name, wanted)) return text;
     }
-    return FROE_OK;
+    return "";
+}
+
+/* GDAL says nothing of a text in a table that is no geometry. */
+static froe_status check_absence(const map *m, OGRFeatureH feature) {
+    const char *text = written_geometry(m, feature);
+    if (!*text) return FROE_OK;
+    return formats_sink_fail(m->sink, FROE_E_FORMAT, "Its geometry '%.40s' cannot be read.", text);
+}
+
+/* Where GDAL goes wrong in a well-known text that it reads; NULL: nowhere. It takes the 64th character of a number for
+ * the first of another one. */
+static const char *find_fault(const char *text, bool *number) {
+    enum { MOST_CHARACTERS = 63 };
+    bool ended = false;
+    size_t depth = 0;
+    for (size_t length; *text; text += length) {
+        length = strcspn(text, " ;\t\r\n,()");
+        *number = depth && length > MOST_CHARACTERS; /* outside of parentheses it is a geometry in hexadecimal digits */
+        if (*number || (ended && !strchr(" ;\t\r\n", *text))) return text;
+        depth += *text == '(';
+        depth -= *text == ')';
+        ended = ended || (*text == ')' && !depth);
+        length += !length;
+    }
+    return NULL;
+}
+
+static froe_status check_text(const map *m, OGRFeatureH feature) {
+    bool number;
+    const char *text = written_geometry(m, feature), *fault = *text == '{' ? NULL : find_fault(text, &number);
+    if (!fault) return FROE_OK;
+    return formats_sink_fail(m->sink, FROE_E_FORMAT,
+                             number ? "Of a number of more than 63 characters, '%.40s...', GDAL makes two."
+                                    : "Behind its geometry stands '%.40s', which GDAL leaves out.",
+                             fault);
 }
 
 static froe_status add_feature(map *m, OGRFeatureH feature) {
@@ -147,7 +193,8 @@ static froe_status add_feature(map *m, OGRFeatureH feature) {
     if (!geometry) return ++sink->report.no_geometry, check_absence(m, feature);
     sink->report.flattened += has_heights(geometry);
     formats_sides sides;
-    status = io_shapes_sides(sink, &m->shapes, geometry, &sides);
+    status = check_text(m, feature);
+    if (!status) status = io_shapes_sides(sink, &m->shapes, geometry, &sides);
     if (!status) status = name_feature(m, feature, id, &sides);
     if (!status) status = io_shapes_add(sink, &m->shapes, geometry, &sides);
     if (curved) OGR_G_DestroyGeometry(geometry);

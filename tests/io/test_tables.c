@@ -113,6 +113,24 @@ static void geometries_that_are_absent_are_left_out(void **state) {
     refuse_table("id,geometry,WKT\n1,PINT (3 4),POINT (1 2)\n", FROE_E_FORMAT, "Its geometry 'PINT (3 4)' cannot");
 }
 
+#define DIGITS "1234567890123456789012345678901234567890123456789012345678901"
+static void geometries_end_with_their_text(void **state) {
+    (void)state;
+    write_text("whole.csv", "geom,name\n\"LINESTRING (0.1 0,0." DIGITS " 1) ; \",a\n"
+                            "0101000000000000000000F03F0000000000000040,b\n\"POINT Z EMPTY\",c\n");
+    froe_scene *s = read_scene("whole.csv", NULL);
+    assert_int_equal(froe_scene_object_count(s), 2);
+    assert_true(corner(s, 0, 1)[0] == 0.1234567890123456789 && corner(s, 1, 0)[1] == 2);
+    froe_scene_free(s);
+    refuse_table("WKT,name\n\"LINESTRING (0.1 0,0.2" DIGITS " 1)\",a\n", FROE_E_FORMAT,
+                 "feature 1 of 'bad': Of a number of more than 63 characters, "
+                 "'0.21234567890123456789012345678901234567...', GDAL makes two.");
+    refuse_table("WKT,name\nPOINT (1 2) POINT (3 4),a\n", FROE_E_FORMAT,
+                 "feature 1 of 'bad': Behind its geometry stands 'POINT (3 4)', which GDAL leaves out.");
+    refuse_table("WKT,name\n\"POINT (1 2), (3 4)\",a\n", FROE_E_FORMAT, "Behind its geometry stands ', (3 4)'");
+    refuse_table("WKT\n\"POINT (1 2)\"\n", FROE_E_FORMAT, "bad.csv: GDAL reads no table of one column. Another, which");
+}
+
 /* GDAL counts them in whole lines. */
 static void quotation_marks_keep_rows_apart(void **state) {
     (void)state;
@@ -286,6 +304,7 @@ int main(void) {
         cmocka_unit_test(other_headers_are_left_to_ogr),
         cmocka_unit_test(lines_may_end_by_returns_alone),
         cmocka_unit_test(geometries_that_are_absent_are_left_out),
+        cmocka_unit_test(geometries_end_with_their_text),
         cmocka_unit_test(quotation_marks_keep_rows_apart),
         cmocka_unit_test(axes_have_several_names),
         cmocka_unit_test(decimal_commas_stand_between_semicolons),
