@@ -1,8 +1,8 @@
 /* gltf.c: what a glTF file (version 2.0) may say that assimp passes over, so that the model would be another one.
  *
  * Those are extensions that it requires (3.12), positions that are no floating-point numbers (KHR_mesh_quantization),
- * nodes that stand for many (EXT_mesh_gpu_instancing), transformations of another shape than there are (3.5.3), and
- * faces with wrong indices, which assimp leaves out. Whatever assimp refuses by itself is left to it. */
+ * nodes that stand for many (EXT_mesh_gpu_instancing), transformations of another shape than there are (3.5.3), data in
+ * another alphabet than that of base64, and faces with wrong indices, which assimp leaves out. Whatever assimp refuses by itself is left to it. */
 #include "assimp_metadata.h"
 #include "check/check.h"
 #include "formats/input/json.h"
@@ -89,6 +89,31 @@ static froe_status check_extensions(const gltf_check *c) {
             return support_fail(c->sink->diag, FROE_E_UNSUPPORTED,
                                 "%s: The file requires the extension '%.60s' of glTF, which is not read.",
                                 support_short(c->sink->path), name);
+    }
+    return FROE_OK;
+}
+
+/* ---------------------------------------------------------------------- buffers -- */
+
+/* assimp takes what is no digit of base64 (RFC 4648, section 4) for zeros, and so - and _, which are digits in the
+ * names of files (section 5). It counts the letters before the data in 7 bits. */
+static const char *find_fault_of_data(const char *uri) {
+    enum { MOST_BEFORE = 126 };
+    static const char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const char *comma = uri && !strncmp(uri, "data:", 5) ? strchr(uri, ',') : NULL;
+    if (!comma) return NULL;
+    if (comma - uri > MOST_BEFORE) return "More than 126 letters are before its data.";
+    const char *base64 = strstr(uri, ";base64"), *end = comma + 1 + strspn(comma + 1, digits);
+    if (!base64 || base64 > comma || !end[strspn(end, "=")]) return NULL;
+    return "Its data are not in base64 with the digits A-Z, a-z, 0-9, + and / alone.";
+}
+
+static froe_status check_buffers(const gltf_check *c) {
+    size_t number = 0;
+    FORMATS_JSON_EACH(buffer, formats_json_get(c->root, "buffers")) {
+        const char *sentence = find_fault_of_data(formats_json_string(formats_json_get(buffer, "uri")));
+        if (sentence) return fail_at(c, FROE_E_FORMAT, "buffer", number, buffer, sentence);
+        number++;
     }
     return FROE_OK;
 }
@@ -253,6 +278,7 @@ froe_status io_gltf_check(const formats_source *source, formats_sink *sink, io_g
         const size_t scenes = formats_json_size(formats_json_get(c.root, "scenes"));
         sink->report.layers_left = scenes ? scenes - 1 : 0;
         status = check_extensions(&c);
+        if (!status) status = check_buffers(&c);
         if (!status) status = list_items(&c);
         if (!status) status = check_meshes(&c);
         if (!status) status = check_nodes(&c, found);

@@ -296,6 +296,9 @@ static void what_is_wrong_with_an_animation_is_said(void **state) {
     }
 }
 
+#define LONG TEN TEN TEN TEN TEN TEN TEN TEN TEN TEN TEN "text"
+#define TEN "text/plain"
+
 /* A channel whose sampler has times alone, in a second buffer: assimp takes nearly any. */
 static void write_second(const char *count, const char *view, const char *buffer) {
     FILE *file = fopen("buffer.gltf", "w");
@@ -322,7 +325,8 @@ static void what_is_wrong_with_a_buffer_is_said(void **state) {
     static const char outside[] = "A buffer is not at or below the folder of the file.",
                       other[] = "The bytes of a buffer are not in base64.",
                       beyond[] = "An accessor of an animation goes beyond its buffer.",
-                      no_output[] = "An accessor of an animation is broken."; /* the times are read, values are none */
+                      no_output[] = "An accessor of an animation is broken.", /* the times are read, values are none */
+        digits[] = "buffer 1: Its data are not in base64 with the digits A-Z, a-z, 0-9, + and / alone.";
     static const struct {
         const char *count, *view, *buffer;
         froe_status status;
@@ -336,13 +340,21 @@ static void what_is_wrong_with_a_buffer_is_said(void **state) {
         {"0", "0", "0,\"uri\":\"data:,\"", FROE_E_UNSUPPORTED, other},
         {"0", "0", "0,\"uri\":\"data:text/plain,\"", FROE_E_UNSUPPORTED, other},
         {"0", "0", "0,\"uri\":\"data:;base64,\"", FROE_E_FORMAT, no_output},
-        {"1", "4", "4,\"uri\":\"data:;base64,+-/_AA==\"", FROE_E_FORMAT, no_output},
+        {"1", "4", "4,\"uri\":\"data:;base64,+//+AA==\"", FROE_E_FORMAT, no_output},
+        {"1", "4", "4,\"uri\":\"data:;base64,+-/+AA==\"", FROE_E_FORMAT, digits},
+        {"1", "4", "4,\"uri\":\"data:;base64,+_/+AA==\"", FROE_E_FORMAT, digits},
+        {"1", "4", "4,\"uri\":\"data:;base64,AA=AAA==\"", FROE_E_FORMAT, digits},
+        {"1", "4", "4,\"uri\":\"data:x,;base64,-\"", FROE_E_FORMAT,
+         "The reader assimp reports 'GLTF: buffer \"buffers[1]\", expected 4 bytes, but found 9'."},
+        {"1", "4", "4,\"uri\":\"data:" LONG ";base64,AAAAAA==\"", FROE_E_FORMAT, no_output},
+        {"1", "4", "4,\"uri\":\"data:1" LONG ";base64,AAAAAA==\"", FROE_E_FORMAT,
+         "buffer 1: More than 126 letters are before its data."},
         {"1", "4,\"byteStride\":70000", "4,\"uri\":\"data:;base64,AAAAAA==\"", FROE_E_FORMAT, beyond},
         {"1", "4", "4,\"uri\":\"%67%6A%6b%G%1%4!.bin\"", FROE_E_FORMAT, no_output},
         {"1", "4", "4,\"uri\":\"%6g%6G.bin\"", FROE_E_FORMAT, no_output},
-        /* assimp takes what is no digit for one, and has more bytes */
-        {"1", "4", "4,\"uri\":\"data:;base64,AAA!AA==\"", FROE_E_FORMAT, beyond},
-        {"1,\"byteOffset\":4", "8", "8,\"uri\":\"data:;base64,AAA!AAAAAAA=\"", FROE_E_FORMAT, beyond},
+        {"1", "4", "4,\"uri\":\"data:;base64,AAA!AA==\"", FROE_E_FORMAT, digits},
+        {"1,\"byteOffset\":4", "8", "8,\"uri\":\"data:;base64,AAAAAA==\"", FROE_E_FORMAT,
+         "The reader assimp reports 'GLTF: buffer \"buffers[1]\", expected 8 bytes, but found 8'."},
     };
     write_bytes("gjk%G%1%4!.bin", "four", 4);
     write_bytes("%6g%6G.bin", "four", 4), write_bytes("%6Fnly.bin", "four", 4), remove("only.bin");
