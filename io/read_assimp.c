@@ -273,9 +273,9 @@ static froe_status import(const formats_source *source, formats_sink *sink, size
     bool memory = true;
     pthread_mutex_lock(&import_lock);
     io_log_begin(&log);
-    *scene = part                 ? aiImportFileFromMemory(bytes.data, (unsigned)part, 0, source->extension.text)
-             : io_is_gltf(source) ? io_import_masked(source->file, mask, &sink->alloc, &memory)
-                                  : aiImportFile(source->file, 0);
+    *scene = part ? aiImportFileFromMemory(bytes.data, (unsigned)part, 0, source->extension.text)
+             : io_is_gltf(source) || mask->count ? io_import_masked(source->file, mask, &sink->alloc, &memory)
+                                                 : aiImportFile(source->file, 0);
     io_log_end();
     status = !memory ? support_fail_memory(sink->diag) : *scene ? FROE_OK : refuse_import(source, sink);
     pthread_mutex_unlock(&import_lock);
@@ -341,7 +341,7 @@ froe_status io_read_arranged(const formats_source *source, formats_sink *sink, i
     if (!status && io_is_x(source)) status = io_x_check(source, sink);
     if (!status && io_is_ase(source)) status = io_ase_check(source, sink);
     if (!status && io_is_ifc(source)) status = io_ifc_check(source, sink);
-    if (!status && io_is_amf(source)) status = io_amf_check(source, sink);
+    if (!status && io_is_amf(source)) status = io_amf_check(source, sink, &found.masked);
     if (!status && io_is_x3d(source)) status = io_x3d_check(source, sink);
     if (!status && io_is_collada(source)) status = io_collada_check(source, sink);
     if (!status && !strcmp(source->extension.text, "zae")) status = io_stored_check(source, sink);

@@ -212,14 +212,19 @@ static void what_assimp_takes_for_something_else_is_refused(void **state) {
 #define AMF(more) "<amf unit=\"millimeter\">\n" more "</amf>"
 #define CORNER(x, y) "<vertex><coordinates><x>" x "</x><y>" y "</y><z>0</z></coordinates></vertex>"
 #define VOLUME "<volume><triangle><v1>0</v1><v2>1</v2><v3>2</v3></triangle></volume>"
-#define MESH(volumes)                                                                                                  \
-    "<mesh><vertices>" CORNER("0", "0") CORNER("1", "0") CORNER("0", "1") "</vertices>" volumes "</mesh>"
+#define OF(material, more)                                                                                             \
+    "<volume materialid=\"" material "\">" more "<triangle><v1>0</v1><v2>1</v2><v3>2</v3></triangle></volume>"
+#define COLOUR "<color><r>1</r><g>0</g><b>0</b></color>"
+#define RED "<material id=\"1\">" COLOUR "</material>"
+#define AMF_VERTICES "<vertices>" CORNER("0", "0") CORNER("1", "0") CORNER("0", "1") "</vertices>"
+#define MESH(volumes) "<mesh>" AMF_VERTICES volumes "</mesh>"
 #define OBJECT(id, meshes) "<object id=\"" id "\">" meshes "</object>\n"
 #define INSTANCE(parts) "<constellation id=\"9\"><instance objectid=\"0\">" parts "</instance></constellation>"
 #define GOOD OBJECT("0", MESH(VOLUME))
     static const char axis[] = "line 2: The axis of a rotation has not the length 1.",
                       turn[] = "line 3: Turns of instances (rx, ry, rz) are not read.",
-                      several[] = ": Objects of several volumes or meshes are not read.";
+                      scale[] = "line 3: Scales and mirrors of instances are not read.",
+                      several[] = ": Objects of several volumes that differ are not read.";
     static const struct {
         const char *path, *text;
         froe_status status;
@@ -242,10 +247,23 @@ static void what_assimp_takes_for_something_else_is_refused(void **state) {
         {"a.x3d", "<?xml version=\"1.0\" encoding=\"x-nobody\"?>" X3D(SHAPE), FROE_OK, "", 1}, /* assimp reads it */
         {"a.amf", AMF(GOOD OBJECT("1", MESH(VOLUME))), FROE_OK, "", 2},
         {"a.amf", AMF(GOOD INSTANCE("<deltax>5</deltax>")), FROE_OK, "", 1},
-        {"a.amf", AMF(GOOD OBJECT("1", MESH(VOLUME VOLUME))), FROE_E_UNSUPPORTED, several, 0},
-        {"a.amf", AMF(OBJECT("1", MESH(VOLUME) MESH(VOLUME))), FROE_E_UNSUPPORTED, several, 0},
-        {"a.amf", AMF(GOOD INSTANCE("<rx>0</rx>")), FROE_E_UNSUPPORTED, turn, 0},
-        {"a.amf", AMF(GOOD INSTANCE("<ry/>")), FROE_E_UNSUPPORTED, turn, 0},
+        {"a.amf", AMF(OBJECT("0", MESH(VOLUME "\n" VOLUME "<!-- <volume> -->" VOLUME))), FROE_OK, "", 3},
+        {"a.amf", AMF(RED OBJECT("0", MESH(OF("1", "") OF("1", "")))), FROE_OK, "", 2},
+        {"a.amf", AMF(RED OBJECT("0", MESH(OF("1", "") VOLUME))), FROE_E_UNSUPPORTED, several, 0},
+        {"a.amf", AMF(OBJECT("0", MESH(OF("", COLOUR) VOLUME))), FROE_E_UNSUPPORTED, several, 0},
+        {"a.amf", AMF(OBJECT("0", MESH(VOLUME OF("", COLOUR)))), FROE_E_UNSUPPORTED, several, 0},
+        {"a.amf", AMF(OBJECT("0", MESH(OF("", "<metadata>a</metadata>") VOLUME))), FROE_OK, "", 2},
+        {"a.amf", AMF(OBJECT("0", MESH("<volume/>" VOLUME))), FROE_E_UNSUPPORTED, several, 0},
+        {"a.amf", AMF(OBJECT("0", "<mesh>" VOLUME AMF_VERTICES "</mesh>")), FROE_OK, "", 1},
+        {"a.amf", AMF(OBJECT("0", "<mesh>" VOLUME AMF_VERTICES VOLUME "</mesh>")), FROE_E_UNSUPPORTED, several, 0},
+        {"a.amf", AMF(OBJECT("0", "<mesh>" VOLUME VOLUME AMF_VERTICES "</mesh>")), FROE_E_UNSUPPORTED, several, 0},
+        {"a.amf", AMF(OBJECT("1", MESH(VOLUME) MESH(VOLUME))), FROE_E_UNSUPPORTED,
+         "line 2: Objects of several meshes are not read.", 0},
+        {"a.amf", AMF(GOOD INSTANCE("<scalex>1.0</scalex><mirrorz>1</mirrorz><printable>1</printable>")), FROE_OK, "",
+         1},
+        {"a.amf", AMF(GOOD INSTANCE("<scale>2</scale>")), FROE_E_UNSUPPORTED, scale, 0},
+        {"a.amf", AMF(GOOD INSTANCE("<mirrory>-1</mirrory>")), FROE_E_UNSUPPORTED, scale, 0},
+        {"a.amf", AMF(GOOD INSTANCE("<ry>1e-9</ry>")), FROE_E_UNSUPPORTED, turn, 0},
         {"a.amf", AMF(GOOD INSTANCE("<rz>90</rz>")), FROE_E_UNSUPPORTED, turn, 0},
         {"a.amf", "<amf>", FROE_E_FORMAT, "a.amf: line 1: The text is not well-formed XML.", 0},
         {"a.amf", "PK\3\4 is no AMF in an archive", FROE_E_FORMAT, "a.amf: ", 0},
@@ -261,6 +279,18 @@ static void what_assimp_takes_for_something_else_is_refused(void **state) {
         if (objects != cases[i].objects || strcmp(report.sorts_left, cases[i].words) != 0)
             fail_msg("%s: %zu objects, and '%s' are left out", cases[i].text, objects, report.sorts_left);
     }
+}
+
+static void turns_by_nothing_move_no_instance(void **state) {
+    (void)state;
+    static const char text[] = AMF(GOOD INSTANCE("<rx>0</rx><deltax>5</deltax><ry/><deltay>6</deltay><deltaz>7</deltaz>"
+                                                 "<rz> 0.0 </rz>"));
+    write_text("still.amf", text);
+    assert_true(test_memory_each(read_with_memory, "still.amf") > 5);
+    froe_scene *scene = read_scene("still.amf", NULL);
+    assert_int_equal(froe_scene_object_count(scene), 1);
+    for (int k = 0; k < 3; k++) assert_true(corner(scene, 0, 0)[k] == 5 + k);
+    froe_scene_free(scene);
 }
 
 static bool count_calls(void *user, double done) {
@@ -691,6 +721,7 @@ int main(void) {
         cmocka_unit_test(what_collada_says_of_its_numbers_is_looked_at),
         cmocka_unit_test(long_texts_are_refused_once),
         cmocka_unit_test(what_assimp_takes_for_something_else_is_refused),
+        cmocka_unit_test(turns_by_nothing_move_no_instance),
         cmocka_unit_test(long_texts_are_looked_through_in_parts),
         cmocka_unit_test(requirements_of_3mf_are_lists_of_words),
         cmocka_unit_test(corners_without_colours_mix_none),
