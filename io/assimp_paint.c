@@ -167,7 +167,8 @@ uint32_t assimp_paint_face(const assimp_paint *p, const struct aiMesh *mesh, con
         }
         const bool opaque = p->linear && p->texture.cutoff != 0;
         for (int k = 0; k < 4; k++) rgba[k] *= k == 3 && opaque ? 1 : sum[k];
-        if (!p->linear) return formats_step_colour(colour_of(rgba, false));
+        const bool none = sum[0] == 0 && sum[1] == 0 && sum[2] == 0 && sum[3] == 0; /* so assimp has it of AMF */
+        if (!p->linear) return none ? p->colour : formats_step_colour(colour_of(rgba, false));
     }
     if (count > 2 && has_places(p, mesh)) {
         for (unsigned i = 0; i < count; i++) {

@@ -293,6 +293,17 @@ static void turns_by_nothing_move_no_instance(void **state) {
     froe_scene_free(scene);
 }
 
+/* assimp gives corners without a colour one that is black and clear. */
+static void faces_of_amf_without_a_colour_have_none(void **state) {
+    (void)state;
+    write_text("plain.amf", AMF(GOOD OBJECT("1", MESH(OF("", COLOUR)))));
+    froe_scene *scene = read_scene("plain.amf", NULL);
+    assert_int_equal(froe_scene_object_count(scene), 2);
+    for (uint32_t i = 0; i < 2; i++)
+        assert_int_equal(froe_scene_group(scene, froe_scene_object(scene, i).group).colour, i ? 0xff0000ff : 0);
+    froe_scene_free(scene);
+}
+
 static bool count_calls(void *user, double done) {
     int *calls = user;
     (void)done;
@@ -722,6 +733,7 @@ int main(void) {
         cmocka_unit_test(long_texts_are_refused_once),
         cmocka_unit_test(what_assimp_takes_for_something_else_is_refused),
         cmocka_unit_test(turns_by_nothing_move_no_instance),
+        cmocka_unit_test(faces_of_amf_without_a_colour_have_none),
         cmocka_unit_test(long_texts_are_looked_through_in_parts),
         cmocka_unit_test(requirements_of_3mf_are_lists_of_words),
         cmocka_unit_test(corners_without_colours_mix_none),
