@@ -343,8 +343,8 @@ froe_status io_read_arranged(const formats_source *source, formats_sink *sink, i
     if (!status && io_is_ifc(source)) status = io_ifc_check(source, sink);
     if (!status && io_is_amf(source)) status = io_amf_check(source, sink, &found.masked);
     if (!status && io_is_x3d(source)) status = io_x3d_check(source, sink);
-    if (!status && io_is_collada(source)) status = io_collada_check(source, sink);
     if (!status && !strcmp(source->extension.text, "zae")) status = io_stored_check(source, sink);
+    if (!status && io_is_collada(source)) status = io_collada_check(source, sink);
     const struct aiScene *scene = NULL;
     if (!status) status = import(source, sink, part, &found.masked, &scene);
     if (!status) status = io_gltf_is_whole(sink, scene, &found);

@@ -37,6 +37,11 @@ void io_xml_refuse(io_xml *xml, froe_status status, const char *sentence);
 /** Looks through a text; what was refused. *whole: it is well-formed, or as far as it goes; NULL: otherwise it is
  * refused. FROE_E_IO, FROE_E_MEMORY, FROE_E_CANCELLED. */
 froe_status io_xml_look(io_xml *xml, const formats_source *source, const io_xml_handlers *handlers, bool *whole);
+froe_status io_xml_look_at(io_xml *xml, const formats_text *text, const io_xml_handlers *handlers, bool *whole);
+
+/** Loads a file of the virtual file systems of GDAL, such as one in an archive. FROE_E_MEMORY, or FROE_E_FORMAT: it
+ * cannot be read, and no sentence says so. */
+froe_status io_virtual_load(const char *path, formats_sink *sink, formats_text *text);
 
 /** What a text is refused for. */
 typedef struct io_fault {
@@ -128,7 +133,7 @@ bool io_is_amf(const formats_source *source);
 /** Before the import: FROE_E_UNSUPPORTED or FROE_E_FORMAT where an AMF file has what assimp reads as something else. The
  * mask, which is the caller's, hides what it reads rightly without. */
 froe_status io_amf_check(const formats_source *source, formats_sink *sink, io_mask *mask);
-/** Is it COLLADA, by its extension? */
+/** Is it COLLADA, perhaps in an archive, by its extension? */
 bool io_is_collada(const formats_source *source);
 /** Before the import: FROE_E_UNSUPPORTED or FROE_E_FORMAT where a COLLADA file has what assimp passes over in silence.
  * Geometries that are no meshes are counted in the report. */

@@ -5,7 +5,6 @@
  *
  * A text that is no JSON is left to GDAL. */
 #include "check/check.h"
-#include <cpl_vsi.h>
 #include <string.h>
 
 static bool has_arcs(const formats_json *value) {
@@ -46,26 +45,14 @@ static froe_status check_objects(formats_sink *sink, const formats_json *root) {
 }
 
 froe_status io_topojson_check(const char *path, formats_sink *sink) {
-    enum { AHEAD = 16 }; /* zeros behind the text: numbers are read ahead */
     formats_text text = {0};
     formats_json_values values = {0};
     formats_json_error error;
-    GByte *bytes = NULL;
-    vsi_l_offset size = 0;
-    if (!VSIIngestFile(NULL, path, &bytes, &size, -1)) /* one way: GDAL has read it just now */
-        return support_fail_memory(sink->diag);
-    bool room = array_append(&sink->alloc, &text, (const char *)bytes, (size_t)size) &&
-                array_reserve(&sink->alloc, &text, AHEAD);
-    VSIFree(bytes);
-    froe_status read = FROE_E_FORMAT;
-    if (room) {
-        memset(text.data + text.count, 0, AHEAD);
-        read = formats_json_read(&sink->alloc, text.data, text.count, &values, &error);
-        room = read != FROE_E_MEMORY;
-    }
-    const froe_status status = !room  ? support_fail_memory(sink->diag)
-                               : read ? FROE_OK
-                                      : check_objects(sink, values.data);
+    froe_status status = io_virtual_load(path, sink, &text);
+    if (status == FROE_E_FORMAT) status = support_fail_memory(sink->diag); /* one way: GDAL has read it just now */
+    const froe_status read = status ? status : formats_json_read(&sink->alloc, text.data, text.count, &values, &error);
+    if (!status && read == FROE_E_MEMORY) status = support_fail_memory(sink->diag);
+    if (!read) status = check_objects(sink, values.data);
     array_free(&sink->alloc, &text);
     array_free(&sink->alloc, &values);
     return status;

@@ -12,33 +12,39 @@ void io_xml_refuse(io_xml *xml, froe_status status, const char *sentence) {
 }
 
 /* *whole becomes false where the text has ended in the middle. */
-static froe_status parse(io_xml *xml, const formats_source *source, bool *whole) {
+static froe_status parse(io_xml *xml, const formats_text *text, bool *whole) {
     enum { CHUNK = 1 << 20 };
-    formats_text text = {0};
-    froe_status status = formats_load_part(source, xml->sink, 0, (size_t)source->size, &text);
-    for (size_t at = 0; at < text.count && *whole && !status; at += CHUNK) {
-        const size_t size = text.count - at < CHUNK ? text.count - at : CHUNK;
-        *whole = XML_Parse(xml->parser, text.data + at, (int)size, at + size == text.count) != XML_STATUS_ERROR;
+    froe_status status = FROE_OK;
+    for (size_t at = 0; at < text->count && *whole && !status; at += CHUNK) {
+        const size_t size = text->count - at < CHUNK ? text->count - at : CHUNK;
+        *whole = XML_Parse(xml->parser, text->data + at, (int)size, at + size == text->count) != XML_STATUS_ERROR;
         if (!*whole && XML_GetErrorCode(xml->parser) == XML_ERROR_NO_MEMORY)
             status = support_fail_memory(xml->sink->diag);
         if (!status) status = formats_sink_progress(xml->sink, 0);
     }
-    array_free(&xml->sink->alloc, &text);
     return status;
 }
 
-froe_status io_xml_look(io_xml *xml, const formats_source *source, const io_xml_handlers *handlers, bool *whole) {
+froe_status io_xml_look_at(io_xml *xml, const formats_text *text, const io_xml_handlers *handlers, bool *whole) {
     bool good = true;
     xml->parser = XML_ParserCreate(NULL);
     if (!xml->parser) return support_fail_memory(xml->sink->diag);
     XML_SetUserData(xml->parser, xml);
     XML_SetElementHandler(xml->parser, handlers->begin, handlers->end);
     XML_SetCharacterDataHandler(xml->parser, handlers->text);
-    const froe_status status = parse(xml, source, &good);
+    const froe_status status = parse(xml, text, &good);
     if (whole)
         *whole = good;
     else if (!status && !xml->status && !good && XML_GetErrorCode(xml->parser) != XML_ERROR_UNKNOWN_ENCODING)
         io_xml_refuse(xml, FROE_E_FORMAT, "The text is not well-formed XML.");
     XML_ParserFree(xml->parser);
     return status ? status : xml->status;
+}
+
+froe_status io_xml_look(io_xml *xml, const formats_source *source, const io_xml_handlers *handlers, bool *whole) {
+    formats_text text = {0};
+    froe_status status = formats_load_part(source, xml->sink, 0, (size_t)source->size, &text);
+    if (!status) status = io_xml_look_at(xml, &text, handlers, whole);
+    array_free(&xml->sink->alloc, &text);
+    return status;
 }

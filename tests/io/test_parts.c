@@ -478,6 +478,43 @@ static void archives_of_other_kinds_are_left_to_their_readers(void **state) {
     read_any("other.zae");
 }
 
+#define COLLADA(kind)                                                                                                  \
+    "<COLLADA xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" version=\"1.4.1\"><asset/><library_geometries>"   \
+    "<geometry id=\"g\"><mesh><source id=\"p\"><float_array id=\"a\" count=\"12\">0 0 0 4 0 0 4 4 0 0 4 "              \
+    "0</float_array>"                                                                                                  \
+    "<technique_common><accessor source=\"#a\" count=\"4\" stride=\"3\"><param name=\"X\" type=\"float\"/>"            \
+    "<param name=\"Y\" type=\"float\"/><param name=\"Z\" type=\"float\"/></accessor></technique_common></source>"      \
+    "<vertices id=\"v\"><input semantic=\"POSITION\" source=\"#p\"/></vertices><" kind " count=\"1\">"                 \
+    "<input semantic=\"VERTEX\" source=\"#v\" offset=\"0\"/><p>0 1 2</p></" kind "></mesh></geometry>"                 \
+    "</library_geometries>\n<library_visual_scenes><visual_scene id=\"s\"><node><instance_geometry url=\"#g\"/>"       \
+    "</node></visual_scene></library_visual_scenes><scene><instance_visual_scene url=\"#s\"/></scene></COLLADA>"
+
+static void collada_in_archives_is_looked_through(void **state) {
+    (void)state;
+    enum { ENTRY = 46, NOTES = 9, PLACE = 42 }; /* of an entry, a name, and of what tells where the file begins */
+    static const char *const texts[] = {COLLADA("triangles"), COLLADA("trifans")};
+    static archive a;
+    for (int fan = 0; fan < 2; fan++) {
+        begin_archive(&a);
+        store(&a, "notes.txt", "notes", 5);
+        store(&a, "models/a.dae", texts[fan], strlen(texts[fan]));
+        write_archive(&a, "models.zae");
+        if (!fan) assert_true(test_memory_each(read_with_memory, "models.zae") > 5);
+        if (!fan)
+            expect_objects("models.zae", 1);
+        else
+            refuse("models.zae", FROE_E_UNSUPPORTED, "models.zae: line 1: Fans of triangles (trifans) are not read.");
+    }
+    begin_archive(&a);
+    store(&a, "notes.txt", "notes", 5);
+    store(&a, "models/a.dae", texts[0], strlen(texts[0]));
+    a.directory[ENTRY + NOTES + PLACE + 2] = 1;
+    write_archive(&a, "lost.zae");
+    refuse("lost.zae", FROE_E_FORMAT, "lost.zae: ");
+    write_text("text.zae", texts[1]); /* assimp reads it */
+    refuse("text.zae", FROE_E_UNSUPPORTED, "text.zae: line 1: Fans of triangles (trifans) are not read.");
+}
+
 static void memory_may_end_in_archives(void **state) {
     (void)state;
     static archive a;
@@ -504,6 +541,7 @@ int main(void) {
         cmocka_unit_test(stored_files_have_their_checksums),
         cmocka_unit_test(large_files_may_be_stored),
         cmocka_unit_test(archives_of_other_kinds_are_left_to_their_readers),
+        cmocka_unit_test(collada_in_archives_is_looked_through),
         cmocka_unit_test(memory_may_end_in_archives),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
