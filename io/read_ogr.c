@@ -444,6 +444,8 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
     froe_status status = formats_sink_open(sink, 2);
     if (status) return status;
     if (!strncmp(name, "/vsizip/", 8) && !source->beyond) status = io_stored_check(source, sink);
+    const bool kml = !strcmp(extension.text, "kml") || !strcmp(extension.text, "kmz");
+    if (!status && kml && !m.container && !source->beyond) status = io_kml_check(source, sink);
     io_gdal_begin(&m.heard);
     if (!status) status = refuse_virtual(&m, name);
     if (!status) {
@@ -475,7 +477,7 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
     const char *left = m.heard.left.text; /* whole names, each of less than 32 letters */
     size_t fit = strlen(left);
     while (fit >= sizeof sink->report.sorts_left || (left[fit] && left[fit] != ',')) fit--;
-    snprintf(sink->report.sorts_left, sizeof sink->report.sorts_left, "%.*s", (int)fit, left);
+    if (fit) snprintf(sink->report.sorts_left, sizeof sink->report.sorts_left, "%.*s", (int)fit, left);
     io_shapes_free(&sink->alloc, &m.shapes);
     array_free(&sink->alloc, &m.texts);
     return status;

@@ -42,6 +42,10 @@ froe_status io_xml_look_at(io_xml *xml, const formats_text *text, const io_xml_h
 /** Loads a file of the virtual file systems of GDAL, such as one in an archive. FROE_E_MEMORY, or FROE_E_FORMAT: it
  * cannot be read, and no sentence says so. */
 froe_status io_virtual_load(const char *path, formats_sink *sink, formats_text *text);
+/** Looks through a text, and refuses it for what is found. */
+typedef froe_status io_look_fn(const formats_text *text, formats_sink *sink);
+/** Looks through each file of a zip archive whose name has that extension. FROE_E_FORMAT, FROE_E_MEMORY. */
+froe_status io_archive_look(const formats_source *source, formats_sink *sink, const char *extension, io_look_fn *look);
 
 /** What a text is refused for. */
 typedef struct io_fault {
@@ -138,6 +142,8 @@ bool io_is_collada(const formats_source *source);
 /** Before the import: FROE_E_UNSUPPORTED or FROE_E_FORMAT where a COLLADA file has what assimp passes over in silence.
  * Geometries that are no meshes are counted in the report. */
 froe_status io_collada_check(const formats_source *source, formats_sink *sink);
+/** Before GDAL opens a file of KML, perhaps in an archive: FROE_E_FORMAT where places of it are not numbers. */
+froe_status io_kml_check(const formats_source *source, formats_sink *sink);
 /** FROE_E_FORMAT where lines and regions of a MIF file have other points than they count. */
 froe_status io_mif_check(const formats_source *source, formats_sink *sink);
 /** FROE_E_FORMAT where a file that is stored in a zip archive, without compression, is not what it was. */

@@ -12,10 +12,7 @@
  * What assimp does not look at is not looked at either: libraries of other things, such as physics, and extras of
  * programs. Whatever assimp refuses by itself is left to it, and so is a text that is no XML. */
 #include "check/check.h"
-#include "heard.h"
 #include "support/decimal/decimal.h"
-#include <cpl_string.h>
-#include <cpl_vsi.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -202,13 +199,11 @@ static froe_status check_names(collada_check *c) {
     return c->xml.status;
 }
 
-/* Looks through a text, or where there is none through the source. */
-static froe_status look(const formats_source *source, const formats_text *text, formats_sink *sink) {
+static froe_status look(const formats_text *text, formats_sink *sink) {
     static const io_xml_handlers handlers = {begin_element, end_element, read_text};
     collada_check c = {.xml.sink = sink};
     bool whole;
-    froe_status status =
-        text ? io_xml_look_at(&c.xml, text, &handlers, &whole) : io_xml_look(&c.xml, source, &handlers, &whole);
+    froe_status status = io_xml_look_at(&c.xml, text, &handlers, &whole);
     if (!status && whole) status = check_names(&c);
     array_free(&sink->alloc, &c.text);
     array_free(&sink->alloc, &c.numbers);
@@ -217,27 +212,13 @@ static froe_status look(const formats_source *source, const formats_text *text, 
     return status;
 }
 
-/* Each model in it, which is one as a rule: assimp reads the one that a manifest names, or any. */
-static froe_status look_into(const formats_source *source, formats_sink *sink) {
-    io_heard heard = {.path = source->file};
-    froe_status status = FROE_OK;
-    io_gdal_begin(&heard);
-    char **files = VSIReadDirRecursive(CPLSPrintf("/vsizip/{%s}", source->file));
-    for (char **file = files; file && *file && !status; file++) {
-        formats_text text = {0};
-        if (strcmp(support_path_extension(*file).text, "dae") != 0) continue;
-        status = io_virtual_load(CPLSPrintf("/vsizip/{%s}/%s", source->file, *file), sink, &text);
-        if (status == FROE_E_FORMAT)
-            status = io_gdal_fail(&heard, sink->diag, FROE_E_FORMAT, source->path, "Its model cannot be unpacked.");
-        if (!status) status = look(source, &text, sink);
-        array_free(&sink->alloc, &text);
-    }
-    CSLDestroy(files);
-    io_gdal_end(&heard);
-    return status;
-}
-
+/* There is one model in an archive as a rule. Of several assimp reads that which a manifest names, or any. */
 froe_status io_collada_check(const formats_source *source, formats_sink *sink) {
     const bool archive = !strcmp(source->extension.text, "zae") && !strncmp(source->head, "PK", 2);
-    return archive ? look_into(source, sink) : look(source, NULL, sink);
+    if (archive) return io_archive_look(source, sink, "dae", look);
+    formats_text text = {0};
+    froe_status status = formats_load_part(source, sink, 0, (size_t)source->size, &text);
+    if (!status) status = look(&text, sink);
+    array_free(&sink->alloc, &text);
+    return status;
 }

@@ -1,5 +1,7 @@
 /* virtual.c: files in the virtual file systems of GDAL, such as those in archives, that are looked through. */
 #include "check/check.h"
+#include "heard.h"
+#include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <string.h>
 
@@ -14,4 +16,23 @@ froe_status io_virtual_load(const char *path, formats_sink *sink, formats_text *
     if (!room) return support_fail_memory(sink->diag);
     memset(text->data + text->count, 0, AHEAD);
     return FROE_OK;
+}
+
+froe_status io_archive_look(const formats_source *source, formats_sink *sink, const char *extension, io_look_fn *look) {
+    io_heard heard = {.path = source->file};
+    froe_status status = FROE_OK;
+    io_gdal_begin(&heard);
+    char **files = VSIReadDirRecursive(CPLSPrintf("/vsizip/{%s}", source->file));
+    for (char **file = files; file && *file && !status; file++) {
+        formats_text text = {0};
+        if (strcmp(support_path_extension(*file).text, extension) != 0) continue;
+        status = io_virtual_load(CPLSPrintf("/vsizip/{%s}/%s", source->file, *file), sink, &text);
+        if (status == FROE_E_FORMAT)
+            status = io_gdal_fail(&heard, sink->diag, FROE_E_FORMAT, source->path, "It cannot be unpacked.");
+        if (!status) status = look(&text, sink);
+        array_free(&sink->alloc, &text);
+    }
+    CSLDestroy(files);
+    io_gdal_end(&heard);
+    return status;
 }

@@ -1,4 +1,5 @@
-/* Models as text with lists that do not fit, or name what does not exist: AC3D, ASE (of 3ds Max) and DirectX. */
+/* Models as text with lists that do not fit, or name what does not exist: AC3D, ASE (of 3ds Max) and DirectX; and maps
+ * with lists of what are no places: KML. */
 #include "support.h"
 
 /* ------------------------------------------------------------------------ AC3D -- */
@@ -401,6 +402,72 @@ static void memory_may_end_in_x(void **state) {
     test_memory_each(read_with_memory, "whole.x");
 }
 
+/* ------------------------------------------------------------------------- KML -- */
+
+#define KML(parts)                                                                                                     \
+    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<kml xmlns=\"http://www.opengis.net/kml/2.2\" "                       \
+    "xmlns:gx=\"http://www.google.com/kml/ext/2.2\"><Document>\n" parts "</Document></kml>\n"
+#define LINE(coordinates) "<Placemark><LineString><coordinates>" coordinates "</coordinates></LineString></Placemark>\n"
+#define TRACK(parts) "<Placemark><gx:Track>" parts "</gx:Track></Placemark>\n"
+#define AT(place) "<when>2020-01-01T00:00:00Z</when><gx:coord>" place "</gx:coord>"
+
+/* GDAL would make other places of them, or end the program. */
+static void places_of_kml_are_numbers(void **state) {
+    (void)state;
+    static const char *const bad[] = {
+        "1,2 3,x",  "1 2",      "1,2;3,4", "1,5,2,25 3,4", "1,5,2,25,0", "1.5\xc2\xb0,2 3,4",
+        "1,,2 3,4", "1,2, 3,4", "1",       "1,2,3,4,5,6",  "1,2.3.4 5,6"};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        char text[600];
+        snprintf(text, sizeof text, KML(LINE("0,0 1,1") LINE("%s")), bad[i]);
+        write_text("bad.kml", text);
+        refuse("bad.kml", FROE_E_FORMAT, "bad.kml: line 4: A place is not two or three numbers with decimal points.");
+    }
+    static const char *const tracks[] = {AT("1 2 3") AT(""),  AT("1 x") AT("1 2"),     AT("1,2,3") AT("1 2"),
+                                         AT("1") AT("1 2"),   AT("1 2 3 4") AT("1 2"), AT(" 1 2") AT("1 2"),
+                                         AT("1  2") AT("1 2")};
+    for (size_t i = 0; i < sizeof tracks / sizeof *tracks; i++) {
+        char text[600];
+        snprintf(text, sizeof text, KML(TRACK("%s")), tracks[i]);
+        write_text("bad.kml", text);
+        refuse("bad.kml", FROE_E_FORMAT,
+               "bad.kml: line 3: A place of a track is not two or three numbers with one blank between them.");
+    }
+    write_text("bad.kml", KML(TRACK(AT("1 2 3") "<gx:coord>3 4 5</gx:coord>")));
+    refuse("bad.kml", FROE_E_FORMAT, "bad.kml: line 3: A track has more places (gx:coord) than times (when).");
+    write_text("bad.kml", KML("<Folder>"));
+    refuse("bad.kml", FROE_E_FORMAT, "bad.kml: line 3: The text is not well-formed XML.");
+}
+
+static void what_places_of_kml_may_be_is_read(void **state) {
+    (void)state;
+    static const char *const good[] = {
+        LINE("1,2 3,4"),
+        LINE("\n 1,2,0\n\t+3.,.4e1,7 "),
+        LINE("1,2,nan, 3,4,-5, "),
+        LINE("1, 2, 0 3 ,4 , 0"),
+        LINE("<![CDATA[1,2 3,4]]>"),
+        LINE("") LINE("1,2 3,4"),
+        TRACK(AT("1 2 3") AT("\n3 4 \n") "<when/>"),
+        TRACK("") LINE("1,2 3,4"),
+    };
+    for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
+        char text[600];
+        snprintf(text, sizeof text, KML("%s"), good[i]);
+        write_text("good.kml", text);
+        froe_scene *scene = read_scene("good.kml", NULL);
+        assert_int_equal(froe_scene_object_count(scene), 1);
+        for (int k = 0; k < 2; k++)
+            assert_true(corner(scene, 0, k)[0] == 1 + 2 * k && corner(scene, 0, k)[1] == 2 + 2 * k);
+        froe_scene_free(scene);
+    }
+    assert_true(test_memory_each(read_with_memory, "good.kml") > 5);
+    froe_read_report report;
+    write_text("linked.kml", KML("<NetworkLink><Link><href>other.kml</href></Link></NetworkLink>" LINE("1,2 3,4")));
+    froe_scene_free(read_scene("linked.kml", &report));
+    assert_string_equal(report.sorts_left, "NetworkLink");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_assimp_takes_for_something_else_is_refused),
@@ -418,6 +485,8 @@ int main(void) {
         cmocka_unit_test(what_is_not_as_expected_is_left_to_assimp),
         cmocka_unit_test(meshes_may_have_no_faces),
         cmocka_unit_test(memory_may_end_in_x),
+        cmocka_unit_test(places_of_kml_are_numbers),
+        cmocka_unit_test(what_places_of_kml_may_be_is_read),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
