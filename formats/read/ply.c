@@ -176,6 +176,8 @@ static froe_status read_ply_header(ply *p) {
 
 /* ------------------------------------------------------------------ data -- */
 
+static const unsigned char sizes[] = {0, 1, 1, 2, 2, 4, 4, 4, 8};
+
 static bool read_number(ply *p, ply_type type, double *value) {
     if (p->text) {
         char *end;
@@ -184,7 +186,6 @@ static bool read_number(ply *p, ply_type type, double *value) {
         p->at = end;
         return found;
     }
-    static const unsigned char sizes[] = {0, 1, 1, 2, 2, 4, 4, 4, 8};
     const size_t size = sizes[type];
     if ((size_t)(p->end - p->at) < size) return false;
     uint64_t bits = 0;
@@ -234,6 +235,19 @@ static froe_status add_corner(ply *p, double index) {
                    (!coloured || array_push(&p->sink->alloc, &p->shades, p->colours.data[(size_t)index]))
                ? FROE_OK
                : out_of_memory(p);
+}
+
+/* Is there more than the counts say? Behind a binary file there may be bytes, too few for an item of the last element. */
+static bool has_more(const ply *p) {
+    size_t least = 0;
+    if (p->text) return p->at[strspn(p->at, " \t\r\n")] != '\0';
+    for (size_t k = 0; k < p->elements.count; ++k) {
+        const element *e = p->elements.data + k;
+        if (e->count) least = 0;
+        for (int i = 0; i < e->properties && e->count; ++i)
+            least += sizes[e->property[i].count] + sizes[e->property[i].type]; /* a list of one, or a number */
+    }
+    return least && (size_t)(p->end - p->at) >= least;
 }
 
 /* The colour of an item: whole numbers up to 255 (in other integer types, too), or shares; 0: it has none. */
@@ -304,7 +318,7 @@ froe_status formats_read_ply(const formats_source *source, formats_sink *sink) {
                 status = formats_sink_progress(sink, (double)p.done / (double)p.all);
         }
     }
-    if (!status && p.text && p.at[strspn(p.at, " \t\r\n")]) status = broken(&p, "There is more than its counts say.");
+    if (!status && has_more(&p)) status = broken(&p, "There is more than its counts say.");
     array_free(alloc, &file);
     array_free(alloc, &p.elements);
     array_free(alloc, &p.corners);

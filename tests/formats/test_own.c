@@ -205,6 +205,23 @@ static void broken_ply_is_refused_with_its_reason(void **state) {
         write_text("broken.ply", files[i][0]);
         refuse("broken.ply", FROE_E_FORMAT, files[i][1]);
     }
+#define PLY_BINARY(vertices, faces)                                                                                    \
+    "ply\nformat binary_big_endian 1.0\nelement vertex " vertices "\nproperty uchar x\nproperty uchar y\nproperty "    \
+    "uchar z\nelement face " faces "\nproperty list uchar short vertex_index\nend_header\n"
+    static const char whole[] = PLY_BINARY("3", "1") "000100110\3\0\0\0\1\0\2\0\0\0",
+                      points[] = PLY_BINARY("3", "0") "000100110";
+    const size_t faces = sizeof whole - 4, all = sizeof points - 1; /* without what stands behind */
+    for (size_t behind = 0; behind < 4; behind++) {
+        write_bytes("binary.ply", whole, faces + behind);
+        if (behind < 3)
+            froe_scene_free(read_scene("binary.ply", NULL));
+        else
+            refuse("binary.ply", FROE_E_FORMAT, "binary.ply: There is more than its counts say.");
+    }
+    write_bytes("binary.ply", points, all);
+    froe_scene_free(read_scene("binary.ply", NULL));
+    write_bytes("binary.ply", PLY_BINARY("2", "0") "000100110", all);
+    refuse("binary.ply", FROE_E_FORMAT, "binary.ply: There is more than its counts say.");
     FILE *file = fopen("broken.ply", "w");
     assert_non_null(file);
     fputs(PLY_ELEMENT "1\n", file);
