@@ -336,6 +336,7 @@ froe_status io_read_arranged(const formats_source *source, formats_sink *sink, i
     if (!status && io_is_gltf(source)) status = io_gltf_check(source, sink, &found);
     size_t part = 0;
     if (!status && io_is_stl(source)) status = io_stl_check(source, sink, &part);
+    if (!status && io_is_fbx(source)) status = io_fbx_check(source, sink);
     if (!status && io_is_lwo(source)) status = io_lwo_check(source, sink);
     if (!status && io_is_ac(source)) status = io_ac_check(source, sink);
     if (!status && io_is_x(source)) status = io_x_check(source, sink);

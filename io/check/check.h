@@ -107,6 +107,10 @@ bool io_is_stl(const formats_source *source);
 /** Before the import: FROE_E_FORMAT where an STL file is cut off, or has another length than its header says. Behind a
  * binary one there may be bytes, too few for a triangle, that assimp must not see: *whole becomes its length. */
 froe_status io_stl_check(const formats_source *source, formats_sink *sink, size_t *whole);
+/** Is it FBX, by its extension? */
+bool io_is_fbx(const formats_source *source);
+/** Before the import: FROE_E_FORMAT or FROE_E_UNSUPPORTED where models of it are each other's parents, or too deep. */
+froe_status io_fbx_check(const formats_source *source, formats_sink *sink);
 /** Is it a LightWave object of version 6 or later, by its first bytes? */
 bool io_is_lwo(const formats_source *source);
 /** Before the import: FROE_E_FORMAT where assimp would pass over polygons of it, or name points that do not exist. */

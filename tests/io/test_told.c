@@ -236,6 +236,165 @@ static void axes_of_fbx_are_looked_at(void **state) {
            "axes.fbx: The reader assimp reports 'FBX-DOM (TOK_KEY, line 18, col 27) polygon");
 }
 
+enum { MODELS = 3, FIRST = 200, MOST_LINKS = 5, DEEP = 1001 };
+
+/* Models 200, 201 and so on, of which the first has a square, and which is below which; 0 ends that. */
+typedef struct fbx_links {
+    int links[MOST_LINKS][2];
+} fbx_links;
+
+static void write_fbx_text(const char *path, const fbx_links *l, int models) {
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fprintf(file, "; FBX 7.4.0 project file\nFBXHeaderExtension: {\n\tFBXHeaderVersion: 1003\n\tFBXVersion: 7400\n}\n"
+                  "GlobalSettings: {\n\tVersion: 1000\n}\nObjects: {\n\tGeometry: 100, \"Geometry::a\", \"Mesh\" {\n"
+                  "\t\tVertices: *12 {\n\t\t\ta: 0,0,0,1,0,0,1,2,0,0,2,0\n\t\t}\n"
+                  "\t\tPolygonVertexIndex: *4 {\n\t\t\ta: 0,1,2,-4\n\t\t}\n\t\tGeometryVersion: 124\n\t}\n");
+    for (int i = FIRST; i < FIRST + models; i++)
+        fprintf(file, "\tModel: %d, \"Model::m%d\", \"Mesh\" {\n\t\tVersion: 232\n\t}\n", i, i);
+    fprintf(file, "}\nConnections: {\n\tC: \"OO\",100,200\n");
+    for (int i = 0; i < MOST_LINKS && l->links[i][0]; i++)
+        fprintf(file, "\tC: \"OO\" , %d,\t%d\n", l->links[i][0], l->links[i][1]);
+    for (int i = FIRST + MODELS; i < FIRST + models; i++) fprintf(file, "\tC: \"OO\",%d,%d\n", i - 1, i);
+    fprintf(file, "}\n");
+    assert_int_equal(fclose(file), 0);
+}
+
+/* Records of a binary file: where they begin, and what their heads say at the end. */
+typedef struct fbx_bytes {
+    char bytes[4096];
+    size_t count, width;
+} fbx_bytes;
+
+static void put_number(char *at, uint64_t number, size_t width) {
+    for (size_t i = 0; i < width; i++) at[i] = (char)(number >> 8 * i);
+}
+
+static void put_bytes(fbx_bytes *f, const void *bytes, size_t count) {
+    assert_true(f->count + count <= sizeof f->bytes);
+    memcpy(f->bytes + f->count, bytes, count);
+    f->count += count;
+}
+
+static size_t open_record(fbx_bytes *f, const char *name) {
+    const char letters = (char)strlen(name);
+    const size_t at = f->count;
+    put_bytes(f, (const char[24]){0}, 3 * f->width);
+    put_bytes(f, &letters, 1);
+    put_bytes(f, name, strlen(name));
+    return at;
+}
+
+static void put_property(fbx_bytes *f, size_t record, char kind, uint64_t number, const void *bytes, size_t width) {
+    char head[9] = {kind};
+    put_number(head + 1, number, width);
+    put_bytes(f, head, 1 + width);
+    if (bytes) put_bytes(f, bytes, number);
+    char *at = f->bytes + record;
+    put_number(at + f->width, (unsigned char)at[f->width] + 1u, f->width);
+    put_number(at + 2 * f->width, f->count - record - 3 * f->width - 1 - (unsigned char)at[3 * f->width], f->width);
+}
+
+/* With others in it there is an empty one at their end. */
+static void close_record(fbx_bytes *f, size_t record, bool others) {
+    if (others) put_bytes(f, (const char[25]){0}, 3 * f->width + 1);
+    put_number(f->bytes + record, f->count, f->width);
+}
+
+static void put_whole(fbx_bytes *f, const char *name, uint64_t number) {
+    const size_t at = open_record(f, name);
+    put_property(f, at, 'I', number, NULL, 4);
+    close_record(f, at, false);
+}
+
+static void put_array(fbx_bytes *f, const char *name, char kind, const void *numbers, size_t count, size_t size) {
+    const size_t at = open_record(f, name);
+    char head[8] = {0};
+    put_number(head + 4, count * size, 4);
+    put_property(f, at, kind, count, NULL, 4);
+    put_bytes(f, head, sizeof head), put_bytes(f, numbers, count * size);
+    put_number(f->bytes + at + 2 * f->width, 13 + count * size, f->width);
+    close_record(f, at, false);
+}
+
+static size_t open_object(fbx_bytes *f, const char *sort, uint64_t id) {
+    const size_t at = open_record(f, sort);
+    char name[16] = "a", length = (char)(strlen(sort) + 3);
+    memcpy(name + 2, "\1", 1), memcpy(name + 3, sort, strlen(sort));
+    put_property(f, at, 'L', id, NULL, 8);
+    put_property(f, at, 'S', (unsigned char)length, name, 4);
+    put_property(f, at, 'S', 4, "Mesh", 4);
+    return at;
+}
+
+static void write_fbx_bytes(const char *path, const fbx_links *l, unsigned version) {
+    static const double places[] = {0, 0, 0, 1, 0, 0, 1, 2, 0, 0, 2, 0};
+    static const int32_t indices[] = {0, 1, 2, -4};
+    fbx_bytes f = {.width = version < 7500 ? 4 : 8};
+    put_bytes(&f, "Kaydara FBX Binary  \0\x1a", 23);
+    put_bytes(&f, (const char[4]){0}, 4), put_number(f.bytes + 23, version, 4);
+    size_t at = open_record(&f, "FBXHeaderExtension");
+    put_whole(&f, "FBXHeaderVersion", 1003), put_whole(&f, "FBXVersion", version), close_record(&f, at, true);
+    at = open_record(&f, "GlobalSettings"), put_whole(&f, "Version", 1000), close_record(&f, at, true);
+    at = open_record(&f, "Objects");
+    const size_t mesh = open_object(&f, "Geometry", 100);
+    put_array(&f, "Vertices", 'd', places, 12, 8), put_array(&f, "PolygonVertexIndex", 'i', indices, 4, 4);
+    put_whole(&f, "GeometryVersion", 124), close_record(&f, mesh, true);
+    for (uint64_t i = FIRST; i < FIRST + MODELS; i++) {
+        const size_t model = open_object(&f, "Model", i);
+        put_whole(&f, "Version", 232), close_record(&f, model, true);
+    }
+    close_record(&f, at, true), at = open_record(&f, "Connections");
+    for (int i = -1; i < MOST_LINKS && (i < 0 || l->links[i][0]); i++) {
+        const size_t link = open_record(&f, "C");
+        put_property(&f, link, 'S', 2, "OO", 4);
+        for (int k = 0; k < 2; k++)
+            put_property(&f, link, 'L', i < 0 ? 100u * (unsigned)(k + 1) : (uint64_t)l->links[i][k], NULL, 8);
+        close_record(&f, link, false);
+    }
+    close_record(&f, at, true);
+    put_bytes(&f, (const char[200]){0}, 200);
+    write_bytes(path, f.bytes, f.count);
+}
+
+/* assimp would end the program. */
+static void models_of_fbx_have_a_first_one(void **state) {
+    (void)state;
+    static const struct {
+        fbx_links links;
+        const char *refused; /* NULL: it is read */
+        size_t objects;
+    } cases[] = {
+        {{{{200, 0}}}, NULL, 2},
+        {{{{200, 201}, {201, 202}, {202, 0}}}, NULL, 2},
+        {{{{200, 0}, {200, 201}, {201, 0}}}, NULL, 4},
+        {{{{100, 100}, {200, 0}, {0, 200}}}, NULL, 2}, /* other objects may be connected in circles */
+        {{{{200, 0}, {200, 200}}}, "links.fbx: model 200: It is its own parent, or a parent of its parents.", 0},
+        {{{{200, 0}, {201, 202}, {200, 201}, {202, 201}}}, "links.fbx: model 201: It is its own parent", 0},
+        {{{{200, 0}, {200, 201}, {201, 202}, {202, 200}}}, "links.fbx: model 200: It is its own parent", 0},
+    };
+    for (size_t i = 0; i < 3 * (sizeof cases / sizeof *cases); i++) {
+        const size_t k = i / 3;
+        if (i % 3 == 0)
+            write_fbx_text("links.fbx", &cases[k].links, MODELS);
+        else
+            write_fbx_bytes("links.fbx", &cases[k].links, i % 3 == 1 ? 7400 : 7500);
+        if (!cases[k].refused) {
+            froe_scene *scene = read_scene("links.fbx", NULL);
+            assert_int_equal(froe_scene_object_count(scene), cases[k].objects);
+            froe_scene_free(scene);
+        } else {
+            refuse("links.fbx", FROE_E_FORMAT, cases[k].refused);
+        }
+    }
+    write_fbx_text("deep.fbx", &(fbx_links){{{200, 201}, {201, 202}}}, DEEP);
+    refuse("deep.fbx", FROE_E_INPUT, "deep.fbx: The file holds no objects"); /* the last is not below the scene */
+    write_fbx_text("deep.fbx", &(fbx_links){{{200, 201}, {201, 202}}}, DEEP + 1);
+    refuse("deep.fbx", FROE_E_UNSUPPORTED, "deep.fbx: model 200: It is below more than 1000 others.");
+    write_fbx_text("memory.fbx", &cases[1].links, MODELS);
+    assert_true(test_memory_each(read_with_memory, "memory.fbx") > 5);
+}
+
 /* ----------------------------------------------------------------------------- DXF -- */
 
 /* GDAL passes over entities, and froe names their sorts: each once, and as many as there is room for. Windows of a
@@ -284,6 +443,7 @@ int main(void) {
         cmocka_unit_test(ifc_has_any_ending),
         cmocka_unit_test(sorts_that_assimp_leaves_out_are_named),
         cmocka_unit_test(axes_of_fbx_are_looked_at),
+        cmocka_unit_test(models_of_fbx_have_a_first_one),
         cmocka_unit_test(sorts_of_entities_that_are_not_read_are_named),
         cmocka_unit_test(imports_of_others_are_not_listened_to),
     };
