@@ -461,7 +461,9 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
         m.is_table = !strcmp(sink->report.format, "CSV");
         m.shapes.cuts = strstr(sink->report.format, "JSON") != NULL;
         m.crs.promise = io_crs_promise_of(m.data);
-        if (!source->beyond && !m.container && !strcmp(extension.text, "mif")) status = io_mif_check(source, sink);
+        const bool single = !source->beyond && !m.container;
+        if (single && !strcmp(extension.text, "mif")) status = io_mif_check(source, sink);
+        if (single && !strcmp(sink->report.format, "DXF")) status = io_dxf_check(source, sink);
         if (!status && (!strcmp(sink->report.format, "ESRI Shapefile") || !strcmp(sink->report.format, "MapInfo File")))
             status = check_tables(&m);
         if (!status && m.is_table) status = check_quotes(&m);

@@ -397,6 +397,35 @@ static void models_of_fbx_have_a_first_one(void **state) {
 
 /* ----------------------------------------------------------------------------- DXF -- */
 
+static void numbers_of_dxf_are_numbers(void **state) {
+    (void)state;
+    static const char head[] = "0\nSECTION\n2\nHEADER\n9\n$LTSCALE\n40\none\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n";
+    static const struct {
+        const char *place;
+        int line; /* of what is refused; 0: nothing is */
+    } cases[] = {{"10\n1.5\n20\n 2 \n", 0},
+                 {" 10\r\n1.5\r\n 20\r\n+2.\t\r\n", 0},
+                 {"10\n1,5\n20\n2\n", 20},
+                 {"10\n1.5\n20\n2 m\n", 22},
+                 {"10\n1.5\n20\n\n", 22},
+                 {"1\na,b\n10\n1.5\n20\nzwei\n", 24},
+                 {"10\n1.5\n20\n2\n210\n0\n220\n0\n230\n0,1\n", 28}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[400], words[80];
+        snprintf(text, sizeof text, "%s0\nPOINT\n8\n0\n%s0\nENDSEC\n0\nEOF\n", head, cases[i].place);
+        write_text("numbers.dxf", text);
+        snprintf(words, sizeof words, "numbers.dxf: line %d: This is not a number with a decimal point.",
+                 cases[i].line);
+        if (cases[i].line) {
+            refuse("numbers.dxf", FROE_E_FORMAT, words);
+            continue;
+        }
+        froe_scene *scene = read_scene("numbers.dxf", NULL);
+        assert_true(corner(scene, 0, 0)[0] == 1.5 && corner(scene, 0, 0)[1] == 2);
+        froe_scene_free(scene);
+    }
+}
+
 /* GDAL passes over entities, and froe names their sorts: each once, and as many as there is room for. Windows of a
  * sheet are nothing to draw. */
 static void sorts_of_entities_that_are_not_read_are_named(void **state) {
@@ -444,6 +473,7 @@ int main(void) {
         cmocka_unit_test(sorts_that_assimp_leaves_out_are_named),
         cmocka_unit_test(axes_of_fbx_are_looked_at),
         cmocka_unit_test(models_of_fbx_have_a_first_one),
+        cmocka_unit_test(numbers_of_dxf_are_numbers),
         cmocka_unit_test(sorts_of_entities_that_are_not_read_are_named),
         cmocka_unit_test(imports_of_others_are_not_listened_to),
     };
