@@ -7,6 +7,10 @@
  *     p            assimp takes a negative index for 0
  *     accessor     assimp reads beyond the numbers that there are, and without a z takes the next number for it
  *     skew         assimp ends the program
+ *     count, p     assimp ends it where triangles have no indices, or polygons others than were counted, and leaves
+ *                  out what is counted as 0; so it does without the vcount of a polylist
+ *     lookat       assimp turns the model by an axis that need not be upright on the others
+ *     param        assimp takes x for y and z where they have no names
  *     geometry     what is neither mesh nor instanced is counted: splines, and hulls of other meshes
  *
  * What assimp does not look at is not looked at either: libraries of other things, such as physics, and extras of
@@ -37,6 +41,13 @@ typedef struct collada_check {
     bool has_x, has_z;      /* the accessor */
     bool turns, matrix;     /* in an element rotate; in a matrix */
     size_t beyond;          /* the depth of the element, in which nothing is looked at, that it is in, or 0 */
+    size_t looking;         /* the depth of the node, in which a lookat stands, that it is in, or 0 */
+    size_t list, counted;   /* of faces or lines: its sort, from 1, and its count; 0: in none */
+    size_t filled, parts;   /* how many of its elements p have anything in them; all of them */
+    bool vcount, text_in;   /* it has one; there is text in this element p */
+    size_t source;          /* the last one, in `text` */
+    ARRAY(size_t) unnamed;  /* sources without names of all axes */
+    bool has_y;             /* the accessor */
     bool nodes;             /* in the library of nodes, of which assimp finds those alone that are in no other one */
     bool scenes;            /* in the library of scenes, or behind it */
 } collada_check;
@@ -65,10 +76,23 @@ static void define(collada_check *c, const char *name) {
     if (!array_push(&c->xml.sink->alloc, &c->ids, at)) io_xml_stop(&c->xml, support_fail_memory(c->xml.sink->diag));
 }
 
-static void refer(collada_check *c, const char *element, const char *name) {
+static void refer(collada_check *c, const char *element, const char *name, bool looking) {
+    if (looking) {
+        io_xml_refuse(&c->xml, FROE_E_UNSUPPORTED, "Shapes in nodes that are turned by a lookat are not read.");
+        return;
+    }
     reference r = {.element = element, .line = XML_GetCurrentLineNumber(c->xml.parser)};
     if (!keep(c, name ? name : "", &r.name)) return;
     if (!array_push(&c->xml.sink->alloc, &c->named, r)) io_xml_stop(&c->xml, support_fail_memory(c->xml.sink->diag));
+}
+
+static const char *const lists[] = {"triangles", "polylist", "polygons", "lines", "linestrips", "tristrips"};
+enum { TRIANGLES = 1, POLYLIST, POLYGONS, LISTS = sizeof lists / sizeof *lists };
+
+static size_t list_of(const char *name) {
+    for (size_t i = 0; i < LISTS; i++)
+        if (!strcmp(name, lists[i])) return i + 1;
+    return 0;
 }
 
 static size_t whole_number(const char **attributes, const char *name, size_t otherwise) {
@@ -86,14 +110,53 @@ static void check_source(collada_check *c, const char *name, const char **attrib
         const char *from = attribute(attributes, "source");
         const size_t count = whole_number(attributes, "count", 0), stride = whole_number(attributes, "stride", 1);
         const size_t left = c->floats - whole_number(attributes, "offset", 0);
-        c->has_x = c->has_z = false;
+        c->has_x = c->has_y = c->has_z = false;
         if (from && !strcmp(from, c->array) && count && (left > c->floats || stride > left / count))
             io_xml_refuse(&c->xml, FROE_E_FORMAT, "An accessor counts more numbers than its array has.");
     } else if (!strcmp(name, "param") && attribute(attributes, "name")) {
         const char *axis = attribute(attributes, "name");
         c->has_x = c->has_x || !strcmp(axis, "X");
+        c->has_y = c->has_y || !strcmp(axis, "Y");
         c->has_z = c->has_z || !strcmp(axis, "Z");
+    } else if (!strcmp(name, "source")) {
+        const char *id = attribute(attributes, "id");
+        (void)keep(c, id ? id : "", &c->source);
+    } else if (!strcmp(name, "input") && attribute(attributes, "semantic") && attribute(attributes, "source")) {
+        const char *from = attribute(attributes, "source");
+        const bool places = !strcmp(attribute(attributes, "semantic"), "POSITION");
+        for (size_t i = 0; i < c->unnamed.count && places && !c->xml.status; i++)
+            if (*from == '#' && !strcmp(from + 1, c->text.data + c->unnamed.data[i]))
+                io_xml_refuse(&c->xml, FROE_E_UNSUPPORTED, "Points whose X, Y and Z have no names are not read.");
     }
+}
+
+/* A list of faces or lines, and what stands in it. */
+static void begin_part(collada_check *c, const char *name, const char **attributes) {
+    const bool indices = !strcmp(name, "p");
+    if (list_of(name)) {
+        c->list = list_of(name);
+        c->counted = whole_number(attributes, "count", 0);
+        c->filled = c->parts = 0;
+        c->vcount = false;
+    } else if (!strcmp(name, "vcount")) {
+        c->vcount = true;
+    } else if (!strcmp(name, "ph")) {
+        io_xml_refuse(&c->xml, FROE_E_UNSUPPORTED, "Polygons with holes (ph) are not read.");
+    } else if (indices && c->list == POLYLIST && !c->vcount) {
+        io_xml_refuse(&c->xml, FROE_E_FORMAT, "A polylist has no vcount before its indices.");
+    }
+    c->parts += indices;
+    c->text_in = false;
+}
+
+static void end_part(collada_check *c, const char *name) {
+    c->filled += c->text_in;
+    c->text_in = false;
+    if (!c->list || strcmp(name, lists[c->list - 1]) != 0) return;
+    const bool others = c->list == POLYGONS ? c->parts != c->counted : c->list < POLYGONS && c->counted && !c->parts;
+    c->list = 0;
+    if (others || (c->filled && !c->counted))
+        io_xml_refuse(&c->xml, FROE_E_FORMAT, "A list of faces or lines has other indices than it counts.");
 }
 
 /* Does assimp look at nothing in it? */
@@ -122,7 +185,7 @@ static void XMLCALL begin_element(void *user, const char *name, const char **att
     if (!strcmp(name, "node") && c->scenes && !c->nodes)
         define(c, attribute(attributes, "name")); /* by which assimp finds it, too */
     for (size_t i = 0; i < sizeof naming / sizeof *naming && !c->xml.status; i++)
-        if (!strcmp(name, naming[i])) refer(c, naming[i], attribute(attributes, "url"));
+        if (!strcmp(name, naming[i])) refer(c, naming[i], attribute(attributes, "url"), c->looking);
     if (!strcmp(name, "instance_controller")) io_leave(c->xml.sink, "skins", 5);
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         c->xml.sink->report.skipped += c->geometry && c->depth == c->geometry + 1 && !strcmp(name, others[i]);
@@ -135,7 +198,9 @@ static void XMLCALL begin_element(void *user, const char *name, const char **att
         io_xml_refuse(&c->xml, FROE_E_UNSUPPORTED, "Fans of triangles (trifans) are not read.");
     if (!c->xml.status && !strcmp(name, "skew"))
         io_xml_refuse(&c->xml, FROE_E_UNSUPPORTED, "Skews are not read. A matrix is.");
+    if (!strcmp(name, "lookat")) c->looking = c->looking ? c->looking : c->depth - 1;
     if (!c->xml.status) check_source(c, name, attributes);
+    if (!c->xml.status) begin_part(c, name, attributes);
 }
 
 /* An axis may have been rounded to three digits. The last number of a matrix may be 1 as single precision rounds it. */
@@ -154,6 +219,11 @@ static void XMLCALL end_element(void *user, const char *name) {
     collada_check *c = user;
     if (c->has_x && !c->has_z && !c->beyond && !c->xml.status && !strcmp(name, "accessor"))
         io_xml_refuse(&c->xml, FROE_E_UNSUPPORTED, "Points with an X and no Z are not read.");
+    if (!strcmp(name, "accessor") && !c->beyond && !c->xml.status && !(c->has_x && c->has_y && c->has_z) &&
+        !array_push(&c->xml.sink->alloc, &c->unnamed, c->source))
+        io_xml_stop(&c->xml, support_fail_memory(c->xml.sink->diag));
+    if (!c->beyond && !c->xml.status) end_part(c, name);
+    if (c->looking == c->depth) c->looking = 0;
     if (c->geometry == c->depth) c->geometry = 0;
     if (c->beyond == c->depth) c->beyond = 0;
     c->depth--;
@@ -168,6 +238,7 @@ static void XMLCALL end_element(void *user, const char *name) {
 
 static void XMLCALL read_text(void *user, const char *text, int length) {
     collada_check *c = user;
+    for (int i = 0; i < length && c->indices; i++) c->text_in = c->text_in || !strchr(" \t\r\n", text[i]);
     if (c->indices && !c->xml.status && memchr(text, '-', (size_t)length))
         io_xml_refuse(&c->xml, FROE_E_FORMAT, "An index is negative.");
     if ((c->turns || c->matrix) && !c->xml.status &&
@@ -209,6 +280,7 @@ static froe_status look(const formats_text *text, formats_sink *sink) {
     array_free(&sink->alloc, &c.numbers);
     array_free(&sink->alloc, &c.ids);
     array_free(&sink->alloc, &c.named);
+    array_free(&sink->alloc, &c.unnamed);
     return status;
 }
 
