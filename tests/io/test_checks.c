@@ -202,35 +202,44 @@ static void long_texts_are_refused_once(void **state) {
 
 /* ------------------------------------------------------------------- X3D and AMF -- */
 
-static void what_assimp_takes_for_something_else_is_refused(void **state) {
-    (void)state;
+typedef struct checked_text {
+    const char *path, *text;
+    froe_status status;
+    const char *words; /* of the message, or sorts that are left out */
+    size_t objects;
+} checked_text;
+
+static void check_texts(const checked_text *cases, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        froe_read_report report;
+        write_text(cases[i].path, cases[i].text);
+        if (cases[i].status) {
+            refuse(cases[i].path, cases[i].status, cases[i].words);
+            continue;
+        }
+        const size_t objects = objects_of(cases[i].path, &report);
+        if (objects != cases[i].objects || strcmp(report.sorts_left, cases[i].words) != 0)
+            fail_msg("%s: %zu objects, and '%s' are left out", cases[i].text, objects, report.sorts_left);
+    }
+}
+
 #define FACES(point)                                                                                                   \
     "<IndexedFaceSet coordIndex=\"0 1 2 -1\"><" point " point=\"0 0 0, 1 0 0, 1 2 0\"/></IndexedFaceSet>"
 #define SHAPE "<Shape>" FACES("Coordinate") "<Appearance><Material/></Appearance></Shape>"
 #define X3D(nodes) "<X3D version=\"3.3\"><head><meta name=\"a\"/></head>\n<Scene>" nodes "</Scene></X3D>"
 #define TURNED(attributes) X3D("<Transform " attributes ">" SHAPE "</Transform>")
-#define AMF(more) "<amf unit=\"millimeter\">\n" more "</amf>"
-#define CORNER(x, y) "<vertex><coordinates><x>" x "</x><y>" y "</y><z>0</z></coordinates></vertex>"
-#define VOLUME "<volume><triangle><v1>0</v1><v2>1</v2><v3>2</v3></triangle></volume>"
-#define OF(material, more)                                                                                             \
-    "<volume materialid=\"" material "\">" more "<triangle><v1>0</v1><v2>1</v2><v3>2</v3></triangle></volume>"
-#define COLOUR "<color><r>1</r><g>0</g><b>0</b></color>"
-#define RED "<material id=\"1\">" COLOUR "</material>"
-#define AMF_VERTICES "<vertices>" CORNER("0", "0") CORNER("1", "0") CORNER("0", "1") "</vertices>"
-#define MESH(volumes) "<mesh>" AMF_VERTICES volumes "</mesh>"
-#define OBJECT(id, meshes) "<object id=\"" id "\">" meshes "</object>\n"
-#define INSTANCE(parts) "<constellation id=\"9\"><instance objectid=\"0\">" parts "</instance></constellation>"
-#define GOOD OBJECT("0", MESH(VOLUME))
+#define POINTS4 "<Coordinate point=\"0 0 0, 1 0 0, 1 1 0, 0 1 0\"/>"
+#define LISTS(sort, name, list) X3D("<Shape><" sort " " name "=\"" list "\">" POINTS4 "</" sort "></Shape>")
+#define LISTED(list) LISTS("IndexedFaceSet", "coordIndex", list)
+#define LINES(list) LISTS("IndexedLineSet", "coordIndex", list)
+
+static void what_assimp_takes_for_something_else_is_refused(void **state) {
+    (void)state;
     static const char axis[] = "line 2: The axis of a rotation has not the length 1.",
-                      turn[] = "line 3: Turns of instances (rx, ry, rz) are not read.",
-                      scale[] = "line 3: Scales and mirrors of instances are not read.",
-                      several[] = ": Objects of several volumes that differ are not read.";
-    static const struct {
-        const char *path, *text;
-        froe_status status;
-        const char *words; /* of the message, or sorts that are left out */
-        size_t objects;
-    } cases[] = {
+                      blanks[] = "line 2: Indices are not whole numbers with blanks between them.",
+                      none[] = "line 2: A face or line has no corners.",
+                      more[] = "line 2: Lines of more than two points are not read.";
+    static const checked_text cases[] = {
         {"a.x3d", X3D(SHAPE), FROE_OK, "", 1},
         {"a.x3d", TURNED("rotation=\"0.577, 0.577, 0.577, 1\" scaleOrientation=\"0 0 0 0\""), FROE_OK, "", 1},
         {"a.x3d", TURNED("translation=\"5 0 0\" scaleOrientation=\"1 1 0 1.5\""), FROE_E_FORMAT, axis, 0},
@@ -245,6 +254,42 @@ static void what_assimp_takes_for_something_else_is_refused(void **state) {
         {"a.x3d", X3D(SHAPE "<ALongNameOfANodeThatNoStandardKnows/>"), FROE_E_FORMAT, "Unknown node \"ALong", 0},
         {"a.x3d", "<X3D><Scene>", FROE_E_FORMAT, "a.x3d: line 1: The text is not well-formed XML.", 0},
         {"a.x3d", "<?xml version=\"1.0\" encoding=\"x-nobody\"?>" X3D(SHAPE), FROE_OK, "", 1}, /* assimp reads it */
+        {"a.x3d", LISTED("0, 1, 2, -1,\n0 2\t3"), FROE_OK, "", 2},
+        {"a.x3d", LISTED("0,1,2,-1,0,2,3,-1"), FROE_E_UNSUPPORTED, blanks, 0},
+        {"a.x3d", LISTED("0 1 2 -1, 0 2 ,3"), FROE_E_UNSUPPORTED, blanks, 0},
+        {"a.x3d", LISTED("0 1 x 2"), FROE_E_UNSUPPORTED, blanks, 0},
+        {"a.x3d", LISTED("0 1 2 -1 -1 0 2 3"), FROE_E_FORMAT, none, 0},
+        {"a.x3d", LISTED("-1 0 2 3"), FROE_E_FORMAT, none, 0},
+        {"a.x3d", LISTS("IndexedTriangleSet", "index", "0 1 2 0 2 3"), FROE_OK, "", 2},
+        {"a.x3d", LISTS("IndexedTriangleSet", "index", "0,1,2"), FROE_E_UNSUPPORTED, blanks, 0},
+        {"a.x3d", LINES("0 1 -1 2 3 -1"), FROE_OK, "", 2},
+        {"a.x3d", LINES("0 1 2 -1"), FROE_E_UNSUPPORTED, more, 0},
+        {"a.x3d", LISTS("LineSet", "vertexCount", "2 2"), FROE_OK, "", 2},
+        {"a.x3d", LISTS("LineSet", "vertexCount", "2,2"), FROE_E_UNSUPPORTED, blanks, 0},
+        {"a.x3d", LISTS("LineSet", "vertexCount", "2 3"), FROE_E_UNSUPPORTED, more, 0},
+    };
+    check_texts(cases, sizeof cases / sizeof *cases);
+}
+
+#define AMF(more) "<amf unit=\"millimeter\">\n" more "</amf>"
+#define CORNER(x, y) "<vertex><coordinates><x>" x "</x><y>" y "</y><z>0</z></coordinates></vertex>"
+#define VOLUME "<volume><triangle><v1>0</v1><v2>1</v2><v3>2</v3></triangle></volume>"
+#define OF(material, more)                                                                                             \
+    "<volume materialid=\"" material "\">" more "<triangle><v1>0</v1><v2>1</v2><v3>2</v3></triangle></volume>"
+#define COLOUR "<color><r>1</r><g>0</g><b>0</b></color>"
+#define RED "<material id=\"1\">" COLOUR "</material>"
+#define AMF_VERTICES "<vertices>" CORNER("0", "0") CORNER("1", "0") CORNER("0", "1") "</vertices>"
+#define MESH(volumes) "<mesh>" AMF_VERTICES volumes "</mesh>"
+#define OBJECT(id, meshes) "<object id=\"" id "\">" meshes "</object>\n"
+#define INSTANCE(parts) "<constellation id=\"9\"><instance objectid=\"0\">" parts "</instance></constellation>"
+#define GOOD OBJECT("0", MESH(VOLUME))
+
+static void what_assimp_passes_over_of_amf_is_refused(void **state) {
+    (void)state;
+    static const char turn[] = "line 3: Turns of instances (rx, ry, rz) are not read.",
+                      scale[] = "line 3: Scales and mirrors of instances are not read.",
+                      several[] = ": Objects of several volumes that differ are not read.";
+    static const checked_text cases[] = {
         {"a.amf", AMF(GOOD OBJECT("1", MESH(VOLUME))), FROE_OK, "", 2},
         {"a.amf", AMF(GOOD INSTANCE("<deltax>5</deltax>")), FROE_OK, "", 1},
         {"a.amf", AMF(OBJECT("0", MESH(VOLUME "\n" VOLUME "<!-- <volume> -->" VOLUME))), FROE_OK, "", 3},
@@ -268,17 +313,7 @@ static void what_assimp_takes_for_something_else_is_refused(void **state) {
         {"a.amf", "<amf>", FROE_E_FORMAT, "a.amf: line 1: The text is not well-formed XML.", 0},
         {"a.amf", "PK\3\4 is no AMF in an archive", FROE_E_FORMAT, "a.amf: ", 0},
     };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        froe_read_report report;
-        write_text(cases[i].path, cases[i].text);
-        if (cases[i].status) {
-            refuse(cases[i].path, cases[i].status, cases[i].words);
-            continue;
-        }
-        const size_t objects = objects_of(cases[i].path, &report);
-        if (objects != cases[i].objects || strcmp(report.sorts_left, cases[i].words) != 0)
-            fail_msg("%s: %zu objects, and '%s' are left out", cases[i].text, objects, report.sorts_left);
-    }
+    check_texts(cases, sizeof cases / sizeof *cases);
 }
 
 static void turns_by_nothing_move_no_instance(void **state) {
@@ -732,6 +767,7 @@ int main(void) {
         cmocka_unit_test(what_collada_says_of_its_numbers_is_looked_at),
         cmocka_unit_test(long_texts_are_refused_once),
         cmocka_unit_test(what_assimp_takes_for_something_else_is_refused),
+        cmocka_unit_test(what_assimp_passes_over_of_amf_is_refused),
         cmocka_unit_test(turns_by_nothing_move_no_instance),
         cmocka_unit_test(faces_of_amf_without_a_colour_have_none),
         cmocka_unit_test(long_texts_are_looked_through_in_parts),
