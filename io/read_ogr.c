@@ -150,7 +150,7 @@ static froe_status check_absence(const map *m, OGRFeatureH feature) {
 
 /* Where GDAL goes wrong in a well-known text that it reads; NULL: nowhere. It takes the 64th character of a number for
  * the first of another one. */
-static const char *find_fault(const char *text, bool *number) {
+static const char *find_wkt_fault(const char *text, bool *number) {
     enum { MOST_CHARACTERS = 63 };
     bool ended = false;
     size_t depth = 0;
@@ -168,7 +168,7 @@ static const char *find_fault(const char *text, bool *number) {
 
 static froe_status check_text(const map *m, OGRFeatureH feature) {
     bool number;
-    const char *text = written_geometry(m, feature), *fault = *text == '{' ? NULL : find_fault(text, &number);
+    const char *text = written_geometry(m, feature), *fault = *text == '{' ? NULL : find_wkt_fault(text, &number);
     if (!fault) return FROE_OK;
     return formats_sink_fail(m->sink, FROE_E_FORMAT,
                              number ? "Of a number of more than 63 characters, '%.40s...', GDAL makes two."
@@ -246,7 +246,7 @@ static bool load_head(const char *name, unsigned char head[28], uint64_t *size) 
 }
 
 /* GDAL reads as many shapes of a Shapefile as the head of its index (.shx) says, by its length in units of 2 bytes, the
- * highest byte first: 100 bytes, and 8 a shape. A program that was ended while it wrote has not yet counted them all. */
+ * highest byte first: 100 bytes, and 8 a shape. A program that was ended while it wrote has not counted them all. */
 static froe_status check_index(const map *m, const char *index, uint64_t *shapes) {
     enum { HEAD = 100, SHAPE = 8 };
     unsigned char x[28];

@@ -237,7 +237,7 @@ static froe_status add_corner(ply *p, double index) {
                : out_of_memory(p);
 }
 
-/* Is there more than the counts say? Behind a binary file there may be bytes, too few for an item of the last element. */
+/* Is there more than the counts say? Behind binary data there may be bytes, too few for an item of the last element. */
 static bool has_more(const ply *p) {
     size_t least = 0;
     if (p->text) return p->at[strspn(p->at, " \t\r\n")] != '\0';

@@ -35,7 +35,7 @@ bool io_is_amf(const formats_source *source) {
     return !strcmp(source->extension.text, "amf") && strncmp(source->head, "PK", 2) != 0;
 }
 
-static size_t place_of(const amf_check *c) {
+static size_t place_of_tag(const amf_check *c) {
     return (size_t)XML_GetCurrentByteIndex(c->xml.parser);
 }
 
@@ -55,11 +55,11 @@ static void begin_volume(amf_check *c, const char **attributes) {
         io_xml_refuse(&c->xml, FROE_E_UNSUPPORTED, "Objects of several volumes that differ are not read.");
     } else {
         hide(c, c->end);
-        hide(c, place_of(c));
+        hide(c, place_of_tag(c));
     }
 }
 
-static void XMLCALL begin_element(void *user, const char *name, const char **attributes) {
+static void XMLCALL begin_amf_element(void *user, const char *name, const char **attributes) {
     amf_check *c = user;
     if (c->xml.status) return;
     if (!strcmp(name, "object")) c->meshes = 0;
@@ -76,7 +76,7 @@ static void XMLCALL begin_element(void *user, const char *name, const char **att
     else if (!strcmp(name, "volume"))
         begin_volume(c, attributes);
     for (c->part = 0; c->part < PARTS && strcmp(name, parts[c->part].name) != 0;) c->part++;
-    c->begin = place_of(c);
+    c->begin = place_of_tag(c);
     *c->number = '\0';
 }
 
@@ -88,26 +88,27 @@ static void end_part(amf_check *c) {
                       turn ? "Turns of instances (rx, ry, rz) are not read."
                            : "Scales and mirrors of instances are not read.");
     if (turn && !c->xml.status) hide(c, c->begin + strlen("<"));
-    if (turn && !c->xml.status && XML_GetCurrentByteCount(c->xml.parser)) hide(c, place_of(c) + strlen("</"));
+    if (turn && !c->xml.status && XML_GetCurrentByteCount(c->xml.parser)) hide(c, place_of_tag(c) + strlen("</"));
     c->part = NO_PART;
 }
 
-static void XMLCALL end_element(void *user, const char *name) {
+static void XMLCALL end_amf_element(void *user, const char *name) {
     amf_check *c = user;
     if (c->xml.status) return;
     if (!strcmp(name, "triangle")) c->triangle = false;
-    if (!strcmp(name, "volume")) c->inside = false, c->end = XML_GetCurrentByteCount(c->xml.parser) ? place_of(c) : 0;
+    if (!strcmp(name, "volume"))
+        c->inside = false, c->end = XML_GetCurrentByteCount(c->xml.parser) ? place_of_tag(c) : 0;
     if (c->part < PARTS) end_part(c);
 }
 
-static void XMLCALL read_text(void *user, const char *text, int length) {
+static void XMLCALL read_amf_text(void *user, const char *text, int length) {
     amf_check *c = user;
     const size_t used = strlen(c->number), room = sizeof c->number - 1 - used;
     if (c->part < PARTS) strncat(c->number, text, (size_t)length < room ? (size_t)length : room);
 }
 
 froe_status io_amf_check(const formats_source *source, formats_sink *sink, io_mask *mask) {
-    static const io_xml_handlers handlers = {begin_element, end_element, read_text};
+    static const io_xml_handlers handlers = {begin_amf_element, end_amf_element, read_amf_text};
     amf_check c = {.xml.sink = sink, .mask = mask, .part = NO_PART};
     return io_xml_look(&c.xml, source, &handlers, NULL);
 }

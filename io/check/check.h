@@ -138,8 +138,8 @@ bool io_is_x3d(const formats_source *source);
 froe_status io_x3d_check(const formats_source *source, formats_sink *sink);
 /** Is it AMF, by its extension, and not in an archive? */
 bool io_is_amf(const formats_source *source);
-/** Before the import: FROE_E_UNSUPPORTED or FROE_E_FORMAT where an AMF file has what assimp reads as something else. The
- * mask, which is the caller's, hides what it reads rightly without. */
+/** Before the import: FROE_E_UNSUPPORTED or FROE_E_FORMAT where an AMF file has what assimp reads as something else.
+ * The mask, which is the caller's, hides what it reads rightly without. */
 froe_status io_amf_check(const formats_source *source, formats_sink *sink, io_mask *mask);
 /** Is it COLLADA, perhaps in an archive, by its extension? */
 bool io_is_collada(const formats_source *source);

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const char *next_line(const char *at) {
+static const char *line_behind(const char *at) {
     at += strcspn(at, "\r\n");
     return at + (at[0] == '\r' && at[1] == '\n' ? 2 : *at != '\0');
 }
@@ -22,13 +22,13 @@ static bool is_number(const char *at) {
     return end != at && strchr("\r\n", end[strspn(end, " \t")]); /* or the text ends */
 }
 
-static bool begins(const char *at, const char *word) {
+static bool begins_with(const char *at, const char *word) {
     at += strspn(at, " \t");
     return !strncmp(at, word, strlen(word));
 }
 
 /* Numbers elsewhere than in entities, and in blocks of these, draw nothing. */
-static io_fault find_fault(formats_sink *sink, const char *text) {
+static io_fault find_dxf_fault(formats_sink *sink, const char *text) {
     const char *at = text;
     bool begun = false, drawn = false; /* a section, of entities */
     (void)sink;
@@ -36,17 +36,17 @@ static io_fault find_fault(formats_sink *sink, const char *text) {
         char *end;
         const long code = strtol(at, &end, 10);
         if (end == at || !strchr(" \t\r\n", *end)) break;
-        at = next_line(at);
+        at = line_behind(at);
         const bool number = (code >= 10 && code < 60) || (code >= 210 && code < 240);
         if (drawn && number && *at && !is_number(at))
             return (io_fault){"This is not a number with a decimal point.", line, FROE_E_FORMAT};
-        if (begun && code == 2) drawn = begins(at, "ENTITIES") || begins(at, "BLOCKS");
-        begun = code == 0 && begins(at, "SECTION");
-        at = next_line(at);
+        if (begun && code == 2) drawn = begins_with(at, "ENTITIES") || begins_with(at, "BLOCKS");
+        begun = code == 0 && begins_with(at, "SECTION");
+        at = line_behind(at);
     }
     return (io_fault){.sentence = NULL};
 }
 
 froe_status io_dxf_check(const formats_source *source, formats_sink *sink) {
-    return io_text_look(source, sink, true, find_fault);
+    return io_text_look(source, sink, true, find_dxf_fault);
 }

@@ -18,15 +18,15 @@ enum { CHILD, PARENT };
 typedef struct link {
     uint64_t ids[2];
 } link;
-typedef struct object {
+typedef struct fbx_model {
     uint64_t id;
     size_t open, depth; /* parents that are not yet placed; of those that are, the deepest, plus 1 */
-} object;
+} fbx_model;
 typedef struct fbx_check {
     const froe_allocator *alloc;
     ARRAY(uint64_t) models;
-    ARRAY(link) links;     /* of models, by parent, when all are known */
-    ARRAY(object) objects; /* that have parents, by id */
+    ARRAY(link) links;        /* of models, by parent, when all are known */
+    ARRAY(fbx_model) objects; /* that have parents, by id */
     ARRAY(uint64_t) placed;
 } fbx_check;
 
@@ -38,7 +38,7 @@ bool io_is_fbx(const formats_source *source) {
 
 static const char blanks[] = " \t\r\n";
 
-static bool read_text(fbx_check *c, const char *text) {
+static bool read_fbx_text(fbx_check *c, const char *text) {
     static const char model[] = "Model:", kind[] = "\"OO\"";
     for (const char *at = text; (at = strstr(at, model)); at++) {
         const char *number = at + strlen(model) + strspn(at + strlen(model), blanks);
@@ -125,12 +125,12 @@ static int order_parents(const void *x, const void *y) {
 }
 
 static int order_ids(const void *x, const void *y) {
-    const uint64_t a = ((const object *)x)->id, b = ((const object *)y)->id;
+    const uint64_t a = ((const fbx_model *)x)->id, b = ((const fbx_model *)y)->id;
     return a < b ? -1 : a > b;
 }
 
-static object *find_object(const fbx_check *c, uint64_t id) {
-    const object wanted = {.id = id};
+static fbx_model *find_object(const fbx_check *c, uint64_t id) {
+    const fbx_model wanted = {.id = id};
     return c->objects.count ? bsearch(&wanted, c->objects.data, c->objects.count, sizeof wanted, order_ids) : NULL;
 }
 
@@ -150,7 +150,7 @@ static bool list_objects(fbx_check *c) {
         return false;
     if (!c->links.count) return true;
     for (size_t i = 0; i < c->links.count; i++)
-        c->objects.data[c->objects.count++] = (object){.id = c->links.data[i].ids[CHILD], .open = 1};
+        c->objects.data[c->objects.count++] = (fbx_model){.id = c->links.data[i].ids[CHILD], .open = 1};
     qsort(c->objects.data, c->objects.count, sizeof *c->objects.data, order_ids);
     qsort(c->links.data, c->links.count, sizeof *c->links.data, order_parents);
     size_t last = 0;
@@ -179,7 +179,7 @@ static size_t first_link(const fbx_check *c, int side, uint64_t id) {
 /* Places the objects below one that is placed. */
 static void place_below(fbx_check *c, uint64_t parent, size_t depth) {
     for (size_t i = first_link(c, PARENT, parent); i < c->links.count && c->links.data[i].ids[PARENT] == parent; i++) {
-        object *o = find_object(c, c->links.data[i].ids[CHILD]);
+        fbx_model *o = find_object(c, c->links.data[i].ids[CHILD]);
         if (o->depth < depth) o->depth = depth;
         if (!--o->open) c->placed.data[c->placed.count++] = o->id;
     }
@@ -189,7 +189,7 @@ static void place_below(fbx_check *c, uint64_t parent, size_t depth) {
 static uint64_t find_own_parent(fbx_check *c, uint64_t id) {
     qsort(c->links.data, c->links.count, sizeof *c->links.data, order_children);
     for (size_t steps = 0; steps < c->objects.count; steps++) {
-        const object *above = NULL;
+        const fbx_model *above = NULL;
         for (size_t i = first_link(c, CHILD, id); !above || !above->open; i++)
             above = find_object(c, c->links.data[i].ids[PARENT]);
         id = above->id;
@@ -197,7 +197,7 @@ static uint64_t find_own_parent(fbx_check *c, uint64_t id) {
     return id;
 }
 
-static froe_status place_objects(fbx_check *c, formats_sink *sink) {
+static froe_status place_models(fbx_check *c, formats_sink *sink) {
     for (size_t i = 0; i < c->links.count; i++) {
         const uint64_t parent = c->links.data[i].ids[PARENT];
         if ((!i || parent != c->links.data[i - 1].ids[PARENT]) && !find_object(c, parent)) place_below(c, parent, 1);
@@ -207,7 +207,7 @@ static froe_status place_objects(fbx_check *c, formats_sink *sink) {
         place_below(c, id, find_object(c, id)->depth + 1);
     }
     for (size_t i = 0; i < c->objects.count; i++) {
-        const object *o = &c->objects.data[i];
+        const fbx_model *o = &c->objects.data[i];
         if (!o->open && o->depth <= MOST_DEEP) continue;
         const unsigned long long id = o->open ? find_own_parent(c, o->id) : o->id;
         return support_fail(
@@ -224,8 +224,8 @@ froe_status io_fbx_check(const formats_source *source, formats_sink *sink) {
     froe_status status = formats_load_part(source, sink, 0, (size_t)source->size, &text);
     if (!status) {
         const bool records = text.count >= HEAD && !memcmp(text.data, binary, strlen(binary));
-        const bool room = (records ? read_records(&c, &text) : read_text(&c, text.data)) && list_objects(&c);
-        status = room ? place_objects(&c, sink) : support_fail_memory(sink->diag);
+        const bool room = (records ? read_records(&c, &text) : read_fbx_text(&c, text.data)) && list_objects(&c);
+        status = room ? place_models(&c, sink) : support_fail_memory(sink->diag);
     }
     array_free(&sink->alloc, &text);
     array_free(&sink->alloc, &c.models);

@@ -2,7 +2,8 @@
  *
  * Those are extensions that it requires (3.12), positions that are no floating-point numbers (KHR_mesh_quantization),
  * nodes that stand for many (EXT_mesh_gpu_instancing), transformations of another shape than there are (3.5.3), data in
- * another alphabet than that of base64, and faces with wrong indices, which assimp leaves out. Whatever assimp refuses by itself is left to it. */
+ * another alphabet than that of base64, and faces with wrong indices, which assimp leaves out. Whatever assimp refuses
+ * by itself is left to it. */
 #include "assimp_metadata.h"
 #include "check/check.h"
 #include "formats/input/json.h"

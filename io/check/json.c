@@ -15,7 +15,7 @@ typedef struct json_scan {
 } json_scan;
 
 /* Stops behind the value, at the first byte that belongs to something else; NULL: there is none. */
-static const char *scan(json_scan *s, const char *at, const char *end) {
+static const char *scan_json(json_scan *s, const char *at, const char *end) {
     for (; at < end; at++) {
         s->line += *at == '\n';
         if (s->quote) {
@@ -43,7 +43,7 @@ froe_status io_json_check(const char *path, formats_sink *sink) {
     const char *more = NULL;
     for (size_t got = CHUNK; in && got == CHUNK && !more;) {
         got = VSIFReadL(bytes, 1, CHUNK, in);
-        more = scan(&s, bytes, bytes + got);
+        more = scan_json(&s, bytes, bytes + got);
     }
     if (in) VSIFCloseL(in);
     const bool room = bytes != NULL;
@@ -51,7 +51,7 @@ froe_status io_json_check(const char *path, formats_sink *sink) {
     if (!room) return support_fail_memory(sink->diag);
     if (!more) return FROE_OK;
     return support_fail(sink->diag, FROE_E_FORMAT,
-                        "%s: line %zu: Behind the first object there is more, which GDAL does not read. Features in a "
-                        "row are read if each is one line, and no byte order mark is before them.",
+                        "%s: line %zu: Behind the first object there is more, which is not read. Features in a row "
+                        "may be lines, one each, without a byte order mark.",
                         support_short(sink->path), s.line);
 }

@@ -1,6 +1,6 @@
 /* kml.c: whether places in KML (OGC 12-007r2) are numbers. GDAL takes what is none for 0, and the fourth number of a
- * place for the next place, as where numbers have decimal commas. It ends the program where a track has more places than
- * times.
+ * place for the next place, as where numbers have decimal commas. It ends the program where a track has more places
+ * than times.
  *
  *     <coordinates>11.5,48.25 11.5,48.5,300</coordinates>
  *     <gx:Track><when>2020-01-01</when><gx:coord>11.5 48.25 300</gx:coord></gx:Track>
@@ -22,7 +22,7 @@ static const char *local(const char *name) {
     return colon ? colon + 1 : name;
 }
 
-static void XMLCALL begin_element(void *user, const char *name, const char **attributes) {
+static void XMLCALL begin_kml_element(void *user, const char *name, const char **attributes) {
     kml_check *c = user;
     (void)attributes;
     if (c->xml.status) return;
@@ -35,7 +35,7 @@ static void XMLCALL begin_element(void *user, const char *name, const char **att
     if (!strcmp(name, "NetworkLink")) io_leave(c->xml.sink, name, strlen(name));
 }
 
-static void XMLCALL read_text(void *user, const char *text, int length) {
+static void XMLCALL read_kml_text(void *user, const char *text, int length) {
     kml_check *c = user;
     if (c->inside && !c->xml.status && !array_append(&c->xml.sink->alloc, &c->text, text, (size_t)length))
         io_xml_stop(&c->xml, support_fail_memory(c->xml.sink->diag));
@@ -75,7 +75,7 @@ static bool is_place(const char *at) {
     return count > 1 && !at[strspn(at, blanks)];
 }
 
-static void XMLCALL end_element(void *user, const char *name) {
+static void XMLCALL end_kml_element(void *user, const char *name) {
     kml_check *c = user;
     if (c->xml.status) return;
     if (c->inside && !array_push(&c->xml.sink->alloc, &c->text, '\0')) {
@@ -94,7 +94,7 @@ static void XMLCALL end_element(void *user, const char *name) {
 }
 
 static froe_status look(const formats_text *text, formats_sink *sink) {
-    static const io_xml_handlers handlers = {begin_element, end_element, read_text};
+    static const io_xml_handlers handlers = {begin_kml_element, end_kml_element, read_kml_text};
     kml_check c = {.xml.sink = sink};
     const froe_status status = io_xml_look_at(&c.xml, text, &handlers, NULL);
     array_free(&sink->alloc, &c.text);
