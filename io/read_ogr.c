@@ -414,23 +414,63 @@ static bool is_table(const char *name, support_extension extension) {
     return !strcmp(extension.text, "csv") || !strcmp(extension.text, "tsv");
 }
 
-/* Has the table a column of geometry? Its first bytes tell. GDAL reads them where it is compressed or in an archive. */
-static bool has_geometry(const formats_source *source, const char *name) {
-    if (!source->beyond && !strcmp(name, source->file)) return formats_csv_has_geometry(source);
-    formats_source inner = {.file = name};
+/* The source, or the table in it that is compressed or in an archive, of which GDAL reads the first bytes. */
+static void find_inner(const formats_source *source, const char *name, formats_source *inner) {
+    *inner = *source;
+    if (!source->beyond && !strcmp(name, source->file)) return;
     VSILFILE *file = VSIFOpenL(name, "rb");
-    const size_t got = file ? VSIFReadL(inner.head, 1, sizeof inner.head - 1, file) : 0;
+    const size_t got = file ? VSIFReadL(inner->head, 1, sizeof inner->head - 1, file) : 0;
     if (file) VSIFCloseL(file);
-    inner.head[formats_drop_mark(inner.head, got)] = '\0';
-    return formats_csv_has_geometry(&inner);
+    inner->head[formats_drop_mark(inner->head, got)] = '\0';
 }
 
-froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
+/* Of tables with places GDAL reads x and y alone. The core reads the others, but not in archives. */
+static froe_status refuse_columns(const map *m, formats_source *inner) {
+    char *at = inner->head;
+    formats_csv_table t;
+    const bool ours = formats_csv_read_header(&at, &t) == FORMATS_CSV_OURS;
+    const bool tagged = ours && memchr(t.role, FORMATS_CSV_TAG, (size_t)t.columns);
+    if (!ours || (t.kind == FROE_POINT && t.dim == 2 && !tagged)) return FROE_OK;
+    return support_fail(
+        m->sink->diag, FROE_E_FORMAT,
+        "%s: Of tables in archives only points of the plane without tags are read, and this one must be "
+        "unpacked first.",
+        support_short(m->source->path));
+}
+
+static froe_status open_data(map *m, const char *name) {
     /* columns with geometry have many names */
     static const char *const wkt[] = {"GEOM_POSSIBLE_NAMES=WKT,geometry,geom", NULL};
     static const char *const places[] = {"X_POSSIBLE_NAMES=x,lon,lng,long,longitude,easting",
                                          "Y_POSSIBLE_NAMES=y,lat,latitude,northing", NULL};
     static const char *const no_notes[] = {"WRITE_GFS=NO", NULL}; /* a file beside GML, of what is in it */
+    const bool table = is_table(name, m->extension);
+    formats_source inner;
+    if (table) find_inner(m->source, name, &inner);
+    const bool geometry = table && formats_csv_has_geometry(&inner);
+    const froe_status status = table && !geometry ? refuse_columns(m, &inner) : FROE_OK;
+    if (status) return status;
+    const char *const *options = !strcmp(m->extension.text, "gml") ? no_notes : !table ? NULL : geometry ? wkt : places;
+    m->data = GDALOpenEx(name, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL, options, NULL);
+    return m->data ? FROE_OK : refuse_content(m, name);
+}
+
+/* Is there something that GDAL passes over in silence? */
+static froe_status check_data(map *m) {
+    const formats_source *source = m->source;
+    const char *format = m->sink->report.format, *name = GDALGetDescription(m->data);
+    const bool single = !source->beyond && !m->container;
+    froe_status status = FROE_OK;
+    if (single && !strcmp(m->extension.text, "mif")) status = io_mif_check(source, m->sink);
+    if (single && !strcmp(format, "DXF")) status = io_dxf_check(source, m->sink);
+    if (!status && (!strcmp(format, "ESRI Shapefile") || !strcmp(format, "MapInfo File"))) status = check_tables(m);
+    if (!status && m->is_table) status = check_quotes(m);
+    if (!status && m->shapes.cuts && strcmp(format, "GeoJSONSeq") != 0) status = io_json_check(name, m->sink);
+    if (!status && !strcmp(format, "TopoJSON")) status = io_topojson_check(name, m->sink);
+    return status;
+}
+
+froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
     support_extension extension;
     const char *name = gdal_name(source, &extension);
     map m = {.source = source,
@@ -448,29 +488,13 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
     if (!status && kml && !m.container && !source->beyond) status = io_kml_check(source, sink);
     io_gdal_begin(&m.heard);
     if (!status) status = refuse_virtual(&m, name);
-    if (!status) {
-        const char *const *options = !strcmp(extension.text, "gml") ? no_notes
-                                     : !is_table(name, extension)   ? NULL
-                                     : has_geometry(source, name)   ? wkt
-                                                                    : places;
-        m.data = GDALOpenEx(name, GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, NULL, options, NULL);
-        if (!m.data) status = refuse_content(&m, name);
-    }
+    if (!status) status = open_data(&m, name);
     if (!status) {
         formats_report_format(sink, "float64", "%s", GDALGetDriverShortName(GDALGetDatasetDriver(m.data)));
         m.is_table = !strcmp(sink->report.format, "CSV");
         m.shapes.cuts = strstr(sink->report.format, "JSON") != NULL;
         m.crs.promise = io_crs_promise_of(m.data);
-        const bool single = !source->beyond && !m.container;
-        if (single && !strcmp(extension.text, "mif")) status = io_mif_check(source, sink);
-        if (single && !strcmp(sink->report.format, "DXF")) status = io_dxf_check(source, sink);
-        if (!status && (!strcmp(sink->report.format, "ESRI Shapefile") || !strcmp(sink->report.format, "MapInfo File")))
-            status = check_tables(&m);
-        if (!status && m.is_table) status = check_quotes(&m);
-        if (!status && m.shapes.cuts && strcmp(sink->report.format, "GeoJSONSeq") != 0)
-            status = io_json_check(GDALGetDescription(m.data), sink);
-        if (!status && !strcmp(sink->report.format, "TopoJSON"))
-            status = io_topojson_check(GDALGetDescription(m.data), sink);
+        status = check_data(&m);
         if (!status) status = add_layers(&m);
     }
     io_crs_free(&m.crs);
