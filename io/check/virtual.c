@@ -3,6 +3,7 @@
 #include "heard.h"
 #include <cpl_string.h>
 #include <cpl_vsi.h>
+#include <stdio.h>
 #include <string.h>
 
 froe_status io_virtual_load(const char *path, formats_sink *sink, formats_text *text) {
@@ -18,6 +19,18 @@ froe_status io_virtual_load(const char *path, formats_sink *sink, formats_text *
     return FROE_OK;
 }
 
+/* Loads a file of an archive. */
+static froe_status load_packed(const formats_source *source, formats_sink *sink, const char *file, formats_text *text) {
+    static const char form[] = "/vsizip/{%s}/%s";
+    const size_t size = sizeof form + strlen(source->file) + strlen(file);
+    char *path = support_calloc(&sink->alloc, 1, size);
+    if (!path) return support_fail_memory(sink->diag);
+    snprintf(path, size, form, source->file, file);
+    const froe_status status = io_virtual_load(path, sink, text);
+    support_free(&sink->alloc, path, size);
+    return status;
+}
+
 froe_status io_archive_look(const formats_source *source, formats_sink *sink, const char *extension, io_look_fn *look) {
     io_heard heard = {.path = source->file};
     froe_status status = FROE_OK;
@@ -26,7 +39,7 @@ froe_status io_archive_look(const formats_source *source, formats_sink *sink, co
     for (char **file = files; file && *file && !status; file++) {
         formats_text text = {0};
         if (strcmp(support_path_extension(*file).text, extension) != 0) continue;
-        status = io_virtual_load(CPLSPrintf("/vsizip/{%s}/%s", source->file, *file), sink, &text);
+        status = load_packed(source, sink, *file, &text);
         if (status == FROE_E_FORMAT)
             status = io_gdal_fail(&heard, sink->diag, FROE_E_FORMAT, source->path, "It cannot be unpacked.");
         if (!status) status = look(&text, sink);
