@@ -468,6 +468,35 @@ static void what_places_of_kml_may_be_is_read(void **state) {
     assert_string_equal(report.sorts_left, "NetworkLink");
 }
 
+/* ------------------------------------------------------------------------- GPX -- */
+
+static void places_of_gpx_are_numbers(void **state) {
+    (void)state;
+    static const char head[] =
+        "<?xml version=\"1.0\"?>\n<gpx version=\"1.1\" xmlns=\"http://www.topografix.com/GPX/1/1\">\n";
+    static const char *const bad[] = {
+        "lat='48,5' lon='11.5'", "lat='48.5' lon='11,5'", "lat='48.5'", "lon='11.5'", "lat='' lon='11.5'",
+        "lat='N48' lon='11.5'",  "lat='48.5N' lon='11.5'"};
+    static const char *const forms[] = {"<wpt %s/>", "<rte><rtept lat='1' lon='2'/>\n<rtept %s/></rte>",
+                                        "<trk><trkseg><trkpt lat='1' lon='2'/><trkpt %s/></trkseg></trk>"};
+    char text[400], part[300];
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        const size_t form = i % 3;
+        snprintf(part, sizeof part, forms[form], bad[i]);
+        snprintf(text, sizeof text, "%s%s</gpx>", head, part);
+        write_text("bad.gpx", text);
+        refuse("bad.gpx", FROE_E_FORMAT,
+               form == 1 ? "bad.gpx: line 4: A place has no lat and lon that are numbers with decimal points."
+                         : "bad.gpx: line 3: A place has no lat and lon that are numbers with decimal points.");
+    }
+    snprintf(text, sizeof text, "%s<wpt lat=' 48.5 ' lon='-1.15e1'><name>a</name></wpt></gpx>", head);
+    write_text("good.gpx", text);
+    froe_scene *scene = read_scene("good.gpx", NULL);
+    assert_true(corner(scene, 0, 0)[0] == -11.5 && corner(scene, 0, 0)[1] == 48.5);
+    froe_scene_free(scene);
+    assert_true(test_memory_each(read_with_memory, "good.gpx") > 2);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_assimp_takes_for_something_else_is_refused),
@@ -487,6 +516,7 @@ int main(void) {
         cmocka_unit_test(memory_may_end_in_x),
         cmocka_unit_test(places_of_kml_are_numbers),
         cmocka_unit_test(what_places_of_kml_may_be_is_read),
+        cmocka_unit_test(places_of_gpx_are_numbers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
