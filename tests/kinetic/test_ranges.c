@@ -45,8 +45,8 @@ static void set_tuning(froe_kinetic *k, manner how) {
 
                                        .most = 3,
                                        .again = 100,
-                                       .gaps = 0.5,
-                                       .guard = 0x1p-5,
+                                       .gaps = 0,
+                                       .guard = {0x1p-8, 0x1p-5},
                                        .size = 16};
     k->ranges.tuning.unguarded = how == UNGUARDED;
     k->ranges.tuning.wide = how == WIDE;

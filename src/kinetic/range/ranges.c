@@ -26,7 +26,7 @@ ranges_tuning ranges_defaults(void) {
                            .most = 32,
                            .again = 1.3,
                            .gaps = 6,
-                           .guard = 0x1p-4,
+                           .guard = {0x1p-12, 0x1p-4},
                            .size = 1024};
 }
 
@@ -352,9 +352,9 @@ static void widen_guards(window *w, int64_t end) {
         const kinetic_range *range = w->ranges + i;
         if (range->wide == 0 || range->stopped - 2 != end) continue;
         const double times = 2.25 * range->wide / range->guard; /* NaN, infinite: as wide as may be */
-        guard = fmax(guard, times < r->tuning.guard / r->guard ? fmax(2, times) * r->guard : r->tuning.guard);
+        guard = fmax(guard, times < r->tuning.guard[1] / r->guard ? fmax(2, times) * r->guard : r->tuning.guard[1]);
     }
-    if (guard > 0) w->k->ranges.guard = fmin(guard, r->tuning.guard);
+    if (guard > 0) w->k->ranges.guard = fmin(guard, r->tuning.guard[1]);
 }
 
 /* Goes through one window, towards a tick. */
@@ -416,8 +416,8 @@ bool ranges_advance(froe_kinetic *k, int64_t tick, const event_watcher *watcher,
     const int64_t before = k->now.tick;
     window_outcome out = THROUGH;
     *status = FROE_OK;
-    const double first = k->ranges.tuning.gaps / (double)k->tree.segments.count;
-    if (!(k->ranges.guard > 0)) k->ranges.guard = fmin(first, k->ranges.tuning.guard);
+    const double gaps = k->ranges.tuning.gaps / (double)k->tree.segments.count, *limits = k->ranges.tuning.guard;
+    if (!(k->ranges.guard > 0)) k->ranges.guard = fmin(fmax(gaps, limits[0]), limits[1]);
     const double guard = k->ranges.guard;
     if (!may_pay(k, tick)) return false;
     while (out == THROUGH && *go_on && k->now.tick < tick && may_pay(k, tick))

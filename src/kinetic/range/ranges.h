@@ -11,8 +11,8 @@ typedef struct ranges_tuning {
     double pays, most; /**< events for each segment that it has to pay for, and that a window has */
     double making;     /**< making a part takes as long as so many events for each of its segments */
     double again;      /**< all parts together have so many times the segments, at most */
-    double gaps;       /**< guard at first: so many mean distances from segment to segment, */
-    double guard;      /**< and at most: share of the whole width */
+    double gaps;       /**< guard at first: so many mean distances from segment to segment; */
+    double guard[2];   /**< share of the whole width, at least and at most */
     uint32_t size;     /**< more ranges than threads where each has so many segments: small partitions are in nearer
                         * caches */
     bool unguarded;    /**< crippled: segments belong to a range by where they are at the beginning */
