@@ -48,6 +48,14 @@ static inline num_pair num_pair_sqrt(num_pair a) {
     return num_pair_tidy(y, r.hi / (2 * y));
 }
 
+/** sqrt(a / b) for a, b > 0; off by less than 2^-96 of itself. The quotient of the upper halves has a root that is off
+ * by 2.5 times 2^-53 of itself, of which a Newton step leaves the square. */
+static inline num_pair num_pair_root(num_pair a, num_pair b) {
+    const double y = sqrt(a.hi / b.hi);
+    const num_pair rest = num_pair_sub(a, num_pair_mul(num_pair_product(y, y), b));
+    return num_pair_tidy(y, rest.hi / (2 * y * b.hi));
+}
+
 /* ----------------------------------------------------------------- vectors -- */
 
 /** q - p, exactly. Returns its size: the sum of its coordinates'. */
@@ -59,14 +67,27 @@ static inline double num_pair_between(const double p[3], const double q[3], num_
     }
     return size;
 }
-static inline num_pair num_pair_dot(const num_pair a[3], const num_pair b[3]) {
-    num_pair sum = num_pair_add(num_pair_mul(a[0], b[0]), num_pair_mul(a[1], b[1]));
-    return num_pair_add(sum, num_pair_mul(a[2], b[2]));
+/* What is missing in the product of the upper halves: two roundings of numbers below 2^-52 of it. */
+static inline double num_pair_rest(num_pair a, num_pair b, num_pair upper) {
+    return upper.lo + (a.hi * b.lo + a.lo * b.hi);
 }
+/** Off by less than 2^-100 of the sum of the products' sizes: lower halves, below 2^-50 of it, are rounded some ten
+ * times. */
+static inline num_pair num_pair_dot(const num_pair a[3], const num_pair b[3]) {
+    num_pair p[3];
+    for (int k = 0; k < 3; k++) p[k] = num_pair_product(a[k].hi, b[k].hi);
+    const num_pair s = num_pair_sum(p[0].hi, p[1].hi), t = num_pair_sum(s.hi, p[2].hi);
+    double rest = s.lo + t.lo;
+    for (int k = 0; k < 3; k++) rest += num_pair_rest(a[k], b[k], p[k]);
+    return num_pair_tidy(t.hi, rest);
+}
+/** The same for each coordinate. */
 static inline void num_pair_cross(const num_pair a[3], const num_pair b[3], num_pair out[3]) {
     for (int k = 0; k < 3; k++) {
-        int i = k == 2 ? 0 : k + 1, j = k ? k - 1 : 2;
-        out[k] = num_pair_sub(num_pair_mul(a[i], b[j]), num_pair_mul(a[j], b[i]));
+        const int i = k == 2 ? 0 : k + 1, j = k ? k - 1 : 2;
+        const num_pair p = num_pair_product(a[i].hi, b[j].hi), q = num_pair_product(a[j].hi, b[i].hi);
+        const num_pair s = num_pair_sum(p.hi, -q.hi);
+        out[k] = num_pair_tidy(s.hi, s.lo + (num_pair_rest(a[i], b[j], p) - num_pair_rest(a[j], b[i], q)));
     }
 }
 #endif

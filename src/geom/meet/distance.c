@@ -42,6 +42,15 @@ static bool find_feature(num_context *context, const double *point, const geom_b
     return true;
 }
 
+bool geom_distance_shared(num_context *context, const double *point, const geom_body *body, const geom_distance *d) {
+    if (d->lo || (d->count != 1 && d->count != 2)) return false;
+    if (body->form != FROE_POLYGON || body->dim != 3 || body->count != 3) return false;
+    if (context->first != NUM_FILTER) return false;
+    const double *corner[3];
+    for (uint32_t i = 0; i < 3; i++) corner[i] = geom_body_point(body, i);
+    return num_filtered_call(context, geom_feature_shared(point, corner, d->corner, d->count) ? 1 : NUM_UNSURE) == 1;
+}
+
 geom_distance geom_distance_from(num_context *context, const double *point, const geom_body *body) {
     geom_distance d; /* not all of it matters, and zeroing it would take as long as the filter */
     d.lo = d.hi = d.corner[0] = NULL;
@@ -82,10 +91,18 @@ typedef struct pair_root {
     double e;
 } pair_root;
 
-/* sqrt(s) errs by 2^-94 of itself, and by `error`. */
-static bool root_of_square(num_pair s, double error, pair_root *out) {
+/* sqrt(s) errs by 2^-94 of itself. */
+static bool root_of_square(num_pair s, pair_root *out) {
     if (!(s.hi > 0x1p-400)) return false;
     out->x = num_pair_sqrt(s);
+    out->e = 0x1p-94 * out->x.hi;
+    return true;
+}
+
+/* The same for sqrt(top / bottom), which errs by `error`, too. */
+static bool root_of_quotient(num_pair top, num_pair bottom, double error, pair_root *out) {
+    if (!(top.hi > 0x1p-400 * bottom.hi)) return false;
+    out->x = num_pair_root(top, bottom);
     out->e = error + 0x1p-94 * out->x.hi;
     return true;
 }
@@ -100,7 +117,7 @@ static bool root_from_box(const double *point, const geom_distance *a, pair_root
         if (!(fabs(gap.hi) < 0x1p100)) return false;
         s = num_pair_add(s, num_pair_mul(gap, gap));
     }
-    return root_of_square(s, 0, out);
+    return root_of_square(s, out);
 }
 
 /* Are sizes such that pairs of doubles neither overflow nor underflow? */
@@ -114,38 +131,46 @@ static bool root_from_flat(const double *point, const geom_distance *a, pair_roo
     const num_pair x = num_pair_sum(p[0], -point[0]), y = num_pair_sum(p[1], -point[1]);
     const double size = fabs(x.hi) + fabs(y.hi);
     if (!is_moderate(size)) return false;
-    if (a->count == 1) return root_of_square(num_pair_add(num_pair_mul(x, x), num_pair_mul(y, y)), 0, out);
+    if (a->count == 1) return root_of_square(num_pair_add(num_pair_mul(x, x), num_pair_mul(y, y)), out);
     const num_pair ex = num_pair_sum(q[0], -p[0]), ey = num_pair_sum(q[1], -p[1]);
     if (!is_moderate(fabs(ex.hi) + fabs(ey.hi))) return false;
     const num_pair cross = num_pair_sub(num_pair_mul(ex, y), num_pair_mul(ey, x));
     const num_pair square = num_pair_add(num_pair_mul(ex, ex), num_pair_mul(ey, ey));
-    return root_of_square(num_pair_div(num_pair_mul(cross, cross), square), 0x1p-94 * size, out);
+    return root_of_quotient(num_pair_mul(cross, cross), square, 0x1p-94 * size, out);
+}
+
+/* From a line along an axis only the other axes count: v is without this one then. Many models have such edges. */
+static bool drop_axis(const num_pair e[3], num_pair v[3]) {
+    int moved = 0, axis = 0;
+    for (int k = 0; k < 3; k++) {
+        axis = e[k].hi == 0 ? axis : k;
+        moved += e[k].hi != 0;
+    }
+    if (moved == 1) v[axis] = (num_pair){0, 0};
+    return moved == 1;
 }
 
 /* From a simplex: sqrt(S) errs by 2^-94 of itself and by what the numerator of S errs. With sizes as sums of
  * coordinates, |e|^2 at least a third of that: v x e by less than 2^-96 |v| |e|, and n v by less than 2^-95 |e| |f|
  * |v|, as n by 2^-96 |e| |f|. */
 static bool root_from_simplex(const double *point, const geom_distance *a, pair_root *out) {
-    num_pair v[3], e[3], f[3], n[3], s;
-    double sizes[3] = {num_pair_between(point, a->corner[0], v), 1, 1}, error = 0;
+    num_pair v[3], e[3], f[3], n[3];
+    double sizes[3] = {num_pair_between(point, a->corner[0], v), 1, 1};
     if (a->count > 1) sizes[1] = num_pair_between(a->corner[0], a->corner[1], e);
     if (a->count > 2) sizes[2] = num_pair_between(a->corner[0], a->corner[2], f);
     for (int i = 0; i < 3; i++)
         if (!is_moderate(sizes[i])) return false;
-    if (a->count == 1) {
-        s = num_pair_dot(v, v);
-    } else if (a->count == 2) {
+    if (a->count == 1) return root_of_square(num_pair_dot(v, v), out);
+    if (a->count == 2 && drop_axis(e, v)) return root_of_square(num_pair_dot(v, v), out);
+    if (a->count == 2) {
         num_pair_cross(v, e, n);
-        s = num_pair_div(num_pair_dot(n, n), num_pair_dot(e, e));
-        error = 0x1p-94 * sizes[0];
-    } else {
-        num_pair_cross(e, f, n);
-        const num_pair height = num_pair_dot(n, v), bottom = num_pair_dot(n, n);
-        s = num_pair_div(num_pair_mul(height, height), bottom);
-        if (!(bottom.hi > 0x1p-600)) return false;
-        error = 0x1p-93 * sizes[1] * sizes[2] * (sizes[0] + sqrt(s.hi)) / sqrt(bottom.hi);
+        return root_of_quotient(num_pair_dot(n, n), num_pair_dot(e, e), 0x1p-94 * sizes[0], out);
     }
-    return root_of_square(s, error, out);
+    num_pair_cross(e, f, n);
+    const num_pair height = num_pair_dot(n, v), bottom = num_pair_dot(n, n);
+    if (!(bottom.hi > 0x1p-600) || !root_of_quotient(num_pair_mul(height, height), bottom, 0, out)) return false;
+    out->e += 0x1p-93 * sizes[1] * sizes[2] * (sizes[0] + out->x.hi) / sqrt(bottom.hi);
+    return true;
 }
 
 static bool root_by_pairs(const double *point, const geom_distance *a, pair_root *out) {

@@ -25,6 +25,9 @@ typedef struct geom_distance {
 
 /** Of a point from a body. Keeps pointers to the body's points. */
 geom_distance geom_distance_from(num_context *context, const double *point, const geom_body *body);
+/** Is the distance of the body certainly d, as the corner or edge that d comes from is the nearest of it, too? False:
+ * it is not, or filters cannot tell. Both bodies have their points in one array. */
+bool geom_distance_shared(num_context *context, const double *point, const geom_body *body, const geom_distance *d);
 /** Sign of a - b, for the same point. */
 int geom_distance_compare(num_context *context, const double *point, const geom_distance *a, const geom_distance *b);
 /** Sign of a - bound, bound >= 0 or infinite. */

@@ -18,50 +18,81 @@ static double plain_dot(const filter_vector *a, const filter_vector *b) {
     return a->x[0] * b->x[0] + a->x[1] * b->x[1] + a->x[2] * b->x[2];
 }
 
-static int sign_beyond(double x, double bound) {
-    return x > bound ? 1 : x < -bound ? -1 : NUM_UNSURE;
-}
-
 static double most_of(const filter_vector v[3]) {
     return filter_greater(filter_greater(v[0].most, v[1].most), v[2].most);
 }
 
-/* One bound for all e . v: that of filter_dot() for the longest vectors, whose components err by 2u of these. It is
- * not finite where anything overflows. */
+static geom_feature at_edge(const double *p, const double *q, const filter_vector *e, const filter_vector *v) {
+    const filter_vector across = filter_cross(v, e);
+    return (geom_feature){2, {p, q}, filter_div(filter_dot(&across, &across), filter_dot(e, e))};
+}
+
+static geom_feature at_interior(const double *const corner[3], const filter_vector e[3], const filter_vector *v) {
+    const filter_vector n = filter_cross(&e[0], &e[1]);
+    const num_ball height = filter_dot(&n, v);
+    return (geom_feature){
+        3, {corner[0], corner[1], corner[2]}, filter_div(filter_mul(height, height), filter_dot(&n, &n))};
+}
+
+/* One bound B for all a_i = e_i . v_i and b_i = e_i . v_i+1: that of filter_dot() for the longest vectors, whose
+ * components err by 2u of these. Let M be the product of their lengths. As e_i + e_i+1 + e_i-1 = 0, Lagrange's identity
+ * makes of the side of edge i on which x is, seen along the normal n = e_i x e_i+1,
+ *
+ *     n . (v_i x e_i) = a_i a_i+1 + b_i (a_i + b_i-1)
+ *
+ * where |a|, |b| <= 3 M: off by 18 M B + 3 B^2, and by 72 u M^2 for what is rounded here, which is less than 3 M B.
+ * Bounds are not finite where anything overflows. */
 bool geom_feature_nearest(const double *point, const double *const corner[3], geom_feature *out) {
     filter_vector e[3], v[3];
-    int ahead[3], past[3]; /* of e_i . v_i and e_i . v_i+1 */
-    bool inside = true;
+    double a[3], b[3];
+    unsigned inside = 0;
     for (int i = 0; i < 3; i++) {
         e[i] = filter_between(corner[i], corner[next(i)]);
         v[i] = filter_between(point, corner[i]);
     }
-    const double bound = 25 * FILTER_U * (most_of(e) * most_of(v)) + NUM_BALL_TINY;
-    for (int i = 0; i < 3; i++) {
-        ahead[i] = sign_beyond(plain_dot(&e[i], &v[i]), bound);
-        past[i] = sign_beyond(plain_dot(&e[i], &v[next(i)]), bound);
-    }
+    const double size = most_of(e) * most_of(v), bound = 25 * FILTER_U * size + NUM_BALL_TINY;
+    const double bound_of_side = 24 * size * bound + NUM_BALL_TINY;
+    for (int i = 0; i < 3; i++) a[i] = plain_dot(&e[i], &v[i]), b[i] = plain_dot(&e[i], &v[next(i)]);
     for (int i = 0; i < 3; i++) {
         const int k = next(i);
-        if (ahead[k] != 1 || past[i] != -1) continue;
+        if (!(a[k] > bound && b[i] < -bound)) continue;
         *out = (geom_feature){1, {corner[k]}, filter_dot(&v[k], &v[k])};
         return true;
     }
-    const filter_vector n = filter_cross(&e[0], &e[1]);
     for (int i = 0; i < 3; i++) {
-        const filter_vector across = filter_cross(&v[i], &e[i]); /* v_i x v_i+1, too */
-        const int side = filter_sign(filter_dot(&n, &across));   /* of edge i on which x is, seen along the normal */
-        inside = inside && side == 1;
-        if (ahead[i] != -1 || past[i] != 1 || side != -1) continue;
-        *out = (geom_feature){2, {corner[i], corner[next(i)]}, {0, 0}};
-        out->square = filter_div(filter_dot(&across, &across), filter_dot(&e[i], &e[i]));
+        const int k = next(i);
+        const double side = a[i] * a[k] + b[i] * (a[i] + b[next(k)]);
+        inside += side > bound_of_side;
+        if (!(a[i] < -bound && b[i] > bound && side < -bound_of_side)) continue;
+        *out = at_edge(corner[i], corner[k], &e[i], &v[i]);
         return true;
     }
-    if (!inside) return false;
-    const num_ball height = filter_dot(&n, &v[0]);
-    *out = (geom_feature){3, {corner[0], corner[1], corner[2]}, {0, 0}};
-    out->square = filter_div(filter_mul(height, height), filter_dot(&n, &n));
+    if (inside < 3) return false;
+    *out = at_interior(corner, e, &v[0]);
     return true;
+}
+
+/* The point c of a convex set is the nearest to x if (c - x) . (y - c) >= 0 for all corners y. Of an edge e from p to
+ * another corner this is 0. For a third one, y = p + g, it has the sign of (v . g) (e . e) - (e . v) (e . g), with v
+ * from x to p. The bounds of these hold however doubles are rounded. */
+bool geom_feature_shared(const double *point, const double *const corner[3], const double *const *nearest, int count) {
+    const double *other[3];
+    const filter_vector v = filter_between(point, nearest[0]);
+    int others = 0;
+    for (int i = 0; i < 3; i++) {
+        other[others] = corner[i];
+        others += corner[i] != nearest[0] && corner[i] != nearest[count - 1];
+    }
+    if (others != 3 - count) return false;
+    const filter_vector g = filter_between(nearest[0], other[0]);
+    const num_ball along = filter_dot(&v, &g);
+    if (count == 2) {
+        const filter_vector e = filter_between(nearest[0], nearest[1]);
+        const num_ball back = filter_mul(filter_dot(&e, &v), filter_dot(&e, &g));
+        return filter_sign(filter_sub(filter_mul(along, filter_dot(&e, &e)), back)) == 1;
+    }
+    const filter_vector f = filter_between(nearest[0], other[1]);
+    return filter_sign(along) == 1 && filter_sign(filter_dot(&v, &f)) == 1;
 }
 
 /* A sum of two products of differences, each of which is rounded once: 4u of the products' sizes. */

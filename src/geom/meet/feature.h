@@ -14,4 +14,7 @@ typedef struct geom_feature {
 /** False: doubles cannot tell. Keeps pointers to corners. */
 bool geom_feature_nearest(const double *point, const double *const corner[3], geom_feature *out);
 bool geom_feature_of_segment(const double *point, const double *const corner[2], geom_feature *out);
+/** Is the corner or edge (of `count` corners) that is the nearest of another triangle one of this triangle, too, and
+ * its nearest? False: it is not, or doubles cannot tell. */
+bool geom_feature_shared(const double *point, const double *const corner[3], const double *const *nearest, int count);
 #endif
