@@ -477,6 +477,55 @@ static void kernels_are_sure_only_of_what_is_met(void **state) {
     }
 }
 
+/* Every triangle of a block is found, no nearer than its key, and no further away than its end. Of most
+ * the end is less than 9/8 of the key. */
+static void check_block_around(froe_query *q, const space_kernels *kernels, const space_header *h, uint64_t *sure) {
+    space_walk *w = &q->space->walk;
+    uint32_t objects[512];
+    float keys[512], ends[512];
+    space_found found = {objects, keys, ends, 0};
+    w->point.one = false;
+    kernels->near(h, &w->point, 0, (float)INFINITY, &found);
+    assert_int_equal(found.count, h->count);
+    for (uint32_t i = 0; i < h->triangles; i++) {
+        assert_int_equal(objects[i], space_ids(h)[i] & PACKED_OBJECT);
+        const geom_body body = scene_body(q->tree->scene, objects[i]);
+        const geom_distance d = geom_distance_from(&q->numbers, q->near.point, &body);
+        const double from = sqrt((double)keys[i] / w->per), to = sqrt((double)ends[i] / w->per);
+        assert_true(geom_distance_compare_to(&q->numbers, q->near.point, &d, from * (1 - 0x1p-45)) >= 0);
+        assert_true(geom_distance_compare_to(&q->numbers, q->near.point, &d, to * (1 + 0x1p-45)) <= 0);
+        *sure += isfinite(ends[i]) && to <= 1.125 * from;
+    }
+}
+
+static void keys_and_ends_hold_distances(void **state) {
+    uint64_t sure = 0, other = 0, all = 0;
+    (void)state;
+    for (int i = 0; i < KINDS; i++) {
+        froe_tree *t = tree_of(kinds + i);
+        froe_query *q;
+        bool begun = true;
+        assert_int_equal(froe_query_new(t, &q, NULL), FROE_OK);
+        q->near.scale = 1;
+        for (uint64_t draw = 0; draw < 60 && t->packed.wide; draw++) {
+            odd_point(t, 7000 + draw, q->near.point);
+            for (int k = 0; k < 3 && draw % 6 == 5; k++) q->near.point[k] *= draw % 4 == 1 ? 50 : 500;
+            assert_int_equal(space_walk_near(q, &q->space->walk, &begun), FROE_OK);
+            for (uint32_t n = 0; begun && n < t->node_count; n++) {
+                if (!tree_is_leaf(t->nodes + n)) continue;
+                const space_header *h = space_block(t, t->nodes[n].child);
+                all += h->triangles;
+                for (size_t kernel = 0; space_kernels_at(kernel); kernel++)
+                    if (!kernel || draw % 4 == kernel)
+                        check_block_around(q, space_kernels_at(kernel), h, kernel ? &other : &sure);
+            }
+        }
+        froe_query_free(q);
+        froe_tree_free(t);
+    }
+    if (2 * sure < all) fail_msg("%zu of %zu", (size_t)sure, (size_t)all);
+}
+
 /* Small triangles in a leaf whose units are 1, at quarters of units: whatever is tested is off by a unit or so. They
  * are in the middle of the units that there are, from 0 to 65535, or at either end. */
 static const double places_of_units[] = {20000, 0, 65525};
@@ -733,6 +782,7 @@ int main(void) {
         cmocka_unit_test(every_allocation_of_a_query_may_fail),
         cmocka_unit_test(kernels_agree),
         cmocka_unit_test(kernels_are_sure_only_of_what_is_met),
+        cmocka_unit_test(keys_and_ends_hold_distances),
         cmocka_unit_test(what_is_a_unit_from_the_truth_is_decided_exactly),
         cmocka_unit_test(few_triangles_of_windows_are_left_to_exact_tests),
         cmocka_unit_test(walls_behind_a_ray_are_not_decided),
