@@ -729,6 +729,60 @@ static void of_one_leaf_only_what_may_be_nearest_is_kept(void **state) {
     froe_tree_free(t);
 }
 
+/* Cones of 60 triangles around an apex, on a lattice of nine, each with the least number elsewhere. */
+static froe_tree *tree_of_cones(void) {
+    enum { CONES = 9, SIDES = 60 };
+    static double c[CONES * SIDES * 9];
+    froe_scene *scene;
+    froe_tree *tree;
+    froe_build_options o = froe_build_defaults();
+    for (size_t i = 0; i < CONES * SIDES; i++) {
+        double *x = c + 9 * (i * 7 % (CONES * SIDES));
+        const double middle[2] = {3.0 * (double)(i / SIDES % 3), 3.0 * (double)(i / SIDES / 3)};
+        for (size_t j = 0; j < 2; j++) {
+            const double angle = 6.283185307179586 * (double)((i + j) % SIDES) / SIDES;
+            x[3 * j] = middle[0] + cos(angle), x[3 * j + 1] = middle[1] + sin(angle), x[3 * j + 2] = 0;
+        }
+        x[6] = middle[0], x[7] = middle[1], x[8] = 1;
+    }
+    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+    assert_int_equal(trees_add(scene, FROE_POLYGON, CONES * SIDES, c, NULL, NULL), FROE_OK);
+    o.method = "index", o.leaf = 6;
+    assert_int_equal(froe_build(scene, &o, &tree, NULL), FROE_OK);
+    froe_scene_free(scene);
+    return tree;
+}
+
+/* The nearest corner or edge belongs to many: the one with the least number is the nearest. */
+static void of_triangles_side_by_side_the_first_is_nearest(void **state) {
+    froe_tree *tree = tree_of_cones(), *general = reference_of(tree);
+    froe_query *q, *reference;
+    size_t apexes = 0;
+    (void)state;
+    assert_int_equal(froe_query_new(tree, &q, NULL), FROE_OK);
+    assert_int_equal(froe_query_new(general, &reference, NULL), FROE_OK);
+    for (uint64_t draw = 0; draw < 500; draw++) {
+        froe_neighbours found, wanted;
+        double x[3] = {8 * trees_unit(51, draw) - 1, 8 * trees_unit(52, draw) - 1, 4 * trees_unit(53, draw) - 1};
+        if (draw % 3 == 0) x[0] = round(x[0] / 3) * 3 + 0.1, x[1] = round(x[1] / 3) * 3, x[2] = 1.5 + x[2];
+        const double bound = draw % 5 == 4 ? 1 : (double)INFINITY;
+        assert_int_equal(froe_query_near(reference, x, 1, bound, &wanted, NULL), FROE_OK);
+        assert_int_equal(froe_query_near(q, x, 1, bound, &found, NULL), FROE_OK);
+        assert_int_equal(found.count, wanted.count);
+        if (!found.count) continue;
+        if (found.items->object != wanted.items->object || found.items->distance != wanted.items->distance)
+            fail_msg("point %d: %u at %a, not %u at %a", (int)draw, found.items->object, found.items->distance,
+                     wanted.items->object, wanted.items->distance);
+        apexes += found.items->distance == sqrt(0.1 * 0.1 + (x[2] - 1) * (x[2] - 1));
+    }
+    assert_true(apexes > 20);
+    assert_true(froe_query_statistics(q).exact <= froe_query_statistics(reference).exact);
+    froe_query_free(q);
+    froe_query_free(reference);
+    froe_tree_free(general);
+    froe_tree_free(tree);
+}
+
 /* -------------------------------------------------------------------- blocks -- */
 
 /* Every byte of a block changed in turn: refused, or found by the audit, or of no consequence for answers. */
@@ -788,6 +842,7 @@ int main(void) {
         cmocka_unit_test(walls_behind_a_ray_are_not_decided),
         cmocka_unit_test(walls_in_one_plane_need_no_exact_numbers),
         cmocka_unit_test(of_one_leaf_only_what_may_be_nearest_is_kept),
+        cmocka_unit_test(of_triangles_side_by_side_the_first_is_nearest),
         cmocka_unit_test(damaged_blocks_are_noticed),
         cmocka_unit_test(boxes_larger_than_their_objects_are_found),
     };

@@ -70,7 +70,7 @@ static bool measure_neighbour(froe_query *q, const geom_body *body, double bound
 static froe_status find_neighbours(froe_query *q, size_t k, double bound, froe_diagnostic *diag) {
     const froe_scene *s = q->tree->scene;
     tree_objects list;
-    q->near.one = k == 1;
+    q->near.one = false;
     froe_status status = query_near_begin(q, diag);
     if (bound < INFINITY) q->near.limit = query_near_square(&q->near, bound);
     while (!status && k && !(status = query_near_next(q, &list)) && list.count) {
@@ -183,6 +183,7 @@ froe_status froe_query_near(froe_query *query, const double *point, size_t k, do
     n->limit = INFINITY;
     bool done = false;
     if (k) status = find_candidates(query, k, bound, &done, diag);
+    if (k == 1 && !status && !done) status = query_near_in_space(query, bound, &done);
     if (!status && !done) status = find_neighbours(query, k, bound, diag);
     if (!status) status = round_distances(query);
     query->stats.exact += query->numbers.stats.exact - exact;

@@ -2,6 +2,7 @@
  *
  *     near_walk.c     the lists of a tree, those of the nearest regions first: an iterator
  *     near_points.c   where all objects are points: candidates, few more than k, by doubles side by side
+ *     near_space.c    the one nearest object of a packed tree of space
  *     near_packed.c   segments and points of a packed tree of the plane: candidates, by blocks of 16-bit units
  *     near.c          the k nearest objects in them
  *
@@ -70,6 +71,9 @@ froe_status query_near_points(struct froe_query *query, size_t k, double bound, 
 /** Are candidates found by blocks (near_packed.c)? On packed trees of the plane, but for several of many points, which
  * near_points.c finds more quickly. FROE_E_MEMORY. */
 froe_status query_near_by_blocks(struct froe_query *query, size_t k, bool *out, froe_diagnostic *diag);
+/** On a packed tree of space, unless single precision cannot hold the point: *done, and query->near.order has the
+ * nearest object to query->near.point, if there is one within the bound. FROE_E_MEMORY. */
+froe_status query_near_in_space(struct froe_query *query, double bound, bool *done);
 /** On a packed tree of the plane: query->near.candidates has the k nearest to query->near.point, or all within the
  * bound if there are fewer, and what 16-bit units do not tell from them; none twice. FROE_E_MEMORY. */
 froe_status query_near_packed(struct froe_query *query, size_t k, double bound);

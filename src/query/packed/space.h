@@ -26,8 +26,7 @@ typedef struct space_hit {
 
 /** A walk along a ray, or around a point. */
 typedef struct space_walk {
-    bool near;   /**< by distance, not along a ray */
-    bool walked; /**< near: the rest are hits */
+    bool near; /**< by distance, not along a ray */
     space_wanted wanted;
     space_ray ray;
     space_point point;
@@ -75,6 +74,8 @@ typedef enum space_step { SPACE_ON, SPACE_OBJECT, SPACE_MET, SPACE_END, SPACE_NO
 /** Steps up to an object or the end; or, of a walk that is one of many, one step, after which what the next one reads
  * is prefetched, so that other walks can go on until that is in the cache. */
 space_step space_walk_step(froe_query *query, space_walk *walk, double limit, bool alone);
+/** Is a key within the limit, which may have fallen? */
+bool space_walk_reaches(space_walk *walk, double limit, float key);
 /** Drops hits that are certainly not the first one: how many are left? */
 size_t space_walk_settle(space_walk *walk, double limit);
 

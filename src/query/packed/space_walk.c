@@ -38,7 +38,6 @@ void space_work_free(space_work *work, const froe_allocator *alloc) {
 
 static froe_status begin_space_walk(froe_query *q, space_walk *w, bool near, bool meets) {
     w->near = near;
-    w->walked = false;
     w->told = -1;
     w->limit = (float)INFINITY;
     w->stack.count = w->hits.count = 0;
@@ -215,18 +214,17 @@ static space_step push_objects(froe_query *q, space_walk *w, uint32_t block, flo
     return SPACE_ON;
 }
 
-/* Takes the entry on top: an object is handed out; a node or a leaf is replaced by what may be met of it. */
+/* Takes the entry on top, which is within the limit: an object is handed out; a node or a leaf is replaced by what may
+ * be met of it. */
 static space_step take_space_item(froe_query *q, space_walk *w, bool once) {
     const uint64_t top = w->stack.data[--w->stack.count];
     const uint32_t what = (uint32_t)top;
-    if (what & WIDE_LEAF) return push_objects(q, w, what & WIDE_INDEX, space_key(top));
-    if (!(what & SPACE_ITEM_OBJECT) && w->near) return push_near_children(q, w, what) ? SPACE_ON : SPACE_NO_MEMORY;
-    if (!(what & SPACE_ITEM_OBJECT)) {
-        w->stack.count++;
-        return descend_along_ray(q, w, once) ? SPACE_ON : SPACE_NO_MEMORY;
-    }
     w->object = what & WIDE_INDEX;
-    return SPACE_OBJECT;
+    if (what & WIDE_LEAF) return push_objects(q, w, w->object, space_key(top));
+    if (what & SPACE_ITEM_OBJECT) return SPACE_OBJECT;
+    if (w->near) return push_near_children(q, w, what) ? SPACE_ON : SPACE_NO_MEMORY;
+    w->stack.count++;
+    return descend_along_ray(q, w, once) ? SPACE_ON : SPACE_NO_MEMORY;
 }
 
 /* Drops entries beyond the limit. False: none is left. */
@@ -235,36 +233,37 @@ static bool settle_item(space_walk *w) {
     return w->stack.count;
 }
 
-space_step space_walk_step(froe_query *q, space_walk *w, double limit, bool alone) {
+/* Up to an object that is handed out, or the end. */
+static space_step step_alone(froe_query *q, space_walk *w) {
     space_step step = SPACE_ON;
+    while (step == SPACE_ON && w->stack.count) {
+        const uint64_t top = w->stack.data[w->stack.count - 1];
+        if (space_key(top) > w->limit)
+            settle_item(w);
+        else
+            step = take_space_item(q, w, false);
+    }
+    return step == SPACE_ON ? SPACE_END : step;
+}
+
+space_step space_walk_step(froe_query *q, space_walk *w, double limit, bool alone) {
     update_limit(w, limit);
-    if (!alone && !settle_item(w)) return SPACE_END;
-    if (!alone) step = take_space_item(q, w, true);
-    while (alone && step == SPACE_ON) step = settle_item(w) ? take_space_item(q, w, false) : SPACE_END;
+    if (alone) return step_alone(q, w);
+    if (!settle_item(w)) return SPACE_END;
+    const space_step step = take_space_item(q, w, true);
     if (step == SPACE_ON && settle_item(w)) space_prefetch(q->tree, (uint32_t)w->stack.data[w->stack.count - 1]);
     return step;
 }
 
-/* Hands out the hits of a walk around a point, once it is at its end. */
-static space_step take_near_hit(froe_query *q, space_walk *w, double limit) {
-    if (!w->walked) {
-        space_walk_settle(w, limit);
-        for (size_t i = 0; i < w->hits.count; i++) scene_ask_points(q->tree->scene, w->hits.data[i].object);
-        w->walked = true;
-    }
-    while (w->hits.count) {
-        const space_hit hit = w->hits.data[--w->hits.count];
-        w->object = hit.object;
-        if (hit.key <= w->limit) return SPACE_OBJECT;
-    }
-    return SPACE_END;
-}
-
 froe_status space_walk_next(froe_query *q, space_walk *w, double limit, tree_objects *list) {
-    space_step step = space_walk_step(q, w, limit, true);
-    if (w->near && step == SPACE_END) step = take_near_hit(q, w, limit);
+    const space_step step = space_walk_step(q, w, limit, true);
     *list = (tree_objects){.at = &w->object, .stride = 1, .mask = UINT32_MAX, .count = step == SPACE_OBJECT};
     return step == SPACE_NO_MEMORY ? FROE_E_MEMORY : FROE_OK;
+}
+
+bool space_walk_reaches(space_walk *w, double limit, float key) {
+    update_limit(w, limit);
+    return key <= w->limit;
 }
 
 size_t space_walk_settle(space_walk *w, double limit) {
