@@ -83,6 +83,9 @@ size_t space_walk_settle(space_walk *walk, double limit);
  * froe_query_ray_any(), for query->tree->packed.wide. FROE_E_MEMORY. */
 froe_status space_rays(froe_query *query, const double *origins, const double *directions, size_t count, double t_max,
                        froe_hit *hits, uint32_t *objects, froe_diagnostic *diag);
+/** Any object that a ray meets: as space_rays() for one ray, with less around it. FROE_E_MEMORY. */
+froe_status space_ray_any(froe_query *query, const double *origin, const double *direction, double t_max,
+                          uint32_t *object, froe_diagnostic *diag);
 void space_batch_free(space_ray_state *batch, const froe_allocator *alloc);
 
 /** Objects that meet each of several good boxes (lower corner, then upper), or, with `any`, of a single box some of

@@ -26,6 +26,7 @@ typedef struct space_ray {
     float rest[4];   /**< slack, and what they may cost beside the start */
     int axis[3];     /**< that of the largest component last */
     int up[3];       /**< 1 where it goes up, otherwise 0 */
+    float any;       /**< any object that is certainly met by this key will do; -1: no */
 } space_ray;
 
 /** A point; keys are squared distances in the coordinates of the wide tree. */

@@ -158,6 +158,28 @@ static froe_status answer_in_turns(ray_batch *f, space_ray_state *rays) {
     return status;
 }
 
+froe_status space_ray_any(froe_query *q, const double *origin, const double *direction, double t_max, uint32_t *object,
+                          froe_diagnostic *diag) {
+    space_walk *w = &q->space->walk;
+    geom_ray *ray = &q->ray.ray;
+    query_met met;
+    bool begun;
+    ray->dim = 3;
+    memcpy(ray->o, origin, 3 * sizeof *origin);
+    memcpy(ray->d, direction, 3 * sizeof *direction);
+    if (space_walk_ray(q, w, ray, t_max, SPACE_ANY, &begun)) return support_fail_memory(diag);
+    if (!begun) return query_ray_walked(q, origin, direction, t_max, NULL, object, diag);
+    const uint64_t exact = q->numbers.stats.exact;
+    space_step step;
+    q->stats.queries++;
+    while ((step = space_walk_step(q, w, t_max, true)) == SPACE_OBJECT)
+        if (query_ray_meets(q, ray, w->object, t_max, &met)) break;
+    q->stats.exact += q->numbers.stats.exact - exact;
+    if (step == SPACE_NO_MEMORY) return query_failed(q, diag);
+    *object = step == SPACE_END ? FROE_NONE : w->object;
+    return FROE_OK;
+}
+
 froe_status space_rays(froe_query *q, const double *origins, const double *directions, size_t count, double t_max,
                        froe_hit *hits, uint32_t *objects, froe_diagnostic *diag) {
     const uint64_t exact = q->numbers.stats.exact;

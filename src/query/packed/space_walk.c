@@ -87,6 +87,7 @@ froe_status space_walk_ray(froe_query *q, space_walk *w, const geom_ray *ray, do
     w->per = r->wide->scale * size;
     w->wanted = wanted;
     w->within = key_within(w, t_max);
+    r->any = wanted == SPACE_ANY ? w->within : -1;
     return begin_space_walk(q, w, false, meets);
 }
 

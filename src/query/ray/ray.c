@@ -127,7 +127,9 @@ static froe_status ask_one(froe_query *q, const double *origin, const double *di
                            uint32_t *object, froe_diagnostic *diag) {
     if (!q->space || !q->tree->packed.wide) return query_ray_walked(q, origin, direction, t_max, hit, object, diag);
     const froe_status status = query_ray_check(3, origin, direction, t_max, diag);
-    return status ? status : space_rays(q, origin, direction, 1, t_max, hit, object, diag);
+    if (status) return status;
+    return object ? space_ray_any(q, origin, direction, t_max, object, diag)
+                  : space_rays(q, origin, direction, 1, t_max, hit, object, diag);
 }
 
 froe_status froe_query_ray(froe_query *query, const double *origin, const double *direction, double t_max,
