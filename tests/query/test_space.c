@@ -1,100 +1,11 @@
 /* Packed trees of space: the same answers as brute force, on all kernels that the machine has; validation and audit of
  * blocks. (What tests/query asks of all builders is asked of these, too.) */
 #include "oracle/convex.h"
-#include "query/packed/space.h"
+#include "query/spaces.h"
 #include "support/large.h"
 #include "support/memory.h"
-#include "support/sanitized.h"
-#include "tree/trees.h"
 #include "tree/validate.h"
 #include <stdlib.h>
-
-typedef struct kind_of_scene {
-    const char *name;
-    uint32_t count, grid, leaf;
-    double size, scale, shift;
-    bool triangles; /* and nothing else */
-} kind_of_scene;
-
-static const kind_of_scene kinds[] = {
-    {"random", 600, 0, 24, 0.2, 1, 0, false},
-    {"large", 150, 0, 8, 1.2, 1, 0, false},
-    {"small leaves", 300, 0, 2, 0.3, 1, 0, false},
-    {"lattice", 300, 6, 8, 0.6, 1, 0, false},
-    {"huge", 200, 0, 6, 0.5, 0x1p390, 0, false},
-    {"too large for single precision", 100, 0, 6, 0.5, 0x1p900, 0, false},
-    {"tiny", 200, 0, 6, 0.5, 0x1p-390, 0, false},
-    {"far away", 300, 0, 8, 0.2, 1, 0x1p30, false},
-    {"so far away that units are less than doubles can tell", 300, 0, 8, 0.2, 0x1p-8, 0x1p40, false},
-    {"small beside a large one", 300, 0, 8, 0.2, 0x1p-34, 0.3, false},
-    {"one", 1, 0, 24, 0.2, 1, 0, false},
-    {"triangles", 600, 0, 24, 0.2, 1, 0, true},
-};
-enum { KINDS = sizeof kinds / sizeof *kinds, QUERIES = 80 / SANITIZED_SHARE(4) };
-
-static double place(const kind_of_scene *k, double x) {
-    return (k->grid ? floor(x * k->grid) : x) * k->scale + k->shift;
-}
-
-/* Triangles, and a few of everything else. */
-static froe_tree *tree_of(const kind_of_scene *k) {
-    froe_scene *scene;
-    froe_tree *tree;
-    froe_diagnostic why;
-    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
-    /* Around a small part of a scene, rounding is far more than a unit of its leaves. */
-    const double large[9] = {0, 0, 1, 1, 0, 1, 0, 1, 1};
-    if (k->shift > 0 && k->shift < 1) assert_int_equal(trees_add(scene, FROE_POLYGON, 1, large, NULL, NULL), FROE_OK);
-    for (uint32_t i = 0; i < k->count; i++) {
-        double c[9], lo[3], hi[3], radius = 0.05 * k->scale;
-        for (uint32_t j = 0; j < 9; j++) {
-            double at = trees_unit(1, 9 * i + j % 3), x = at + k->size * (trees_unit(2, 9 * i + j) - 0.5);
-            c[j] = place(k, x);
-        }
-        assert_int_equal(trees_add(scene, FROE_POLYGON, 1, c, NULL, NULL), FROE_OK);
-        for (int j = 0; j < 3; j++) lo[j] = fmin(c[j], c[3 + j]), hi[j] = fmax(c[j], c[3 + j]);
-        if (k->triangles) continue;
-        if (i % 10 == 1) assert_int_equal(trees_add(scene, FROE_POLYGON, 1, c, NULL, NULL), FROE_OK); /* once more */
-        const double box[6] = {lo[0], lo[1], lo[2], hi[0], hi[1], hi[2]};
-        if (i % 10 == 3) assert_int_equal(trees_add(scene, FROE_BOX, 1, box, NULL, NULL), FROE_OK);
-        froe_objects ball = froe_objects_defaults();
-        ball.kind = FROE_BALL, ball.count = 1, ball.coords = c, ball.radii = &radius;
-        if (i % 10 == 5) assert_int_equal(froe_scene_add(scene, &ball, NULL), FROE_OK);
-        if (i % 10 == 7) assert_int_equal(trees_add(scene, FROE_SEGMENT, 1, c, NULL, NULL), FROE_OK);
-        if (i % 10 == 9) assert_int_equal(trees_add(scene, FROE_POINT, 1, c, NULL, NULL), FROE_OK);
-    }
-    froe_build_options o = froe_build_defaults();
-    o.method = "index", o.leaf = k->leaf;
-    if (froe_build(scene, &o, &tree, &why)) fail_msg("%s: %s", k->name, why.message);
-    froe_scene_free(scene);
-    assert_true(tree_is_space(tree));
-    if (froe_tree_audit(tree, NULL, &why)) fail_msg("%s: %s", k->name, why.message);
-    return tree;
-}
-
-/* Coordinates that a search may trip over: of corners, of cuts, anything in and around the scene. */
-static void odd_point(const froe_tree *t, uint64_t draw, double x[3]) {
-    const froe_scene *s = t->scene;
-    for (int k = 0; k < 3; k++) {
-        double lo = t->meta.root_lo[k], hi = t->meta.root_hi[k],
-               share = 1.2 * trees_unit(11, 3 * draw + (uint64_t)k) - 0.1;
-        const tree_node *node = t->nodes + trees_random(12, 3 * draw + (uint64_t)k, t->node_count);
-        x[k] = lo * (1 - share) + hi * share;
-        uint32_t style = trees_random(13, 3 * draw + (uint64_t)k, 5);
-        if (style == 0) x[k] = scene_vertex(s, trees_random(14, 3 * draw + (uint64_t)k, s->vertex_count))[k];
-        if (style == 1 && !tree_is_leaf(node) && node->axis == k) x[k] = node->u.value;
-    }
-    if (draw % 4 == 0) memcpy(x, scene_vertex(s, trees_random(15, draw, s->vertex_count)), 3 * sizeof *x);
-}
-
-/* A general tree of the same scene, which other tests compare with oracles. */
-static froe_tree *reference_of(const froe_tree *t) {
-    froe_build_options o = froe_build_defaults();
-    froe_tree *tree;
-    o.method = "density", o.leaf = 1000000;
-    assert_int_equal(froe_build(t->scene, &o, &tree, NULL), FROE_OK);
-    return tree;
-}
 
 static int ascending(const void *a, const void *b) {
     uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
@@ -477,55 +388,6 @@ static void kernels_are_sure_only_of_what_is_met(void **state) {
     }
 }
 
-/* Every triangle of a block is found, no nearer than its key, and no further away than its end. Of most
- * the end is less than 9/8 of the key. */
-static void check_block_around(froe_query *q, const space_kernels *kernels, const space_header *h, uint64_t *sure) {
-    space_walk *w = &q->space->walk;
-    uint32_t objects[512];
-    float keys[512], ends[512];
-    space_found found = {objects, keys, ends, 0};
-    w->point.one = false;
-    kernels->near(h, &w->point, 0, (float)INFINITY, &found);
-    assert_int_equal(found.count, h->count);
-    for (uint32_t i = 0; i < h->triangles; i++) {
-        assert_int_equal(objects[i], space_ids(h)[i] & PACKED_OBJECT);
-        const geom_body body = scene_body(q->tree->scene, objects[i]);
-        const geom_distance d = geom_distance_from(&q->numbers, q->near.point, &body);
-        const double from = sqrt((double)keys[i] / w->per), to = sqrt((double)ends[i] / w->per);
-        assert_true(geom_distance_compare_to(&q->numbers, q->near.point, &d, from * (1 - 0x1p-45)) >= 0);
-        assert_true(geom_distance_compare_to(&q->numbers, q->near.point, &d, to * (1 + 0x1p-45)) <= 0);
-        *sure += isfinite(ends[i]) && to <= 1.125 * from;
-    }
-}
-
-static void keys_and_ends_hold_distances(void **state) {
-    uint64_t sure = 0, other = 0, all = 0;
-    (void)state;
-    for (int i = 0; i < KINDS; i++) {
-        froe_tree *t = tree_of(kinds + i);
-        froe_query *q;
-        bool begun = true;
-        assert_int_equal(froe_query_new(t, &q, NULL), FROE_OK);
-        q->near.scale = 1;
-        for (uint64_t draw = 0; draw < 60 && t->packed.wide; draw++) {
-            odd_point(t, 7000 + draw, q->near.point);
-            for (int k = 0; k < 3 && draw % 6 == 5; k++) q->near.point[k] *= draw % 4 == 1 ? 50 : 500;
-            assert_int_equal(space_walk_near(q, &q->space->walk, &begun), FROE_OK);
-            for (uint32_t n = 0; begun && n < t->node_count; n++) {
-                if (!tree_is_leaf(t->nodes + n)) continue;
-                const space_header *h = space_block(t, t->nodes[n].child);
-                all += h->triangles;
-                for (size_t kernel = 0; space_kernels_at(kernel); kernel++)
-                    if (!kernel || draw % 4 == kernel)
-                        check_block_around(q, space_kernels_at(kernel), h, kernel ? &other : &sure);
-            }
-        }
-        froe_query_free(q);
-        froe_tree_free(t);
-    }
-    if (2 * sure < all) fail_msg("%zu of %zu", (size_t)sure, (size_t)all);
-}
-
 /* Small triangles in a leaf whose units are 1, at quarters of units: whatever is tested is off by a unit or so. They
  * are in the middle of the units that there are, from 0 to 65535, or at either end. */
 static const double places_of_units[] = {20000, 0, 65525};
@@ -687,102 +549,6 @@ static void walls_in_one_plane_need_no_exact_numbers(void **state) {
     froe_tree_free(t);
 }
 
-/* Of a leaf, what is certainly further away than something else is left out; whatever may be the nearest stays. */
-static void check_one(const space_kernels *kernels, const space_header *h, space_point *point, size_t kept[2]) {
-    uint32_t objects[2][512];
-    float keys[2][512], ends[2][512], least = (float)INFINITY;
-    space_found found[2];
-    for (int one = 0; one < 2; one++) {
-        found[one] = (space_found){objects[one], keys[one], ends[one], 0};
-        point->one = one;
-        kernels->near(h, point, 0, (float)INFINITY, found + one);
-        kept[one] += found[one].count;
-    }
-    for (size_t i = 0; i < found[0].count; i++) least = ends[0][i] < least ? ends[0][i] : least;
-    for (size_t i = 0, at = 0; i < found[0].count; i++) {
-        const bool there = at < found[1].count && objects[1][at] == objects[0][i];
-        assert_true(there || keys[0][i] > least);
-        if (there) assert_true(keys[1][at] == keys[0][i] && ends[1][at] == ends[0][i]);
-        at += there;
-    }
-}
-
-static void of_one_leaf_only_what_may_be_nearest_is_kept(void **state) {
-    froe_tree *t = tree_of(kinds);
-    froe_query *q;
-    (void)state;
-    assert_int_equal(froe_query_new(t, &q, NULL), FROE_OK);
-    q->near.scale = 1;
-    for (size_t kernel = 0; space_kernels_at(kernel); kernel++) {
-        size_t kept[2] = {0, 0};
-        for (uint64_t draw = 0; draw < 40; draw++) {
-            bool begun;
-            odd_point(t, draw, q->near.point);
-            assert_int_equal(space_walk_near(q, &q->space->walk, &begun), FROE_OK);
-            for (uint32_t n = 0; begun && n < t->node_count; n++)
-                if (tree_is_leaf(t->nodes + n))
-                    check_one(space_kernels_at(kernel), space_block(t, t->nodes[n].child), &q->space->walk.point, kept);
-        }
-        assert_true(4 * kept[1] < kept[0]);
-    }
-    froe_query_free(q);
-    froe_tree_free(t);
-}
-
-/* Cones of 60 triangles around an apex, on a lattice of nine, each with the least number elsewhere. */
-static froe_tree *tree_of_cones(void) {
-    enum { CONES = 9, SIDES = 60 };
-    static double c[CONES * SIDES * 9];
-    froe_scene *scene;
-    froe_tree *tree;
-    froe_build_options o = froe_build_defaults();
-    for (size_t i = 0; i < CONES * SIDES; i++) {
-        double *x = c + 9 * (i * 7 % (CONES * SIDES));
-        const double middle[2] = {3.0 * (double)(i / SIDES % 3), 3.0 * (double)(i / SIDES / 3)};
-        for (size_t j = 0; j < 2; j++) {
-            const double angle = 6.283185307179586 * (double)((i + j) % SIDES) / SIDES;
-            x[3 * j] = middle[0] + cos(angle), x[3 * j + 1] = middle[1] + sin(angle), x[3 * j + 2] = 0;
-        }
-        x[6] = middle[0], x[7] = middle[1], x[8] = 1;
-    }
-    assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
-    assert_int_equal(trees_add(scene, FROE_POLYGON, CONES * SIDES, c, NULL, NULL), FROE_OK);
-    o.method = "index", o.leaf = 6;
-    assert_int_equal(froe_build(scene, &o, &tree, NULL), FROE_OK);
-    froe_scene_free(scene);
-    return tree;
-}
-
-/* The nearest corner or edge belongs to many: the one with the least number is the nearest. */
-static void of_triangles_side_by_side_the_first_is_nearest(void **state) {
-    froe_tree *tree = tree_of_cones(), *general = reference_of(tree);
-    froe_query *q, *reference;
-    size_t apexes = 0;
-    (void)state;
-    assert_int_equal(froe_query_new(tree, &q, NULL), FROE_OK);
-    assert_int_equal(froe_query_new(general, &reference, NULL), FROE_OK);
-    for (uint64_t draw = 0; draw < 500; draw++) {
-        froe_neighbours found, wanted;
-        double x[3] = {8 * trees_unit(51, draw) - 1, 8 * trees_unit(52, draw) - 1, 4 * trees_unit(53, draw) - 1};
-        if (draw % 3 == 0) x[0] = round(x[0] / 3) * 3 + 0.1, x[1] = round(x[1] / 3) * 3, x[2] = 1.5 + x[2];
-        const double bound = draw % 5 == 4 ? 1 : (double)INFINITY;
-        assert_int_equal(froe_query_near(reference, x, 1, bound, &wanted, NULL), FROE_OK);
-        assert_int_equal(froe_query_near(q, x, 1, bound, &found, NULL), FROE_OK);
-        assert_int_equal(found.count, wanted.count);
-        if (!found.count) continue;
-        if (found.items->object != wanted.items->object || found.items->distance != wanted.items->distance)
-            fail_msg("point %d: %u at %a, not %u at %a", (int)draw, found.items->object, found.items->distance,
-                     wanted.items->object, wanted.items->distance);
-        apexes += found.items->distance == sqrt(0.1 * 0.1 + (x[2] - 1) * (x[2] - 1));
-    }
-    assert_true(apexes > 20);
-    assert_true(froe_query_statistics(q).exact <= froe_query_statistics(reference).exact);
-    froe_query_free(q);
-    froe_query_free(reference);
-    froe_tree_free(general);
-    froe_tree_free(tree);
-}
-
 /* -------------------------------------------------------------------- blocks -- */
 
 /* Every byte of a block changed in turn: refused, or found by the audit, or of no consequence for answers. */
@@ -836,13 +602,10 @@ int main(void) {
         cmocka_unit_test(every_allocation_of_a_query_may_fail),
         cmocka_unit_test(kernels_agree),
         cmocka_unit_test(kernels_are_sure_only_of_what_is_met),
-        cmocka_unit_test(keys_and_ends_hold_distances),
         cmocka_unit_test(what_is_a_unit_from_the_truth_is_decided_exactly),
         cmocka_unit_test(few_triangles_of_windows_are_left_to_exact_tests),
         cmocka_unit_test(walls_behind_a_ray_are_not_decided),
         cmocka_unit_test(walls_in_one_plane_need_no_exact_numbers),
-        cmocka_unit_test(of_one_leaf_only_what_may_be_nearest_is_kept),
-        cmocka_unit_test(of_triangles_side_by_side_the_first_is_nearest),
         cmocka_unit_test(damaged_blocks_are_noticed),
         cmocka_unit_test(boxes_larger_than_their_objects_are_found),
     };
