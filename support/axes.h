@@ -21,6 +21,14 @@ static inline void support_cross(const double *a, const double *b, double *out) 
     }
 }
 
+/** The way from a point to another; 2^-30 of it where its length, or turning it, might overflow. */
+static inline void support_way(const double *from, const double *to, double out[3]) {
+    double most = 0;
+    for (int k = 0; k < 3; k++) most = fmax(most, fmax(fabs(from[k]), fabs(to[k])));
+    const double share = most > 0x1p1000 ? 0x1p-30 : 1;
+    for (int k = 0; k < 3; k++) out[k] = share * to[k] - share * from[k];
+}
+
 /** Gives a vector the length 1, first the largest component 1, against overflow. False: it is zero or not finite. */
 static inline bool support_normalize(double *v) {
     const double most = fmax(fabs(v[0]), fmax(fabs(v[1]), fabs(v[2])));

@@ -70,7 +70,7 @@ void view_camera_ray(const froe_projection *view, const geom_eye *eye, const dou
 /* ---------------------------------------------------------------------- placing -- */
 
 static froe_status set_axes(const froe_camera *c, froe_projection *out, froe_diagnostic *diag) {
-    for (int k = 0; k < 3; k++) out->back[k] = c->eye[k] - c->target[k];
+    support_way(c->target, c->eye, out->back);
     if (!support_normalize(out->back))
         return support_fail(diag, FROE_E_ARG, "The eye is where it looks at, which is no direction.");
     out->up_axis = support_page_axes(out->back, c->up, out->right, out->up);

@@ -83,10 +83,8 @@ froe_status froe_camera_turn(const froe_camera *camera, const froe_scene *scene,
     double middle[3] = {0, 0, 0}, axis[3] = {0}, half[2], way[3], distance = 0, scale = INFINITY;
     const froe_status aimed = find_axis(camera, axis, diag);
     if (aimed) return aimed;
-    for (int k = 0; k < 3; k++) {
-        if (scene->object_count) middle[k] = 0.5 * scene->lo[k] + 0.5 * scene->hi[k];
-        way[k] = camera->eye[k] - camera->target[k];
-    }
+    for (int k = 0; k < 3 && scene->object_count; k++) middle[k] = 0.5 * scene->lo[k] + 0.5 * scene->hi[k];
+    support_way(camera->target, camera->eye, way);
     lengthen(scene, way);
     for (size_t i = 0; i < count; i++) {
         half_angle(i, count, half);

@@ -142,12 +142,43 @@ static void a_huge_face_across_an_axis_has_corners(void **state) {
     froe_scene_free(scene);
 }
 
+/* The way from the target to the eye, or its length, is no double: it is seen from there as from where a way leads that
+ * is 2^1023 times as short. */
+static void eyes_further_away_than_doubles_reach_see_as_near_ones(void **state) {
+    static const double eyes[][3] = {{1, -1, 0.5}, {-1.5, 1, 1.75}, {0, 0, 1.5}, {1.75, 1.75, 1.75}};
+    froe_scene *scene = world_mixture(3, 1 << FROE_POLYGON, 8, 0, 0.8, 3);
+    froe_projection views[2];
+    froe_camera around[2][3];
+    (void)state;
+    for (int i = 0; i < 8; i++) {
+        for (int far = 0; far < 2; far++) {
+            froe_camera c = froe_camera_defaults();
+            c.parallel = i % 2;
+            for (int k = 0; k < 3; k++) {
+                c.eye[k] = far ? ldexp(eyes[i / 2][k], 1023) : eyes[i / 2][k];
+                c.target[k] = i / 2 == 3 ? 0 : -c.eye[k];
+            }
+            assert_int_equal(froe_camera_place(&c, scene, &views[far], NULL), FROE_OK);
+            assert_int_equal(froe_camera_turn(&c, scene, 3, around[far], NULL), FROE_OK);
+        }
+        assert_memory_equal(views[0].window, views[1].window, sizeof views->window);
+        for (int turn = 0; turn < 3; turn++) {
+            for (int far = 0; far < 2; far++)
+                assert_int_equal(froe_camera_place(&around[far][turn], scene, &views[far], NULL), FROE_OK);
+            for (int k = 0; k < 3; k++) assert_true(fabs(views[0].back[k] - views[1].back[k]) < 1e-3);
+            assert_true(fabs(views[0].scale / views[1].scale - 1) < 1e-3);
+        }
+    }
+    froe_scene_free(scene);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_scene_times_a_power_of_two_looks_the_same),
         cmocka_unit_test(tiny_faces_beside_huge_ones_are_painted),
         cmocka_unit_test(a_huge_face_across_an_axis_has_corners),
         cmocka_unit_test(scenes_beyond_cameras_are_refused),
+        cmocka_unit_test(eyes_further_away_than_doubles_reach_see_as_near_ones),
         cmocka_unit_test(a_scene_as_large_as_the_least_double_is_no_point),
     };
     return cmocka_run_group_tests_name("view/extremes", tests, NULL, NULL);
