@@ -28,6 +28,7 @@ static bool look_at_pair(void *user, unsigned worker, uint32_t i, uint32_t j) {
     defect_survey *v = user;
     tally *t = v->tallies + worker;
     const uint32_t a = v->of.objects[i < j ? i : j], b = v->of.objects[i < j ? j : i];
+    if (measure_survey_are_aside(&v->of, a, b)) return true;
     const geom_contact m = measure_survey_meet(&v->of, worker, a, b);
     const oddity contact = m.kind == GEOM_CROSS     ? CROSSING
                            : m.kind == GEOM_OVERLAP ? OVERLAP

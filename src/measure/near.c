@@ -83,6 +83,7 @@ static bool in_one_plane(const froe_scene *s, num_context *context, const geom_p
 static bool look_at_poking(void *user, unsigned worker, uint32_t i, uint32_t j) {
     near_survey *v = user;
     froe_near *found = v->found + worker;
+    if (measure_survey_are_aside(&v->of, v->of.objects[i], v->of.objects[j])) return true;
     const near_pair p = near_pair_of(v, i, j);
     if (p.flat && v->of.scene->dim == 3 && share_two_vertices(v->of.scene, p.a, p.b)) return true;
     if (!reach_pokes(p.a_beside_b, v->within) && !reach_pokes(p.b_beside_a, v->within)) return true;

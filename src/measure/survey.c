@@ -1,5 +1,6 @@
 /* survey.c: see survey.h. */
 #include "measure/survey.h"
+#include "geom/eye.h"
 #include "geom/selftest.h"
 
 static froe_status list_objects(measure_survey *v) {
@@ -59,6 +60,34 @@ void measure_survey_end(measure_survey *v) {
 measure_candidates measure_survey_candidates(const measure_survey *v) {
     const double *hi = v->boxes + v->count * (size_t)v->scene->dim;
     return (measure_candidates){v->scene, v->objects, v->count, v->boxes, hi};
+}
+
+/* Are the corners of b that are none of a all on one side of the plane of a, strictly? Then b has only the others in
+ * it, and the edge between two of them. */
+static bool is_beside(const froe_scene *s, uint32_t a, uint32_t b) {
+    const uint32_t corners = scene_corners(s, a);
+    uint32_t common = 0;
+    int side = 0;
+    for (uint32_t i = 0; i < scene_corners(s, b); i++) {
+        const uint32_t vertex = scene_corner(s, b, i);
+        uint32_t k = 0;
+        while (k < corners && scene_corner(s, a, k) != vertex) k++;
+        if (k < corners) {
+            if (common++ && corners > 3) return false; /* that may be a diagonal of a */
+            continue;
+        }
+        const double *x = scene_vertex(s, vertex);
+        const int here = geom_side_of_eye_filter(scene_point(s, a, 0), scene_point(s, a, 1), scene_point(s, a, 2),
+                                                 &(geom_eye){.at = {x[0], x[1], x[2]}});
+        if (here == NUM_UNSURE || (side && here != side)) return false;
+        side = here;
+    }
+    return side != 0;
+}
+
+bool measure_survey_are_aside(const measure_survey *v, uint32_t a, uint32_t b) {
+    const froe_scene *s = v->scene;
+    return s->dim == 3 && v->workers[0].context.first == NUM_FILTER && (is_beside(s, a, b) || is_beside(s, b, a));
 }
 
 geom_contact measure_survey_meet(const measure_survey *v, unsigned worker, uint32_t a, uint32_t b) {

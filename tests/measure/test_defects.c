@@ -4,6 +4,7 @@
 
 #include "base/random.h"
 #include "measure/sheet.h"
+#include "measure/survey.h"
 #include "scene/scene.h"
 #include "support/rational.h"
 #include <froe/measure.h>
@@ -369,6 +370,32 @@ static void known_cases_in_space(void **state) {
     }
 }
 
+/* All boxes of a cone meet, so its pairs have to be told apart quickly. */
+static void triangles_of_a_cone_are_aside_at_first_sight(void **state) {
+    (void)state;
+    enum { N = 64 };
+    double xyz[9 * N];
+    measure_survey v;
+    for (int i = 0; i < N; i++) {
+        const int at[] = {i, (i + 1) % N};
+        const double apex[] = {0, 0, 1};
+        memcpy(xyz + 9 * i, apex, sizeof apex);
+        for (int k = 0; k < 2; k++) { /* a rim on a parabola, and one that mirrors it */
+            const double x = (double)(at[k] % (N / 2)) - N / 4.0, y = 1000 - x * x;
+            const double rim[] = {at[k] < N / 2 ? x : -x, at[k] < N / 2 ? y : -y, 0};
+            memcpy(xyz + 9 * i + 3 + 3 * k, rim, sizeof rim);
+        }
+    }
+    froe_scene *s = scene_with(3, FROE_POLYGON, N, xyz, NULL);
+    assert_int_equal(measure_survey_begin(s, 1, NULL, NULL, &v), FROE_OK);
+    for (uint32_t a = 0; a < N; a++)
+        for (uint32_t b = 0; b < N; b++) assert_int_equal(measure_survey_are_aside(&v, a, b), a != b);
+    v.workers[0].context.first = NUM_EXACT;
+    assert_false(measure_survey_are_aside(&v, 0, 1));
+    measure_survey_end(&v);
+    check(s, 1);
+}
+
 static void other_kinds_and_dimensions_count_duplicates_only(void **state) {
     (void)state;
     const double x[] = {0, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 0, 1, 1, 1, 1};
@@ -665,6 +692,7 @@ int main(void) {
         cmocka_unit_test(polygons_of_lattices_at_every_scale),
         cmocka_unit_test(polygons_in_general_position),
         cmocka_unit_test(known_cases_in_space),
+        cmocka_unit_test(triangles_of_a_cone_are_aside_at_first_sight),
         cmocka_unit_test(other_kinds_and_dimensions_count_duplicates_only),
         cmocka_unit_test(an_empty_scene_has_no_defects),
         cmocka_unit_test(wrong_arguments_are_refused),
