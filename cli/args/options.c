@@ -159,7 +159,7 @@ static int set_reals(const cli_option *option, cli_reals *field, const char *tex
         }
         if (*at++ != ',') break;
     }
-    return refuse_value(option, text, "a list of numbers parted by commas");
+    return refuse_value(option, text, "a list of finite numbers parted by commas");
 }
 
 static int set_choice(const cli_option *option, int *field, const char *text) {
