@@ -50,7 +50,7 @@ static const cli_option camera[] = {
      .help = "the axis that points up: x, y or z (default: as the file says; y in glTF)", .choices = axes},
     {"eye", 0, CLI_REALS, offsetof(render_args, eye), "X,Y,Z",
      .help = "look from here, at the middle of the scene or the target; nothing is fitted"},
-    {"target", 0, CLI_REALS, offsetof(render_args, target), "X,Y,Z", .help = "look at this point"},
+    {"target", 0, CLI_REALS, offsetof(render_args, target), "X,Y,Z", .help = "with --eye: look at this point"},
     {"parallel", 0, CLI_FLAG, offsetof(render_args, parallel), .help = "parallel instead of perspective projection"},
     {"fov", 0, CLI_REAL, offsetof(render_args, fov), "DEGREES",
      .help = "perspective: vertical angle of view within the margin (default 35)"},
@@ -187,8 +187,10 @@ static void warn(const render_args *args, const froe_render_options *o, const fr
     const froe_visibility_report *v = &r->picture.visibility;
     const bool unasked = v->visible_patches || (!o->lines && (v->segments || v->points));
     (void)cli_fail(0, args->output.name,
-                   unasked ? "note: Nothing is drawn with this --style, --line-kinds and --min-area."
-                           : "note: Nothing is visible from here.");
+                   r->thin_shapes || r->short_strokes
+                       ? "note: What is visible is too small for the coordinates of the file."
+                   : unasked ? "note: Nothing is drawn with this --style, --line-kinds and --min-area."
+                             : "note: Nothing is visible from here.");
 }
 
 static froe_status render_turning(const render_args *args, render_fn *write, const froe_tree *tree,

@@ -203,6 +203,8 @@ static int check_needs(const render_args *args, const froe_render_options *o) {
     static const char unlined[] = "No lines are drawn, by --line-kinds or --line-width.";
     const cli_need needs[] = {
         {"view", args->direction >= 0, !args->eye.count, "It excludes --eye, which says where from."},
+        {"target", args->target.count, args->eye.count || args->turntable,
+         "It needs --eye. Without that the eye is where it sees all of the scene."},
         {"fov", !isnan(args->fov), !o->camera.parallel,
          "The projection is parallel, by --parallel, --preset technical or a --view other than corner."},
         {"unit", !isnan(args->unit), args->scale && strchr(args->scale, ':'), "It needs a --scale like 1:50."},
