@@ -42,6 +42,11 @@ static void side_of_view(const froe_projection *v, int side, double beyond, doub
     *c = parallel ? limit : 0;
 }
 
+bool print_add_way(print_press *press, const double *way) {
+    const froe_projection *v = press->view;
+    return put_on_page(press, 0, support_dot(way, v->right), support_dot(way, v->up), -support_dot(way, v->back));
+}
+
 bool print_end(print_press *press, print_ring *out, bool *cut) {
     *cut = false;
     for (int side = 0; side < 5; side++) {

@@ -31,6 +31,8 @@ static inline void print_begin(print_press *press) {
 }
 /** Adds a point of space to the ring. False without memory. */
 bool print_add(print_press *press, const double *point);
+/** The same, by the way to it from the eye, or from the point that a parallel projection begins at. */
+bool print_add_way(print_press *press, const double *way);
 /** Appends the ring to `out`; *cut: it had to be cut, or lies wholly away. False without memory. */
 bool print_end(print_press *press, print_ring *out, bool *cut);
 /** Narrows a segment of space, from + t (to - from) with t in share[0] .. share[1], to what is before the eye and on

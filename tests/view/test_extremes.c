@@ -172,12 +172,67 @@ static void eyes_further_away_than_doubles_reach_see_as_near_ones(void **state) 
     froe_scene_free(scene);
 }
 
+/* The eye is 10^-4 from both faces, as far as doubles there are from one another: a point of the scene that is computed
+ * near it is as far away as any. At that place of the page the first face is nearer, elsewhere the second one. */
+static void an_eye_at_two_faces_far_from_the_origin_sees_the_nearer_one(void **state) {
+    static const double units[] = {-1.2508544921875,
+                                   0.659912109375,
+                                   0,
+                                   0.29541015625,
+                                   -0.955322265625,
+                                   0,
+                                   0,
+                                   0,
+                                   1,
+                                   -0.6597900390625,
+                                   -1.2508544921875,
+                                   1,
+                                   -0.2955322265625,
+                                   0.955322265625,
+                                   1,
+                                   0.659912109375,
+                                   1.2509765625,
+                                   -1},
+                        from[] = {-0.2388916015625, -0.0738525390625, 0.5};
+    double x[18];
+    (void)state;
+    for (int far = 0; far < 2; far++) {
+        const double origin = far ? 0x1p40 : 0;
+        froe_camera c = froe_camera_defaults();
+        froe_scene *scene;
+        page p;
+        for (int k = 0; k < 18; k++) x[k] = units[k] + origin;
+        for (int k = 0; k < 3; k++) c.eye[k] = from[k] + origin, c.target[k] = origin + (k == 2);
+        c.fit = false;
+        c.width = c.height = 400, c.margin = 8;
+        assert_int_equal(froe_scene_new(3, NULL, &scene), FROE_OK);
+        assert_int_equal(trees_add(scene, FROE_POLYGON, 2, x, NULL, NULL), FROE_OK);
+        froe_tree *tree = trees_build(scene, "density", 1);
+        open_page(&p, tree);
+        place(&p, &c);
+        assert_int_equal(froe_picture_new(tree, p.surface, &p.options, &p.picture, NULL), FROE_OK);
+        uint32_t last[2] = {FROE_NONE, FROE_NONE};
+        for (size_t i = 0; i < froe_picture_shape_count(p.picture); i++) {
+            const froe_shape shape = froe_picture_shape(p.picture, i);
+            if (inside_shape(&p, &shape, 160, 373)) last[0] = shape.patch;
+            if (inside_shape(&p, &shape, 200.5, 300)) last[1] = shape.patch;
+        }
+        assert_int_equal(last[0], p.surface->patch_of[0]);
+        assert_int_equal(last[1], p.surface->patch_of[1]);
+        froe_picture_free(p.picture);
+        close_page(&p);
+        froe_tree_free(tree);
+        froe_scene_free(scene);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_scene_times_a_power_of_two_looks_the_same),
         cmocka_unit_test(tiny_faces_beside_huge_ones_are_painted),
         cmocka_unit_test(a_huge_face_across_an_axis_has_corners),
         cmocka_unit_test(scenes_beyond_cameras_are_refused),
+        cmocka_unit_test(an_eye_at_two_faces_far_from_the_origin_sees_the_nearer_one),
         cmocka_unit_test(eyes_further_away_than_doubles_reach_see_as_near_ones),
         cmocka_unit_test(a_scene_as_large_as_the_least_double_is_no_point),
     };

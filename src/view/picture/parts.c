@@ -39,8 +39,12 @@ void view_parts_drop(view_parts *p) {
 /* Adds the point of a plane that is seen along a ray. */
 static bool add_point_on(view_parts *p, const geom_plane *plane, const double ray[3]) {
     double x[3];
-    view_point_on(&p->v->sights, plane, ray, x);
-    return print_add(&p->press, x);
+    if (p->view->eye.parallel) {
+        view_point_on(&p->v->sights, plane, ray, x);
+        return print_add(&p->press, x);
+    }
+    view_way_on(&p->v->sights, plane, ray, x);
+    return print_add_way(&p->press, x);
 }
 
 bool view_print_visible(view_parts *p, uint32_t visible, print_ring *out) {

@@ -457,9 +457,11 @@ static double slope_of(const geom_plane *plane, const double way[3], bool *sure)
     return slope;
 }
 
-void view_point_on(const view_sightlines *s, const geom_plane *plane, const double ray[3], double out[3]) {
+/* The point is start + out. */
+static void walk_to(const view_sightlines *s, const geom_plane *plane, const double ray[3], double start[3],
+                    double out[3]) {
     const bool has_points = plane->form == GEOM_POINTS || plane->form == GEOM_VERTICAL;
-    double start[3], way[3], at = has_points ? 0 : -plane->c, back = 0, square = 0, most = 0;
+    double way[3], at = has_points ? 0 : -plane->c, back = 0, square = 0, most = 0;
     bool sure;
     sight_of(s, ray, start, way);
     const double slope = slope_of(plane, way, &sure);
@@ -472,7 +474,18 @@ void view_point_on(const view_sightlines *s, const geom_plane *plane, const doub
         square += way[k] / most * (way[k] / most);
     }
     if (!sure) t = back / square / most;
-    for (int k = 0; k < 3; k++) out[k] = start[k] - way[k] * t;
+    for (int k = 0; k < 3; k++) out[k] = -(way[k] * t);
+}
+
+void view_point_on(const view_sightlines *s, const geom_plane *plane, const double ray[3], double out[3]) {
+    double start[3], way[3];
+    walk_to(s, plane, ray, start, way);
+    for (int k = 0; k < 3; k++) out[k] = start[k] + way[k];
+}
+
+void view_way_on(const view_sightlines *s, const geom_plane *plane, const double ray[3], double out[3]) {
+    double start[3];
+    walk_to(s, plane, ray, start, out);
 }
 
 void view_point_on_both(const view_sightlines *s, const geom_plane *a, const geom_plane *b, const double ray[3],

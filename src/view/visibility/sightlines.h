@@ -138,6 +138,8 @@ geom_plane view_plane_of(const view_sightlines *sights, uint32_t patch);
 geom_plane view_plane_of_cut(const view_sightlines *sights, uint32_t node);
 /** The point of such a plane that is seen along a ray, in doubles. */
 void view_point_on(const view_sightlines *sights, const geom_plane *plane, const double ray[3], double out[3]);
+/** The way to that point from an eye at a point: it has digits where a point near an eye far away has none. */
+void view_way_on(const view_sightlines *sights, const geom_plane *plane, const double ray[3], double out[3]);
 /** The point of the line in which two planes meet: by b where a is seen much more edge-on. */
 void view_point_on_both(const view_sightlines *sights, const geom_plane *a, const geom_plane *b, const double ray[3],
                         double out[3]);
