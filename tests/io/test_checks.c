@@ -300,6 +300,10 @@ static void what_assimp_passes_over_of_amf_is_refused(void **state) {
         {"a.amf", AMF(OBJECT("0", MESH(OF("", "<metadata>a</metadata>") VOLUME))), FROE_OK, "", 2},
         {"a.amf", AMF(OBJECT("0", MESH("<volume/>" VOLUME))), FROE_E_UNSUPPORTED, several, 0},
         {"a.amf", AMF(OBJECT("0", "<mesh>" VOLUME AMF_VERTICES "</mesh>")), FROE_OK, "", 1},
+        {"a.amf",
+         AMF(OBJECT("0", MESH("<volume type=\"object\"><triangle><v1>0</v1><v2>1</v2><v3>2</v3>" COLOUR
+                              "</triangle></volume>" VOLUME))),
+         FROE_OK, "", 2},
         {"a.amf", AMF(OBJECT("0", "<mesh>" VOLUME AMF_VERTICES VOLUME "</mesh>")), FROE_E_UNSUPPORTED, several, 0},
         {"a.amf", AMF(OBJECT("0", "<mesh>" VOLUME VOLUME AMF_VERTICES "</mesh>")), FROE_E_UNSUPPORTED, several, 0},
         {"a.amf", AMF(OBJECT("1", MESH(VOLUME) MESH(VOLUME))), FROE_E_UNSUPPORTED,

@@ -1,6 +1,7 @@
 /* Models as text with lists that do not fit, or name what does not exist: AC3D, ASE (of 3ds Max) and DirectX; and maps
  * with lists of what are no places: KML. */
 #include "support.h"
+#include <cpl_vsi.h>
 
 /* ------------------------------------------------------------------------ AC3D -- */
 
@@ -468,6 +469,25 @@ static void what_places_of_kml_may_be_is_read(void **state) {
     assert_string_equal(report.sorts_left, "NetworkLink");
 }
 
+static void write_kmz(const char *path, const char *text) {
+    char inside[64];
+    snprintf(inside, sizeof inside, "/vsizip/{%s}/doc.kml", path);
+    remove(path);
+    VSILFILE *file = VSIFOpenL(inside, "wb");
+    assert_non_null(file);
+    assert_int_equal(VSIFWriteL(text, 1, strlen(text), file), strlen(text));
+    assert_int_equal(VSIFCloseL(file), 0);
+}
+
+static void places_in_archives_of_kml_are_numbers(void **state) {
+    (void)state;
+    write_kmz("good.kmz", KML(LINE("1,2 3,4")));
+    froe_scene_free(read_scene("good.kmz", NULL));
+    assert_true(test_memory_each(read_with_memory, "good.kmz") > 5);
+    write_kmz("bad.kmz", KML(LINE("1,2 3,x")));
+    refuse("bad.kmz", FROE_E_FORMAT, "line 3: A place is not two or three numbers with decimal points.");
+}
+
 /* ------------------------------------------------------------------------- GPX -- */
 
 static void places_of_gpx_are_numbers(void **state) {
@@ -516,6 +536,7 @@ int main(void) {
         cmocka_unit_test(memory_may_end_in_x),
         cmocka_unit_test(places_of_kml_are_numbers),
         cmocka_unit_test(what_places_of_kml_may_be_is_read),
+        cmocka_unit_test(places_in_archives_of_kml_are_numbers),
         cmocka_unit_test(places_of_gpx_are_numbers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -117,10 +117,11 @@ static void geometries_that_are_absent_are_left_out(void **state) {
 static void geometries_end_with_their_text(void **state) {
     (void)state;
     write_text("whole.csv", "geom,name\n\"LINESTRING (0.1 0,0." DIGITS " 1) ; \",a\n"
-                            "0101000000000000000000F03F0000000000000040,b\n\"POINT Z EMPTY\",c\n");
+                            "0101000000000000000000F03F0000000000000040,b\n\"POINT Z EMPTY\",c\n"
+                            "\"{\"\"type\"\":\"\"Point\"\",\"\"coordinates\"\":[3,4]}\",d\n");
     froe_scene *s = read_scene("whole.csv", NULL);
-    assert_int_equal(froe_scene_object_count(s), 2);
-    assert_true(corner(s, 0, 1)[0] == 0.1234567890123456789 && corner(s, 1, 0)[1] == 2);
+    assert_int_equal(froe_scene_object_count(s), 3);
+    assert_true(corner(s, 0, 1)[0] == 0.1234567890123456789 && corner(s, 1, 0)[1] == 2 && corner(s, 2, 0)[1] == 4);
     froe_scene_free(s);
     refuse_table("WKT,name\n\"LINESTRING (0.1 0,0.2" DIGITS " 1)\",a\n", FROE_E_FORMAT,
                  "feature 1 of 'bad': Of a number of more than 63 characters, "

@@ -1,5 +1,6 @@
 /* test_told.c: what assimp and GDAL would pass over, or tell in their logs alone: indices, lists and ends of LightWave,
  * entities of IFC that are not there or came later, faces and axes of FBX, sorts of entities of DXF. */
+#include "check/check.h"
 #include "support.h"
 #include <assimp/cimport.h>
 #include <assimp/scene.h>
@@ -327,7 +328,7 @@ static size_t open_object(fbx_bytes *f, const char *sort, uint64_t id) {
     return at;
 }
 
-static void write_fbx_bytes(const char *path, const fbx_links *l, unsigned version) {
+static size_t write_fbx_bytes(const char *path, const fbx_links *l, unsigned version) {
     static const double places[] = {0, 0, 0, 1, 0, 0, 1, 2, 0, 0, 2, 0};
     static const int32_t indices[] = {0, 1, 2, -4};
     fbx_bytes f = {.width = version < 7500 ? 4 : 8};
@@ -355,6 +356,7 @@ static void write_fbx_bytes(const char *path, const fbx_links *l, unsigned versi
     close_record(&f, at, true);
     put_bytes(&f, (const char[200]){0}, 200);
     write_bytes(path, f.bytes, f.count);
+    return f.count;
 }
 
 /* assimp would end the program. */
@@ -368,6 +370,7 @@ static void models_of_fbx_have_a_first_one(void **state) {
         {{{{200, 0}}}, NULL, 2},
         {{{{200, 201}, {201, 202}, {202, 0}}}, NULL, 2},
         {{{{200, 0}, {200, 201}, {201, 0}}}, NULL, 4},
+        {{{{200, 201}, {200, 202}, {201, 0}, {202, 0}}}, NULL, 4},
         {{{{100, 100}, {200, 0}, {0, 200}}}, NULL, 2}, /* other objects may be connected in circles */
         {{{{200, 0}, {200, 200}}}, "links.fbx: model 200: It is its own parent, or a parent of its parents.", 0},
         {{{{200, 0}, {201, 202}, {200, 201}, {202, 201}}}, "links.fbx: model 201: It is its own parent", 0},
@@ -393,6 +396,48 @@ static void models_of_fbx_have_a_first_one(void **state) {
     refuse("deep.fbx", FROE_E_UNSUPPORTED, "deep.fbx: model 200: It is below more than 1000 others.");
     write_fbx_text("memory.fbx", &cases[1].links, MODELS);
     assert_true(test_memory_each(read_with_memory, "memory.fbx") > 5);
+    write_fbx_text("above.fbx", &(fbx_links){{{200, 0}, {201, 200}, {202, 201}, {203, 202}}}, MODELS + 1);
+    refuse("above.fbx", FROE_E_FORMAT, "It is its own parent"); /* 202, which is below 201, too */
+}
+
+/* What looking through a file says. */
+static froe_status look_through_fbx(void *user, const froe_allocator *alloc) {
+    static formats_source source;
+    const froe_read_options options = froe_read_defaults();
+    froe_diagnostic why = {0};
+    formats_sink sink = {.alloc = *alloc, .diag = &why, .path = user};
+    assert_int_equal(formats_source_open(user, &options, &source, &why), FROE_OK);
+    return io_fbx_check(&source, &sink);
+}
+
+/* Whatever a broken file says of its records, to look through it ends: it is left to assimp, or refused. */
+static void broken_records_of_fbx_end(void **state) {
+    (void)state;
+    static const fbx_links links = {{{200, 201}, {200, 202}, {201, 0}, {202, 0}}};
+    static const unsigned char others[] = {0, 1, 'C', 0xff};
+    const froe_allocator alloc = support_allocator(NULL);
+    size_t looked = 0, left = 0;
+    for (unsigned version = 7400; version <= 7500; version += 100) {
+        const size_t size = write_fbx_bytes("whole.fbx", &links, version);
+        static char good[4096], broken[4096];
+        FILE *file = fopen("whole.fbx", "rb");
+        assert_non_null(file);
+        assert_int_equal(fread(good, 1, size, file), size);
+        fclose(file);
+        assert_true(test_memory_each(look_through_fbx, "whole.fbx") > 3);
+        for (size_t at = 23; at < size; at++)
+            for (size_t k = 0; k <= sizeof others; k++, looked++) {
+                memcpy(broken, good, size);
+                if (k < sizeof others) broken[at] = (char)others[k];
+                write_bytes("broken.fbx", broken, k < sizeof others ? size : at);
+                const froe_status status = look_through_fbx("broken.fbx", &alloc);
+                assert_true(status == FROE_OK || status == FROE_E_FORMAT);
+                left += status == FROE_OK;
+            }
+    }
+    assert_true(left > looked / 2);
+    write_text("words.fbx", "Model:1 XModel: 2 Model: a Model: : Model: 3\nConnections: C: \"OO\" 1 2 \"OO\",3");
+    assert_int_equal(look_through_fbx("words.fbx", &alloc), FROE_OK);
 }
 
 /* ----------------------------------------------------------------------------- DXF -- */
@@ -473,6 +518,7 @@ int main(void) {
         cmocka_unit_test(sorts_that_assimp_leaves_out_are_named),
         cmocka_unit_test(axes_of_fbx_are_looked_at),
         cmocka_unit_test(models_of_fbx_have_a_first_one),
+        cmocka_unit_test(broken_records_of_fbx_end),
         cmocka_unit_test(numbers_of_dxf_are_numbers),
         cmocka_unit_test(sorts_of_entities_that_are_not_read_are_named),
         cmocka_unit_test(imports_of_others_are_not_listened_to),

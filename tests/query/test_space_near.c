@@ -1,6 +1,7 @@
 /* test_space_near.c: what is nearest by packed trees of space: what kernels say of distances, and what neighbours have
  * in common. */
 #include "query/spaces.h"
+#include "support/memory.h"
 
 /* Every triangle of a block is found, no nearer than its key, and no further away than its end. Of most
  * the end is less than 9/8 of the key. */
@@ -147,11 +148,34 @@ static void of_triangles_side_by_side_the_first_is_nearest(void **state) {
     froe_tree_free(tree);
 }
 
+static froe_status ask_without_memory(void *user, const froe_allocator *alloc) {
+    froe_tree tree = *(const froe_tree *)user;
+    froe_query *q = NULL;
+    froe_neighbours found;
+    tree.alloc = *alloc;
+    froe_status status = froe_query_new(&tree, &q, NULL);
+    for (uint64_t draw = 0; draw < 20 && !status; draw++) {
+        double x[3];
+        odd_point(&tree, draw, x);
+        status = froe_query_near(q, x, 1, INFINITY, &found, NULL);
+    }
+    froe_query_free(q);
+    return status;
+}
+
+static void memory_may_end_at_every_allocation(void **state) {
+    (void)state;
+    froe_tree *tree = tree_of_cones();
+    assert_true(test_memory_each(ask_without_memory, tree) > 5);
+    froe_tree_free(tree);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(keys_and_ends_hold_distances),
         cmocka_unit_test(of_one_leaf_only_what_may_be_nearest_is_kept),
         cmocka_unit_test(of_triangles_side_by_side_the_first_is_nearest),
+        cmocka_unit_test(memory_may_end_at_every_allocation),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
