@@ -105,7 +105,7 @@ static froe_tree *tree_of_cones(void) {
         double *x = c + 9 * (i * 7 % (CONES * SIDES));
         const double middle[2] = {3.0 * (double)(i / SIDES % 3), 3.0 * (double)(i / SIDES / 3)};
         for (size_t j = 0; j < 2; j++) {
-            const double angle = 6.283185307179586 * (double)((i + j) % SIDES) / SIDES;
+            const double angle = 6.283185307179586 * (double)((i + j) % SIDES) / (double)SIDES;
             x[3 * j] = middle[0] + cos(angle), x[3 * j + 1] = middle[1] + sin(angle), x[3 * j + 2] = 0;
         }
         x[6] = middle[0], x[7] = middle[1], x[8] = 1;
