@@ -213,12 +213,12 @@ static double gain_of(const window *w, size_t ranges, double events) {
 /* Many ranges need short windows, in which parts have little in common, and few may go through long ones, in which
  * their making counts little: takes what gains most. No ranges: nothing does. */
 static froe_status divide(window *w, double rate) {
-    const int64_t now = w->k->now.tick, end = w->tick;
+    const int64_t now = w->k->now.tick;
     int64_t best = now;
     size_t chosen = 0;
     double gain = 0;
     bool divided = false; /* as chosen */
-    for (int64_t tick = end;; tick = now + (tick - now) / 4 * 2) {
+    for (int64_t tick = w->tick;; tick = now + (tick - now) / 4 * 2) {
         const double events = rate * (double)(tick - now) / (double)w->n;
         if (events < w->k->ranges.tuning.pays || gain_of(w, w->room, events) <= gain) break;
         const froe_status status = set_end(w, tick);
@@ -411,15 +411,20 @@ static window_outcome go_on_from(froe_kinetic *k, int64_t tick, const event_watc
     return out;
 }
 
+/* The guard, which is chosen when it is needed first. */
+static double first_guard(froe_kinetic *k) {
+    const double gaps = k->ranges.tuning.gaps / (double)k->tree.segments.count, *limits = k->ranges.tuning.guard;
+    if (!(k->ranges.guard > 0)) k->ranges.guard = fmin(fmax(gaps, limits[0]), limits[1]);
+    return k->ranges.guard;
+}
+
 bool ranges_advance(froe_kinetic *k, int64_t tick, const event_watcher *watcher, bool *go_on, froe_diagnostic *diag,
                     froe_status *status) {
     const int64_t before = k->now.tick;
     window_outcome out = THROUGH;
     *status = FROE_OK;
-    const double gaps = k->ranges.tuning.gaps / (double)k->tree.segments.count, *limits = k->ranges.tuning.guard;
-    if (!(k->ranges.guard > 0)) k->ranges.guard = fmin(fmax(gaps, limits[0]), limits[1]);
-    const double guard = k->ranges.guard;
     if (!may_pay(k, tick)) return false;
+    const double guard = first_guard(k);
     while (out == THROUGH && *go_on && k->now.tick < tick && may_pay(k, tick))
         out = go_on_from(k, tick, watcher, go_on, status);
     if (*status == FROE_E_MEMORY) *status = FROE_OK;  /* one partition needs less */
