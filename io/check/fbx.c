@@ -109,29 +109,19 @@ static bool read_records(fbx_check *c, const formats_text *text) {
 
 /* --------------------------------------------------------------------- placing -- */
 
+/* By the first number of each: of ids, of models, and of links by their child. */
 static int order_numbers(const void *x, const void *y) {
     const uint64_t a = *(const uint64_t *)x, b = *(const uint64_t *)y;
     return a < b ? -1 : a > b;
 }
 
-static int order_children(const void *x, const void *y) {
-    const uint64_t a = ((const link *)x)->ids[CHILD], b = ((const link *)y)->ids[CHILD];
-    return a < b ? -1 : a > b;
-}
-
 static int order_parents(const void *x, const void *y) {
-    const uint64_t a = ((const link *)x)->ids[PARENT], b = ((const link *)y)->ids[PARENT];
-    return a < b ? -1 : a > b;
-}
-
-static int order_ids(const void *x, const void *y) {
-    const uint64_t a = ((const fbx_model *)x)->id, b = ((const fbx_model *)y)->id;
-    return a < b ? -1 : a > b;
+    return order_numbers(((const link *)x)->ids + PARENT, ((const link *)y)->ids + PARENT);
 }
 
 static fbx_model *find_object(const fbx_check *c, uint64_t id) {
     const fbx_model wanted = {.id = id};
-    return c->objects.count ? bsearch(&wanted, c->objects.data, c->objects.count, sizeof wanted, order_ids) : NULL;
+    return c->objects.count ? bsearch(&wanted, c->objects.data, c->objects.count, sizeof wanted, order_numbers) : NULL;
 }
 
 static bool is_model(const fbx_check *c, uint64_t id) {
@@ -151,7 +141,7 @@ static bool list_objects(fbx_check *c) {
     if (!c->links.count) return true;
     for (size_t i = 0; i < c->links.count; i++)
         c->objects.data[c->objects.count++] = (fbx_model){.id = c->links.data[i].ids[CHILD], .open = 1};
-    qsort(c->objects.data, c->objects.count, sizeof *c->objects.data, order_ids);
+    qsort(c->objects.data, c->objects.count, sizeof *c->objects.data, order_numbers);
     qsort(c->links.data, c->links.count, sizeof *c->links.data, order_parents);
     size_t last = 0;
     for (size_t i = 1; i < c->objects.count; i++)
@@ -187,7 +177,7 @@ static void place_below(fbx_check *c, uint64_t parent, size_t depth) {
 
 /* An object that is its own parent, from one below it that is not placed: up, more often than there are objects. */
 static uint64_t find_own_parent(fbx_check *c, uint64_t id) {
-    qsort(c->links.data, c->links.count, sizeof *c->links.data, order_children);
+    qsort(c->links.data, c->links.count, sizeof *c->links.data, order_numbers);
     for (size_t steps = 0; steps < c->objects.count; steps++) {
         const fbx_model *above = NULL;
         for (size_t i = first_link(c, CHILD, id); !above || !above->open; i++)
