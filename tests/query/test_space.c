@@ -303,7 +303,7 @@ static void kernels_agree(void **state) {
             q->near.scale = 1;
             assert_int_equal(space_walk_ray(q, &q->space->walk, &q->ray.ray, INFINITY, SPACE_ALL, &begun), FROE_OK);
             assert_true(begun);
-            assert_int_equal(space_walk_near(q, &q->space->walk, &begun), FROE_OK);
+            assert_int_equal(space_walk_near(q, &q->space->walk, SPACE_ALL, &begun), FROE_OK);
             assert_true(begun);
             for (size_t n = 0; n < wide->count; n++) {
                 const wide_node *node = wide->nodes + n;

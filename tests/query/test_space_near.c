@@ -36,7 +36,7 @@ static void keys_and_ends_hold_distances(void **state) {
         for (uint64_t draw = 0; draw < 60 && t->packed.wide; draw++) {
             odd_point(t, 7000 + draw, q->near.point);
             for (int k = 0; k < 3 && draw % 6 == 5; k++) q->near.point[k] *= draw % 4 == 1 ? 50 : 500;
-            assert_int_equal(space_walk_near(q, &q->space->walk, &begun), FROE_OK);
+            assert_int_equal(space_walk_near(q, &q->space->walk, SPACE_ALL, &begun), FROE_OK);
             for (uint32_t n = 0; begun && n < t->node_count; n++) {
                 if (!tree_is_leaf(t->nodes + n)) continue;
                 const space_header *h = space_block(t, t->nodes[n].child);
@@ -83,7 +83,7 @@ static void of_one_leaf_only_what_may_be_nearest_is_kept(void **state) {
         for (uint64_t draw = 0; draw < 40; draw++) {
             bool begun;
             odd_point(t, draw, q->near.point);
-            assert_int_equal(space_walk_near(q, &q->space->walk, &begun), FROE_OK);
+            assert_int_equal(space_walk_near(q, &q->space->walk, SPACE_ALL, &begun), FROE_OK);
             for (uint32_t n = 0; begun && n < t->node_count; n++)
                 if (tree_is_leaf(t->nodes + n))
                     check_one(space_kernels_at(kernel), space_block(t, t->nodes[n].child), &q->space->walk.point, kept);

@@ -70,7 +70,6 @@ static bool measure_neighbour(froe_query *q, const geom_body *body, double bound
 static froe_status find_neighbours(froe_query *q, size_t k, double bound, froe_diagnostic *diag) {
     const froe_scene *s = q->tree->scene;
     tree_objects list;
-    q->near.one = false;
     froe_status status = query_near_begin(q, diag);
     if (bound < INFINITY) q->near.limit = query_near_square(&q->near, bound);
     while (!status && k && !(status = query_near_next(q, &list)) && list.count) {

@@ -42,7 +42,6 @@ typedef struct query_near {
     double scale;
     double limit;   /**< what is further away is passed over; may fall while the tree is walked */
     bool packed;    /**< walked by query/packed/space.h */
-    bool one;       /**< only the nearest is wanted */
     query_place at; /**< where to go on; node FROE_NONE: at the nearest that waits */
     ARRAY(query_place) places;
     ARRAY(uint32_t) free; /**< places to be used again */

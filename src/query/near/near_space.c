@@ -55,8 +55,8 @@ froe_status query_near_in_space(froe_query *q, double bound, bool *done) {
     *done = false;
     if (!q->space) return FROE_OK;
     space_walk *w = &q->space->walk;
-    n->one = true, n->scale = 1;
-    if (space_walk_near(q, w, done)) return FROE_E_MEMORY;
+    n->scale = 1;
+    if (space_walk_near(q, w, SPACE_FIRST, done)) return FROE_E_MEMORY;
     if (!*done) return FROE_OK;
     if (!array_reserve(&q->alloc, &n->found, 2) || !array_reserve(&q->alloc, &n->order, 1)) return FROE_E_MEMORY;
     if (bound < INFINITY) n->limit = query_near_square(n, bound);

@@ -61,7 +61,7 @@ froe_status query_near_begin(froe_query *q, froe_diagnostic *diag) {
     n->places.count = n->free.count = n->heap.count = 0;
     n->scale = query_near_scale(q->tree->scene, n->point);
     n->packed = false;
-    if (q->space && space_walk_near(q, &q->space->walk, &n->packed)) return FROE_E_MEMORY;
+    if (q->space && space_walk_near(q, &q->space->walk, SPACE_ALL, &n->packed)) return FROE_E_MEMORY;
     if (n->packed) return FROE_OK;
     const froe_status status = query_contents_of(q, &contents, diag);
     if (!status) n->at = (query_place){bound_of(n, contents, 0), 0};

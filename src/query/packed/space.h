@@ -64,7 +64,7 @@ void space_work_free(space_work *work, const froe_allocator *alloc);
  * numbers, and the general walk has to be used. FROE_E_MEMORY. */
 froe_status space_walk_ray(froe_query *query, space_walk *walk, const geom_ray *ray, double t_max, space_wanted wanted,
                            bool *begun);
-froe_status space_walk_near(froe_query *query, space_walk *walk, bool *begun);
+froe_status space_walk_near(froe_query *query, space_walk *walk, space_wanted wanted, bool *begun);
 /** The next object, as a list, unless it is beyond the limit, which may have fallen; none: there is none left.
  * FROE_E_MEMORY. */
 froe_status space_walk_next(froe_query *query, space_walk *walk, double limit, tree_objects *list);

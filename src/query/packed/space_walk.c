@@ -91,12 +91,12 @@ froe_status space_walk_ray(froe_query *q, space_walk *w, const geom_ray *ray, do
     return begin_space_walk(q, w, false, meets);
 }
 
-froe_status space_walk_near(froe_query *q, space_walk *w, bool *begun) {
+froe_status space_walk_near(froe_query *q, space_walk *w, space_wanted wanted, bool *begun) {
     const tree_wide *wide = q->tree->packed.wide;
     space_point *p = &w->point;
     *begun = wide;
     p->wide = wide;
-    p->one = q->near.one;
+    p->one = wanted == SPACE_FIRST;
     for (int k = 0; *begun && k < 3; k++) {
         p->x[k] = q->near.point[k];
         p->at[k] = (p->x[k] - wide->middle[k]) * wide->scale;
@@ -104,7 +104,7 @@ froe_status space_walk_near(froe_query *q, space_walk *w, bool *begun) {
     }
     if (!*begun) return FROE_OK;
     w->per = (wide->scale / q->near.scale) * (wide->scale / q->near.scale);
-    w->wanted = q->near.one ? SPACE_FIRST : SPACE_ALL;
+    w->wanted = wanted;
     w->within = FLT_MAX;
     return begin_space_walk(q, w, true, true);
 }
