@@ -1,6 +1,7 @@
 /* defects.c: the defect report: what is odd about a scene, counted exactly.
  *
  * Objects -> distinct, full-dimensional ones -> pairs that may meet oddly -> how each pair touches (survey.h). */
+#include "base/apart.h"
 #include "base/floats.h"
 #include "measure/survey.h"
 #include "support/fail.h"
@@ -10,6 +11,7 @@ typedef enum oddity { APART, CROSSING, T_JUNCTION, OVERLAP, ODDITIES } oddity;
 typedef struct tally {
     uint64_t counts[ODDITIES];
     uint32_t first[ODDITIES][2];
+    base_apart apart;
 } tally;
 
 typedef struct defect_survey {

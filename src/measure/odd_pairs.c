@@ -1,5 +1,6 @@
 /* odd_pairs.c: boxes first; then sheets, what is left of them, and what meets across their borders. */
 #include "measure/odd_pairs.h"
+#include "base/apart.h"
 #include "base/radix.h"
 #include "measure/hierarchy.h"
 #include "measure/sheet.h"
@@ -16,7 +17,7 @@ enum {
 /* Pairs that a worker has found, in a line of the cache of their own. */
 typedef struct pair_counter {
     uint32_t pairs;
-    char apart[60];
+    base_apart apart;
 } pair_counter;
 
 /* Objects that lie side by side: a run of `order`, and a search tree of its boxes. */

@@ -2,6 +2,7 @@
  * far the filters may be trusted. One per thread; never shared. */
 #ifndef FROE_NUM_CONTEXT_H
 #define FROE_NUM_CONTEXT_H
+#include "base/apart.h"
 #include "num/dyadic.h"
 
 /** Where evaluation starts. Tests start each stage by itself; on a machine that
@@ -13,6 +14,7 @@ typedef struct num_context {
     froe_predicate_stats stats;
     num_stage first;
     froe_allocator alloc;
+    base_apart apart;
 } num_context;
 
 /** Runs the self-test (num_machine_trusted) and takes the arena: the only step that may fail. */

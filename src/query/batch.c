@@ -4,6 +4,7 @@
  *     found     3 1 4 1 5 | 9 2 6 | ...         by one thread, chunk after chunk: of a single thread, the answers
  *     answers   one after the other, in the order of the queries
  */
+#include "base/apart.h"
 #include "base/floats.h"
 #include "query/check.h"
 #include "query/groups/relation.h"
@@ -23,6 +24,7 @@ typedef struct batch_found {
     query_ids ids;
     ARRAY(double) values;
     size_t queries; /* answered */
+    base_apart apart;
 } batch_found;
 
 typedef struct batch_chunk {

@@ -11,6 +11,7 @@
  * the tree is the same for any number of threads. */
 #ifndef FROE_SPLIT_GROW_H
 #define FROE_SPLIT_GROW_H
+#include "base/apart.h"
 #include "base/task.h"
 #include "split/fragment.h"
 #include "split/guard/lowest_nodes.h"
@@ -130,6 +131,7 @@ typedef struct split_work {
     uint32_t deepest;     /**< depth of the deepest cell of the current subtree */
     uint64_t most;        /**< pieces that a subtree grown again may have; 0: the first time, max_fragments counts */
     bool calling;         /**< on the thread of the caller's call, the only one that calls the callback */
+    base_apart apart;
 } split_work;
 
 /** False once the build is cancelled. Methods call it in loops that one cell may make long. */

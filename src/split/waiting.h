@@ -1,6 +1,7 @@
 /* waiting.h: cells whose turn comes later, with fragments of their own, so that any thread can go on with them. */
 #ifndef FROE_SPLIT_WAITING_H
 #define FROE_SPLIT_WAITING_H
+#include "base/apart.h"
 #include "split/cell.h"
 
 /** A cell that waits, with its fragments; small ones become subtrees. */
@@ -12,6 +13,7 @@ typedef struct grow_task {
     split_choice choice;  /**< of large ones */
     uint32_t crossing[2]; /**< why it was refused */
     tree_draft draft;
+    base_apart apart;
 } grow_task;
 
 typedef ARRAY(grow_task) grow_tasks;

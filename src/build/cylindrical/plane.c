@@ -8,6 +8,7 @@
  * partition have five fragments on average, so that cells and fragments of its own kind make it several times as
  * fast. */
 #include "build/cylindrical/plane.h"
+#include "base/apart.h"
 #include "build/cylindrical/trapezoid.h"
 
 /* Cells of at most max(least, n / share) parts become tasks, except tiny ones, which do not pay for a task. */
@@ -17,6 +18,7 @@ typedef struct plane_task {
     trapezoid_cell cell;
     size_t first; /**< of its parts, in the store */
     tree_draft draft;
+    base_apart apart;
 } plane_task;
 
 typedef struct plane_growth {

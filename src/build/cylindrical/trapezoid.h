@@ -16,6 +16,7 @@
  * gives the paper's tree. */
 #ifndef FROE_BUILD_CYLINDRICAL_TRAPEZOID_H
 #define FROE_BUILD_CYLINDRICAL_TRAPEZOID_H
+#include "base/apart.h"
 #include "split/fragment.h"
 
 /** A point, or what a cell has of a segment. 64 bytes hold all that most comparisons read. */
@@ -49,6 +50,7 @@ typedef struct trapezoid_work {
     bool filtered; /**< may filters decide? */
     ARRAY(trapezoid_cell) cells;
     ARRAY(trapezoid_part) parts, spare;
+    base_apart apart;
 } trapezoid_work;
 
 /** FROE_E_MEMORY: there is nothing to free. */

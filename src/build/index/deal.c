@@ -3,16 +3,21 @@
 
 enum { CHUNK = 1 << 15 };
 
+/* What counts of a chunk take, which threads write side by side. */
+static size_t row_of(const dealing *d) {
+    return d->parts + sizeof(base_apart) / sizeof *d->offsets;
+}
+
 froe_status deal_new(dealing *d) {
     d->chunk_count = ((size_t)d->count + CHUNK - 1) / CHUNK;
     d->chunks = support_calloc(&d->alloc, d->chunk_count, sizeof *d->chunks);
-    d->offsets = support_calloc(&d->alloc, d->chunk_count * d->parts, sizeof *d->offsets);
+    d->offsets = support_calloc(&d->alloc, d->chunk_count * row_of(d), sizeof *d->offsets);
     if (!d->chunks || !d->offsets) return FROE_E_MEMORY;
     for (size_t i = 0; i < d->chunk_count; i++) {
         const size_t from = i * CHUNK, rest = d->count - from;
         d->chunks[i].from = (uint32_t)from;
         d->chunks[i].to = (uint32_t)(from + (rest < CHUNK ? rest : CHUNK));
-        d->chunks[i].parts = d->offsets + i * d->parts;
+        d->chunks[i].parts = d->offsets + i * row_of(d);
     }
     return FROE_OK;
 }
@@ -20,12 +25,12 @@ froe_status deal_new(dealing *d) {
 void deal_free(dealing *d) {
     for (size_t i = 0; d->chunks && i < d->chunk_count; i++) array_free(&d->alloc, &d->chunks[i].entries);
     support_free(&d->alloc, d->chunks, d->chunk_count * sizeof *d->chunks);
-    support_free(&d->alloc, d->offsets, d->chunk_count * d->parts * sizeof *d->offsets);
+    support_free(&d->alloc, d->offsets, d->chunk_count * row_of(d) * sizeof *d->offsets);
 }
 
 void deal_clear(dealing *d) {
     for (size_t i = 0; i < d->chunk_count; i++) d->chunks[i].entries.count = 0;
-    memset(d->offsets, 0, d->chunk_count * d->parts * sizeof *d->offsets);
+    memset(d->offsets, 0, d->chunk_count * row_of(d) * sizeof *d->offsets);
 }
 
 froe_status deal_each(dealing *d, double span, base_job_fn *fn, void *user) {

@@ -6,6 +6,7 @@
  *                                      threads, so neither does the order of entries in a part. */
 #ifndef FROE_BUILD_INDEX_DEAL_H
 #define FROE_BUILD_INDEX_DEAL_H
+#include "base/apart.h"
 #include "base/task.h"
 #include "support/array.h"
 
@@ -17,6 +18,7 @@ typedef struct deal_chunk {
     uint32_t from, to; /**< objects */
     uint32_t *parts;   /**< part -> entries; then where the next one goes */
     ARRAY(deal_entry) entries;
+    base_apart apart;
 } deal_chunk;
 
 typedef struct dealing {

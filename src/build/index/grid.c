@@ -75,6 +75,11 @@ static froe_status lay_lines(const froe_allocator *alloc, split_grid *g, bool *m
 
 /* ------------------------------------------------------------------ dealing -- */
 
+/* Nodes of which a thread counts crossings, and what keeps them apart from those of the next one. */
+static size_t counted_of(const grid_laying *l) {
+    return l->deal.parts * 2 + sizeof(base_apart) / sizeof *l->counts->crossings;
+}
+
 static froe_status trace_job(void *user, unsigned worker, size_t job) {
     grid_laying *l = user;
     return trace_run(l->alloc, l->source, l->grid, l->source->workers + worker, l->counts + worker,
@@ -97,7 +102,7 @@ static froe_status take_room(grid_laying *l) {
     l->counts = support_calloc(l->alloc, l->threads, sizeof *l->counts);
     bool room = l->bad && l->counts;
     for (unsigned i = 0; room && i < l->threads; i++) {
-        l->counts[i].crossings = support_calloc(l->alloc, 2 * parts, sizeof *l->counts->crossings);
+        l->counts[i].crossings = support_calloc(l->alloc, counted_of(l), sizeof *l->counts->crossings);
         l->counts[i].met = support_calloc(l->alloc, (size_t)1 << l->grid->levels, sizeof *l->counts->met);
         room = l->counts[i].crossings && l->counts[i].met;
     }
@@ -106,7 +111,7 @@ static froe_status take_room(grid_laying *l) {
 
 static void give_room_back(grid_laying *l) {
     for (unsigned i = 0; l->counts && i < l->threads; i++) {
-        support_free(l->alloc, l->counts[i].crossings, l->deal.parts * 2 * sizeof *l->counts->crossings);
+        support_free(l->alloc, l->counts[i].crossings, counted_of(l) * sizeof *l->counts->crossings);
         support_free(l->alloc, l->counts[i].met, sizeof *l->counts->met << l->grid->levels);
     }
     support_free(l->alloc, l->counts, l->threads * sizeof *l->counts);
@@ -122,7 +127,7 @@ static froe_status trace_all(grid_laying *l, bool *made) {
     for (int i = 0; i <= NUDGES && !*made && !status; i++) {
         deal_clear(&l->deal);
         for (unsigned w = 0; w < l->threads; w++) {
-            memset(l->counts[w].crossings, 0, l->deal.parts * 2 * sizeof *l->counts->crossings);
+            memset(l->counts[w].crossings, 0, counted_of(l) * sizeof *l->counts->crossings);
             memset(l->counts[w].levels, 0, sizeof l->counts[w].levels);
             memset(l->counts[w].met, 0, sizeof *l->counts->met << g->levels);
         }

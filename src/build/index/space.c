@@ -12,6 +12,7 @@
  * (build/index/sketch.h): these are the jobs. Where the sample misled, so that the nodes of its cuts have too many
  * listings, it is dropped, and all objects are one job. */
 #include "build/index/space.h"
+#include "base/apart.h"
 #include "base/random.h"
 #include "build/index/join.h"
 #include "build/index/sketch.h"
@@ -37,6 +38,7 @@ typedef struct index_space_work {
     ARRAY(index_space_cell) cells;
     ARRAY(space_item) items, spare;
     ARRAY(uint8_t) classes;
+    base_apart apart;
 } index_space_work;
 
 typedef struct space_build {

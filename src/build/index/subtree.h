@@ -8,6 +8,7 @@
  * through medians. */
 #ifndef FROE_BUILD_INDEX_SUBTREE_H
 #define FROE_BUILD_INDEX_SUBTREE_H
+#include "base/apart.h"
 #include "base/radix.h"
 #include "build/index/grid.h"
 #include "build/method.h"
@@ -51,6 +52,7 @@ typedef struct index_work {
     ARRAY(packed_fragment) items, spare;
     ARRAY(uint8_t) classes[2];
     ARRAY(base_pair) middles;
+    base_apart apart;
 } index_work;
 
 /** Builds the subtree of a cell: a node of the grid of all objects (heap), or of all objects where there is no grid.

@@ -6,6 +6,7 @@
  *        +---+---+---+     line, the line is bad, and the grid has to move it. */
 #ifndef FROE_BUILD_INDEX_TRACE_H
 #define FROE_BUILD_INDEX_TRACE_H
+#include "base/apart.h"
 #include "build/index/deal.h"
 #include "build/index/grid.h"
 
@@ -14,6 +15,7 @@ typedef struct trace_counts {
     uint32_t *crossings;          /**< node of the upper levels -> where objects cross its cut; part -> all within it */
     uint64_t levels[GRID_LEVELS]; /**< crossings of cuts of a level */
     uint16_t *met;                /**< cell -> is anything there? No bytes: those could be part of any variable */
+    base_apart apart;
 } trace_counts;
 
 /** A line that a corner or an end lies in; axis -1: there is none. */

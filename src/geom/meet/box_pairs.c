@@ -14,6 +14,7 @@
  * and neither equal coordinates nor nested boxes can spoil the balance. All lists stay sorted
  * along axis 0, where a plain scan ends it. */
 #include "geom/meet/box_pairs.h"
+#include "base/apart.h"
 #include "base/radix.h"
 #include "support/array.h"
 #include "support/fail.h"
@@ -45,6 +46,7 @@ typedef struct worker {
     int depth;
     unsigned number;
     uint32_t until_poll;
+    base_apart apart;
 } worker;
 
 typedef struct box_search {

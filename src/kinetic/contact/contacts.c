@@ -4,6 +4,7 @@
  *
  * Slices of two objects that touch have a time in common, and all these times together are the time in which both live;
  * so spans that end and begin at the instant where two such times meet are one contact. */
+#include "base/apart.h"
 #include "base/floats.h"
 #include "base/sort.h"
 #include "geom/meet/box_pairs.h"
@@ -31,6 +32,7 @@ typedef struct contact_worker {
     uint64_t candidates;
     froe_status status;
     uint32_t failed[2];
+    base_apart apart;
 } contact_worker;
 
 typedef struct contact_search {

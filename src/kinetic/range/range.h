@@ -11,6 +11,7 @@
  * to the whole partition: the range stops there. */
 #ifndef FROE_KINETIC_RANGE_RANGE_H
 #define FROE_KINETIC_RANGE_RANGE_H
+#include "base/apart.h"
 #include "kinetic/event/event.h"
 #include "kinetic/motion/motion.h"
 #include <stdatomic.h>
@@ -41,6 +42,7 @@ typedef struct kinetic_range {
     double wide;               /**< it has stopped at what is so wide, and wider than the guard; or 0 */
     bool meets;                /**< it has stopped where segments in one line meet */
     int64_t stopped;           /**< the tick at which it could not go on; NOW_NEVER: it could */
+    base_apart apart;
 } kinetic_range;
 
 /** What all ranges of a window share. */

@@ -10,6 +10,7 @@
  * pair_lists.c and pairs.c (the public calls). */
 #ifndef FROE_QUERY_PAIRS_PAIR_LISTS_H
 #define FROE_QUERY_PAIRS_PAIR_LISTS_H
+#include "base/apart.h"
 #include "base/task.h"
 #include "support/array.h"
 #include <froe/query.h>
@@ -25,6 +26,7 @@ typedef struct pair_item {
 typedef struct pair_list {
     ARRAY(pair_item) parts[PAIR_PARTS];
     uint32_t room; /**< pairs it may add before it takes more room */
+    base_apart apart;
 } pair_list;
 
 typedef struct pair_lists {

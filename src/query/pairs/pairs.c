@@ -5,6 +5,7 @@
  * then decided exactly (geom/meet/contact.h).
  *
  *     objects    0 .. 63 | 64 .. 127 | ...    jobs, a wave of them at a time, reported in order once all are done */
+#include "base/apart.h"
 #include "base/floats.h"
 #include "geom/meet/contact.h"
 #include "query/heap.h"
@@ -21,6 +22,7 @@ typedef struct pair_worker {
     froe_query *q;
     ARRAY(double) points;     /* of the object as a range */
     ARRAY(signed char) sides; /* for geom_contact_of() */
+    base_apart apart;
 } pair_worker;
 
 typedef ARRAY(froe_pair) object_pairs;

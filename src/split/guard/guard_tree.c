@@ -7,6 +7,7 @@
  *     tree         [ root's split ][ split of A ][ subtree of B ][ split of C ][ subtree of D ]
  *
  * With one thread the jobs write there directly. Either way the array is the same. */
+#include "base/apart.h"
 #include "split/guard/guard_work.h"
 #include "split/guard/guards.h"
 #include <string.h>
@@ -25,6 +26,7 @@ typedef struct tree_worker { /* of a thread */
     guard_nodes nodes;
     double *room; /* other side of the guards of a job */
     size_t capacity;
+    base_apart apart;
 } tree_worker;
 
 typedef struct building {

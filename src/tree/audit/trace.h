@@ -17,6 +17,7 @@
  * It speaks for trace.c, trace_cell.c, trace_solid.c and audit.c, which compares the places with the tree. */
 #ifndef FROE_TREE_AUDIT_TRACE_H
 #define FROE_TREE_AUDIT_TRACE_H
+#include "base/apart.h"
 #include "geom/predicates.h"
 #include "tree/ring.h"
 
@@ -80,6 +81,7 @@ typedef struct tree_trace {
     ARRAY(trace_solid) solids;
     ARRAY(int8_t) sides;
     ARRAY(uint32_t) ring;
+    base_apart apart;
 } tree_trace;
 
 froe_status trace_new(const froe_tree *tree, bool exact_only, tree_trace *out);

@@ -2,6 +2,7 @@
  *
  * Shapes do not depend on each other, so that threads make them: along a tour of the page, some nodes a job, each job
  * on a sheet of its own. Sheets are then read in the order of painting. */
+#include "base/apart.h"
 #include "view/picture/picture.h"
 
 enum { NODES_A_JOB = 512 };
@@ -19,6 +20,7 @@ typedef struct whole_worker {
     view_parts parts;
     view_outliner outliner;
     view_seams seams;
+    base_apart apart;
 } whole_worker;
 
 typedef struct whole_painter {
