@@ -37,19 +37,34 @@ static froe_status build_directly(void *user, unsigned worker, size_t part) {
     return status ? status : j->fn(j->user, worker, part, &j->tree, node);
 }
 
+/* Room for all parts, or for a share of it. What is not touched of a large array costs nothing. */
+static froe_status take_room(const tree_join *j, double share, tree_packer *out) {
+    join_room all = {.nodes = j->steps.count};
+    for (size_t i = 0; i < j->parts.count; i++) {
+        const join_room *room = &j->parts.data[i].room;
+        all.nodes += room->nodes, all.blocks += room->blocks, all.owners += room->owners;
+    }
+    return packer_new(&j->job->alloc, (uint64_t)(share * (double)all.nodes), (uint64_t)(share * (double)all.blocks),
+                      (uint64_t)(share * (double)all.owners), out);
+}
+
 static froe_status build_apart(void *user, unsigned worker, size_t part) {
     tree_join *j = user;
     join_part *p = j->parts.data + part;
-    froe_status status = packer_new(&j->job->alloc, p->room.nodes, p->room.blocks, p->room.owners, &p->packer);
-    return status ? status : j->fn(j->user, worker, part, &p->packer, 0);
+    tree_packer *packer = &j->workers[worker].packer;
+    p->worker = worker;
+    froe_status status = packer->memory ? FROE_OK : take_room(j, 1.25 / j->worker_count, packer);
+    if (!status) status = packer_begin(packer, &p->subtree);
+    if (!status) status = j->fn(j->user, worker, part, packer, p->subtree.at.first);
+    packer_end(packer, &p->subtree);
+    return status;
 }
 
 static froe_status copy_part(void *user, unsigned worker, size_t part) {
-    tree_join *j = user;
-    join_part *p = j->parts.data + part;
+    const tree_join *j = user;
+    const join_part *p = j->parts.data + part;
     (void)worker;
-    packer_put(&j->tree, &p->packer, &p->place);
-    packer_free(&p->packer);
+    packer_put(&j->tree, &p->place, &j->workers[p->worker].packer, &p->subtree);
     return FROE_OK;
 }
 
@@ -58,38 +73,41 @@ static froe_status place_parts(tree_join *j) {
     const uint64_t most = j->job->max_fragments;
     uint64_t nodes = j->steps.count, blocks = 0, owners = 0;
     for (size_t i = 0; i < j->parts.count; i++) {
-        const tree_packer *part = &j->parts.data[i].packer;
-        nodes += part->nodes.count, blocks += part->block_count, owners += part->owners.count;
+        const packer_subtree *part = &j->parts.data[i].subtree;
+        nodes += part->nodes + 1, blocks += part->blocks, owners += part->owners;
     }
     froe_status status = packer_new(&j->job->alloc, nodes, blocks, owners, &j->tree);
     for (size_t i = 0; i < j->parts.count && !status; i++) {
         join_part *p = j->parts.data + i;
         uint32_t node = 0;
         status = walk_to(j, p->step, &node);
-        if (!status) status = packer_place_for(&j->tree, node, &p->packer, &p->place);
+        if (!status) status = packer_place_for(&j->tree, node, &p->subtree, &p->place);
         if (!status && most && j->tree.piece_count > most) status = FROE_E_BUDGET;
     }
     return status;
 }
 
+static void free_workers(tree_join *j) {
+    for (unsigned i = 0; j->workers && i < j->worker_count; i++) packer_free(&j->workers[i].packer);
+    support_free(&j->job->alloc, j->workers, j->worker_count * sizeof *j->workers);
+}
+
 froe_status join_run(tree_join *j, double span) {
     base_task *task = j->job->task;
     if (task->threads == 1 || j->parts.count == 1) {
-        join_room all = {.nodes = j->steps.count};
-        for (size_t i = 0; i < j->parts.count; i++) {
-            const join_room *room = &j->parts.data[i].room;
-            all.nodes += room->nodes, all.blocks += room->blocks, all.owners += room->owners;
-        }
-        froe_status status = packer_new(&j->job->alloc, all.nodes, all.blocks, all.owners, &j->tree);
+        froe_status status = take_room(j, 1, &j->tree);
         return status ? status : base_run(task, span, j->parts.count, build_directly, j);
     }
-    froe_status status = base_run(task, 0.9 * span, j->parts.count, build_apart, j);
+    j->worker_count = base_workers(task, j->parts.count);
+    j->workers = support_calloc(&j->job->alloc, j->worker_count, sizeof *j->workers);
+    froe_status status = j->workers ? base_run(task, 0.9 * span, j->parts.count, build_apart, j) : FROE_E_MEMORY;
     if (!status) status = place_parts(j);
-    return status ? status : base_run(task, 0.1 * span, j->parts.count, copy_part, j);
+    if (!status) status = base_run(task, 0.1 * span, j->parts.count, copy_part, j);
+    free_workers(j);
+    return status;
 }
 
 void join_free(tree_join *j) {
-    for (size_t i = 0; i < j->parts.count; i++) packer_free(&j->parts.data[i].packer);
     array_free(&j->job->alloc, &j->steps);
     array_free(&j->job->alloc, &j->parts);
     array_free(&j->job->alloc, &j->open);

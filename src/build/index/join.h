@@ -8,6 +8,7 @@
  */
 #ifndef FROE_BUILD_INDEX_JOIN_H
 #define FROE_BUILD_INDEX_JOIN_H
+#include "base/apart.h"
 #include "build/method.h"
 #include "tree/packed/packer.h"
 
@@ -24,9 +25,17 @@ typedef struct join_step {
 typedef struct join_part {
     size_t step;
     join_room room;
-    tree_packer packer; /**< of several threads: the subtree */
+    /* of several threads: */
+    unsigned worker;
+    packer_subtree subtree; /**< as that worker has written it */
     packer_place place;
 } join_part;
+
+/** The subtrees that one of several threads has written, one behind the other. */
+typedef struct join_worker {
+    tree_packer packer;
+    base_apart apart;
+} join_worker;
 
 /** Builds subtree `part`, that is the one of the part-th step that is no cut, at a node of a packer, which is open. */
 typedef froe_status join_fn(void *user, unsigned worker, size_t part, tree_packer *packer, uint32_t node);
@@ -40,6 +49,8 @@ typedef struct tree_join {
     ARRAY(uint32_t) open; /**< nodes of the tree that wait for a step, the next on top */
     size_t next;          /**< step */
     tree_packer tree;
+    join_worker *workers; /**< of several threads */
+    unsigned worker_count;
 } tree_join;
 
 /** The next step. False: no memory. */

@@ -106,32 +106,45 @@ froe_status packer_space_leaf(tree_packer *p, uint32_t node, const froe_scene *s
     return FROE_OK;
 }
 
-froe_status packer_place_for(tree_packer *p, uint32_t node, const tree_packer *subtree, packer_place *out) {
-    const size_t nodes = subtree->nodes.count - 1, owners = subtree->owners.count;
+froe_status packer_begin(tree_packer *p, packer_subtree *out) {
+    const packer_place at = {(uint32_t)p->nodes.count, (uint32_t)p->nodes.count + 1, p->block_count,
+                             (uint32_t)p->owners.count, p->piece_count};
+    if (p->nodes.count + 1 > TREE_MOST) return FROE_E_LIMIT; /* one way: so many take 32 GB */
+    *out = (packer_subtree){.at = at};
+    return array_push(&p->alloc, &p->nodes, (tree_node){0}) ? FROE_OK : FROE_E_MEMORY;
+}
+
+void packer_end(const tree_packer *p, packer_subtree *s) {
+    s->nodes = (uint32_t)p->nodes.count - s->at.nodes, s->blocks = p->block_count - s->at.blocks;
+    s->owners = (uint32_t)p->owners.count - s->at.owners, s->pieces = p->piece_count - s->at.pieces;
+}
+
+froe_status packer_place_for(tree_packer *p, uint32_t node, const packer_subtree *s, packer_place *out) {
     *out = (packer_place){node, (uint32_t)p->nodes.count, p->block_count, (uint32_t)p->owners.count, p->piece_count};
-    if (p->nodes.count + nodes > TREE_MOST) return FROE_E_LIMIT; /* one way: so many take 32 GB */
-    if (!array_reserve(&p->alloc, &p->nodes, nodes) || !array_reserve(&p->alloc, &p->owners, owners))
+    if (p->nodes.count + s->nodes > TREE_MOST) return FROE_E_LIMIT; /* one way: so many take 32 GB */
+    if (!array_reserve(&p->alloc, &p->nodes, s->nodes) || !array_reserve(&p->alloc, &p->owners, s->owners))
         return FROE_E_MEMORY;
-    froe_status status = take_blocks(p, subtree->block_count, subtree->piece_count);
+    froe_status status = take_blocks(p, s->blocks, s->pieces);
     if (status) return status; /* one way: the tree was made with room for the blocks of all subtrees */
-    p->nodes.count += nodes;
-    p->owners.count += owners;
+    p->nodes.count += s->nodes;
+    p->owners.count += s->owners;
     return FROE_OK;
 }
 
-void packer_put(const tree_packer *p, const tree_packer *subtree, const packer_place *place) {
-    const size_t nodes = subtree->nodes.count, owners = subtree->owners.count;
-    memcpy(block_at(p, place->blocks), block_at(subtree, 0), (size_t)subtree->block_count * PACKED_BLOCK);
-    if (owners) memcpy(p->owners.data + place->owners, subtree->owners.data, owners * sizeof *p->owners.data);
-    for (size_t i = 0; i < nodes; i++) {
-        tree_node node = subtree->nodes.data[i];
+void packer_put(const tree_packer *p, const packer_place *place, const tree_packer *from, const packer_subtree *s) {
+    const packer_place *at = &s->at;
+    memcpy(block_at(p, place->blocks), block_at(from, at->blocks), (size_t)s->blocks * PACKED_BLOCK);
+    if (s->owners)
+        memcpy(p->owners.data + place->owners, from->owners.data + at->owners, s->owners * sizeof *p->owners.data);
+    for (uint32_t i = 0; i <= s->nodes; i++) {
+        tree_node node = from->nodes.data[at->first + i];
         if (tree_is_leaf(&node)) {
-            packed_header *block = (packed_header *)(void *)block_at(p, place->blocks + node.child);
-            node.u.list.first += place->pieces;
-            node.child += place->blocks;
-            block->owner += place->owners; /* in space that is 0, and another field */
+            node.u.list.first += place->pieces - at->pieces;
+            node.child += place->blocks - at->blocks;
+            packed_header *block = (packed_header *)(void *)block_at(p, node.child);
+            block->owner += place->owners - at->owners; /* in space that is 0, and another field */
         } else {
-            node.child += place->nodes - 1;
+            node.child += place->nodes - at->nodes;
         }
         p->nodes.data[i ? place->nodes + i - 1 : place->first] = node;
     }

@@ -23,10 +23,16 @@ typedef struct tree_packer {
     uint32_t piece_count;
 } tree_packer;
 
-/** Where a subtree goes: its first node, the others, and so on. */
+/** Where a subtree is or goes: its first node, the others, and so on. */
 typedef struct packer_place {
     uint32_t first, nodes, blocks, owners, pieces;
 } packer_place;
+
+/** One of several subtrees that a packer has side by side, before they are put into a tree. */
+typedef struct packer_subtree {
+    packer_place at;
+    uint32_t nodes, blocks, owners, pieces; /**< how many; nodes without the first */
+} packer_subtree;
 
 /** With room for so much. It is taken, not touched, and given back in the end: large arrays are slow to move. */
 froe_status packer_new(const froe_allocator *alloc, uint64_t nodes, uint64_t blocks, uint64_t owners, tree_packer *out);
@@ -39,11 +45,16 @@ froe_status packer_leaf(tree_packer *packer, uint32_t node, const packed_box *bo
 /** The same in space; brings the items into the order of the block. FROE_E_MEMORY, FROE_E_LIMIT. */
 froe_status packer_space_leaf(tree_packer *packer, uint32_t node, const froe_scene *scene, space_item *items,
                               uint32_t count, uint8_t flags);
-/** A subtree that was packed apart is to begin at `node`, which is open: where all of it goes, which is taken. So
- * several can be put at once. FROE_E_MEMORY, FROE_E_LIMIT. */
-froe_status packer_place_for(tree_packer *packer, uint32_t node, const tree_packer *subtree, packer_place *out);
-/** Copies a subtree to its place. */
-void packer_put(const tree_packer *packer, const tree_packer *subtree, const packer_place *place);
+/** Opens a node behind all that is there, subtree->at.first, for another subtree. FROE_E_MEMORY, FROE_E_LIMIT. */
+froe_status packer_begin(tree_packer *packer, packer_subtree *subtree);
+/** All that came since is of that subtree. */
+void packer_end(const tree_packer *packer, packer_subtree *subtree);
+/** A subtree of another packer is to begin at `node`, which is open: where all of it goes, which is taken. So several
+ * can be put at once. FROE_E_MEMORY, FROE_E_LIMIT. */
+froe_status packer_place_for(tree_packer *packer, uint32_t node, const packer_subtree *subtree, packer_place *out);
+/** Copies a subtree of `from` to its place. */
+void packer_put(const tree_packer *packer, const packer_place *place, const tree_packer *from,
+                const packer_subtree *subtree);
 /** The finished tree, which takes the packer's arrays and holds the scene. FROE_E_MEMORY. */
 froe_status packer_seal(tree_packer *packer, froe_scene *scene, const tree_meta *meta, froe_tree **out);
 #endif
