@@ -10,7 +10,7 @@
  * Like the conservative simulation of events in independent regions (Chandy and Misra 1979), but without any message
  * between regions: what lies beyond a border is known from the plans. */
 #include "kinetic/range/ranges.h"
-#include "base/sort.h"
+#include "base/select.h"
 #include "kinetic/kinetic.h"
 #include "kinetic/range/range.h"
 #include "support/fail.h"
@@ -78,7 +78,8 @@ static bool new_window(froe_kinetic *k, window *out) {
 /* ----------------------------------------------------------------- extents -- */
 
 static void extend_by(double x, double *low, double *high) {
-    *low = fmin(*low, x), *high = fmax(*high, x); /* NaN: there is none */
+    if (x < *low) *low = x;
+    if (x > *high) *high = x; /* NaN: there is none */
 }
 
 /* Where a vertex comes between two times, in x. */
@@ -143,10 +144,12 @@ static size_t take_samples(const window *w, double *low, double *high) {
 static void place_borders(window *w, size_t most) {
     double low, high;
     const size_t sampled = take_samples(w, &low, &high);
-    base_sort(w->samples, sampled, sizeof *w->samples, base_compare_doubles);
     double border = -(double)INFINITY;
-    for (size_t i = 0; i < most && sampled; i++) {
-        const double next = i + 1 < most ? w->samples[sampled * (i + 1) / most] : (double)INFINITY;
+    for (size_t i = 0, first = 0; i < most && sampled; i++) {
+        const size_t end = sampled * (i + 1) / most; /* of what lies before its high border */
+        const double next =
+            end < sampled ? base_select(w->samples + first, sampled - first, end - first) : (double)INFINITY;
+        first = end;
         if (!(next > border)) continue;
         const double guard = (high - low) * w->k->ranges.guard;
         w->ranges[w->count] =
