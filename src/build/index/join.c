@@ -38,7 +38,7 @@ static froe_status build_directly(void *user, unsigned worker, size_t part) {
 }
 
 /* Room for all parts, or for a share of it. What is not touched of a large array costs nothing. */
-static froe_status take_room(const tree_join *j, double share, tree_packer *out) {
+static froe_status new_packer(const tree_join *j, double share, tree_packer *out) {
     join_room all = {.nodes = j->steps.count};
     for (size_t i = 0; i < j->parts.count; i++) {
         const join_room *room = &j->parts.data[i].room;
@@ -53,7 +53,7 @@ static froe_status build_apart(void *user, unsigned worker, size_t part) {
     join_part *p = j->parts.data + part;
     tree_packer *packer = &j->workers[worker].packer;
     p->worker = worker;
-    froe_status status = packer->memory ? FROE_OK : take_room(j, 1.25 / j->worker_count, packer);
+    froe_status status = packer->memory ? FROE_OK : new_packer(j, 1.25 / j->worker_count, packer);
     if (!status) status = packer_begin(packer, &p->subtree);
     if (!status) status = j->fn(j->user, worker, part, packer, p->subtree.at.first);
     packer_end(packer, &p->subtree);
@@ -95,7 +95,7 @@ static void free_workers(tree_join *j) {
 froe_status join_run(tree_join *j, double span) {
     base_task *task = j->job->task;
     if (task->threads == 1 || j->parts.count == 1) {
-        froe_status status = take_room(j, 1, &j->tree);
+        froe_status status = new_packer(j, 1, &j->tree);
         return status ? status : base_run(task, span, j->parts.count, build_directly, j);
     }
     j->worker_count = base_workers(task, j->parts.count);
