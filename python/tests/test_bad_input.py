@@ -25,6 +25,13 @@ from froe.errors import (
 SEGMENTS = np.array([[0.0, 0, 2, 2], [0, 2, 2, 0], [5, 5, 6, 6]])
 
 
+class Masked:
+    """Something that becomes an array, of which an item has no value."""
+
+    def __array__(self, dtype=None):
+        return np.ma.masked_array(np.zeros((1, 4)), mask=[[0, 0, 1, 0]])
+
+
 @pytest.fixture
 def tree():
     return froe.segments(SEGMENTS).build()
@@ -52,6 +59,9 @@ def tree():
         ([[2**80, 0, 0, 0]], "object"),
         (np.ma.masked_array(np.zeros((1, 4)), mask=[[1, 0, 0, 0]]), "masked"),
         ([[0, 0, 1, 1], np.ma.masked_array(np.zeros(4), mask=[1, 0, 0, 0])], "masked"),
+        ([[[0, 0], np.ma.masked_array(np.zeros(2), mask=[1, 0])]], "masked"),
+        (([[0, 0], [1, 1]], (np.zeros(2), np.ma.masked_array(np.zeros(2), mask=[0, 1]))), "masked"),
+        (Masked(), "masked"),
     ],
 )
 def test_arrays_that_are_none(bad, word):

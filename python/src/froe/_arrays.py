@@ -20,14 +20,23 @@ EXACT = 2**53  # whole numbers up to this are doubles
 
 def plain(values: npt.ArrayLike, name: str) -> npt.NDArray[Any]:
     """An array of anything. Rows of different lengths make none, and masks are not passed over."""
-    parts = values if isinstance(values, (list, tuple)) else [values]
-    if any(isinstance(part, np.ma.MaskedArray) and np.asarray(part.mask).any() for part in parts):
-        raise ArrayError(f"{name} has masked items, which have no value.")
+    parts: list[Any] = list(values) if isinstance(values, (list, tuple)) else [values]
+    _refuse_masked(parts, name)
     try:
-        array: npt.NDArray[Any] = np.asarray(values)
+        found: npt.NDArray[Any] = np.asanyarray(values)
     except ValueError as error:
         raise ArrayError(f"{name} cannot become an array: {error}.") from None
+    _refuse_masked([found], name)  # an object may make one of itself
+    for _ in range(found.ndim - 2):  # lists of lists; in the innermost ones are numbers
+        parts = [inner for part in parts if isinstance(part, (list, tuple)) for inner in part]
+        _refuse_masked(parts, name)
+    array: npt.NDArray[Any] = np.asarray(found)
     return _of_columns(values, array, name) if array.dtype.kind == "O" and hasattr(values, "isna") else array
+
+
+def _refuse_masked(parts: list[Any], name: str) -> None:
+    if any(isinstance(part, np.ma.MaskedArray) and np.asarray(part.mask).any() for part in parts):
+        raise ArrayError(f"{name} has masked items, which have no value.")
 
 
 def _of_columns(values: Any, array: npt.NDArray[Any], name: str) -> npt.NDArray[Any]:
