@@ -198,6 +198,39 @@ def test_arrays_that_change_meanwhile():
     thread.join()
 
 
+def read_only(array):
+    view = array.view()
+    view.flags.writeable = False
+    return view
+
+
+def test_what_views_show_that_are_read_only_changes_meanwhile():
+    """A view that nothing can be written through may show what others write to."""
+    tree = froe.segments(short_segments(50000)).build()
+    ranges = windows(300000, 0.05)
+    expected, changing, begun = tree.count(ranges), ranges.copy(), []
+
+    def spoil(done):
+        begun.append(done)
+        changing[:] = np.nan
+
+    assert np.array_equal(tree.count(read_only(changing), threads=1, progress=spoil), expected)
+    assert begun and begun[0] < 1
+
+    random = np.random.default_rng(3)
+    corners, numbers = random.random((200000, 3)), random.integers(0, 200000, (200000, 3)).astype(np.uint32)
+    expected, changing, begun = froe.triangles(corners, numbers).arrays().corners, numbers.copy(), []
+
+    def spoil_numbers(done):
+        begun.append(done)
+        changing[:] = 2**32 - 2
+
+    scene = froe.Scene(3)
+    scene.add_triangles(corners, read_only(changing), progress=spoil_numbers)
+    assert np.array_equal(scene.arrays().corners, expected)
+    assert begun and begun[0] < 1
+
+
 def test_an_array_that_is_read_only_is_not_copied():
     ranges = windows(1000, 0.02)
     ranges.flags.writeable = False

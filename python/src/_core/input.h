@@ -2,7 +2,8 @@
  *
  * A call works on what the array held when it began: other threads may write into it meanwhile, and what froe has
  * checked must not change under it. So the items are copied, which takes far less time than any call, unless the array
- * is read-only: then it is used where it lies. */
+ * is read-only: then it is used where it lies. Views that are read-only while the array that they show is not, are
+ * copied by the package (src/froe/_arrays.py). */
 #ifndef FROE_CORE_INPUT_H
 #define FROE_CORE_INPUT_H
 #include "core.h"

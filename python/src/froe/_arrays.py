@@ -55,7 +55,9 @@ def _of_columns(values: Any, array: npt.NDArray[Any], name: str) -> npt.NDArray[
 
 
 def doubles(values: npt.ArrayLike, name: str) -> Doubles:
-    """An array of float64. One that already is is used as it is; others are copied if every number stays the same.
+    """An array of float64. One that already is is used as it is; others are copied if every number stays the same. The
+    extension copies what may be written to, and uses the rest where it lies: so views that are read-only, of memory
+    that need not be, are copied here.
 
     >>> doubles([1, 2], "values")
     array([1., 2.])
@@ -72,7 +74,16 @@ def doubles(values: npt.ArrayLike, name: str) -> Doubles:
         _refuse(given, _rounded(given, array), name)
     if array.size == 0:
         return np.empty(array.shape)  # one at an odd address counts as aligned
-    return np.require(array, np.float64, ["C", "A"])
+    return _settled(np.require(array, np.float64, ["C", "A"]))
+
+
+def _settled(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """An array that nothing else writes to while it is read-only."""
+    if array.flags.writeable or array.base is None:
+        return array
+    array = array.copy()
+    array.flags.writeable = False
+    return array
 
 
 def _converted(array: npt.NDArray[Any], name: str) -> Doubles:
@@ -143,7 +154,7 @@ def whole(values: npt.ArrayLike, name: str, kind: type[np.unsignedinteger[Any]])
     if bad.any():
         where = tuple(int(i) for i in np.argwhere(bad)[0])
         raise ArrayError(f"{name} has the number {array[where]} at {where}, which is not between 0 and {most}.")
-    return np.require(array, kind, ["C", "A"])
+    return _settled(np.require(array, kind, ["C", "A"]))
 
 
 def _listed(values: npt.ArrayLike, made: np.dtype[Any], name: str) -> npt.NDArray[Any]:

@@ -147,10 +147,12 @@ PyObject *core_ask_boxes(PyObject *self, PyObject *const *args, Py_ssize_t count
 }
 
 /* One window: the ids are copied, since they belong to the context. */
-static PyObject *ask_box(froe_query *query, const double *box) {
+static PyObject *ask_box(froe_query *query, const double *given, size_t count) {
+    double box[2 * FROE_MAX_DIM]; /* a view that is read-only may be of an array that other threads write to */
     froe_range range = froe_range_defaults();
     froe_list found;
     froe_diagnostic diag;
+    memcpy(box, given, count * sizeof *box);
     range.points = box;
     PyThreadState *saved = PyEval_SaveThread();
     const froe_status status = froe_query_range(query, &range, &found, &diag);
@@ -172,8 +174,8 @@ PyObject *core_ask_box(PyObject *self, PyObject *const *args, Py_ssize_t count) 
     const size_t dim = (size_t)froe_scene_dim(froe_tree_scene(core_tree_of(tree)));
     PyObject *answer = NULL;
     if (core_input_take(&box, args[0], "box", 'd', 2 * dim, false)) {
-        answer =
-            box.count == 1 ? ask_box(query, box.data) : core_fail_as("ArrayError", "One box has %zu numbers.", 2 * dim);
+        answer = box.count == 1 ? ask_box(query, box.data, 2 * dim)
+                                : core_fail_as("ArrayError", "One box has %zu numbers.", 2 * dim);
         core_input_give(&box);
     }
     core_tree_give(tree, query);
