@@ -25,6 +25,14 @@ from froe.errors import (
 SEGMENTS = np.array([[0.0, 0, 2, 2], [0, 2, 2, 0], [5, 5, 6, 6]])
 
 
+TREE = froe.segments(SEGMENTS).build()
+MOTION = froe.Motion(0, 10)
+
+
+def add_still(count, **about):
+    MOTION.add(np.zeros(count), np.zeros((count, 2)), range(count + 1), **about)
+
+
 class Masked:
     """Something that becomes an array, of which an item has no value."""
 
@@ -298,6 +306,32 @@ def test_bad_scenes(add, kind, word):
     assert len(scene) == 0
     scene.add_segments(SEGMENTS)
     assert len(scene) == 3
+
+
+@pytest.mark.parametrize(
+    "add, name, shape",
+    [
+        (lambda s: s.add_points(np.zeros((4, 2)), tags=[[1, 2], [3, 4]]), "tags", r"\(2, 2\)"),
+        (lambda s: s.add_points(np.zeros((4, 2)), tags=np.zeros((4, 1), int)), "tags", r"\(4, 1\)"),
+        (lambda s: s.add_points(np.zeros((1, 2)), tags=5), "tags", r"\(\)"),
+        (lambda s: s.add_points(np.zeros((4, 2)), faces=[[1, 2], [3, 4]]), "faces", r"\(2, 2\)"),
+        (lambda s: s.add_points(np.zeros((4, 2)), groups=[[1, 2], [3, 4]]), "groups", r"\(2, 2\)"),
+        (lambda s: s.add_balls(np.zeros((4, 2)), [[1, 2], [3, 4]]), "radii", r"\(2, 2\)"),
+        (lambda s: s.add_hulls(np.eye(2), [[0], [2]]), "starts", r"\(2, 1\)"),
+        (lambda s: s.add_polygons(np.eye(2), [[0, 2]]), "starts", r"\(1, 2\)"),
+        (lambda s: TREE.query(balls=(np.zeros((4, 2)), [[1, 2], [3, 4]])), "radii", r"\(2, 2\)"),
+        (lambda s: TREE.nearest_points([[0, 1]], np.zeros((2, 2))), "objects", r"\(1, 2\)"),
+        (lambda s: TREE.hit_places([[0], [1]], np.zeros((2, 2)), np.ones((2, 2))), "objects", r"\(2, 1\)"),
+        (lambda s: add_still(4, vertices=[[0, 1, 2, 3]]), "vertices", r"\(1, 4\)"),
+        (lambda s: add_still(4, births=[[0, 1]]), "births", r"\(1, 2\)"),
+        (lambda s: add_still(4, tags=[[0, 1]]), "tags", r"\(1, 2\)"),
+    ],
+)
+def test_arrays_that_have_one_number_for_each_have_one_axis(add, name, shape):
+    scene = froe.Scene(2)
+    with pytest.raises(ArrayError, match=rf"^{name} must have the shape \(n, ?2?\), and has {shape}\.$"):
+        add(scene)
+    assert len(scene) == len(MOTION) == 0
 
 
 def test_triangles_and_dimensions():

@@ -166,6 +166,19 @@ def _listed(values: npt.ArrayLike, made: np.dtype[Any], name: str) -> npt.NDArra
     return given
 
 
+def flat(array: npt.NDArray[Any], name: str) -> npt.NDArray[Any]:
+    """The array, which has one number for each of something.
+
+    >>> flat(np.zeros((2, 2)), "radii")
+    Traceback (most recent call last):
+        ...
+    froe.errors.ArrayError: radii must have the shape (n,), and has (2, 2).
+    """
+    if array.ndim != 1:
+        raise ArrayError(f"{name} must have the shape (n,), and has {array.shape}.")
+    return array
+
+
 def point(values: npt.ArrayLike, name: str, dim: int) -> Doubles:
     """One point of `dim` numbers."""
     array = doubles(values, name)

@@ -9,7 +9,7 @@ from typing import Any, Literal, NamedTuple, get_args
 import numpy as np
 import numpy.typing as npt
 
-from ._arrays import Doubles, doubles, point, rows
+from ._arrays import Doubles, doubles, flat, point, rows
 from .errors import ArrayError, OptionError, UnsupportedError
 
 BOX, BALL, CAPSULE, HULL, SEGMENT = 0, 1, 3, 5, 6  # froe_range_shape
@@ -103,7 +103,7 @@ def _round(shape: int, given: Any, name: str, width: int, dim: int) -> Ranges:
     radii = doubles(given[1], "radii")
     if radii.ndim == 0:
         radii = np.full(len(points), float(radii))
-    return Ranges(shape, points, None, radii)
+    return Ranges(shape, points, None, flat(radii, "radii"))
 
 
 def _hulls(hulls: Points, dim: int) -> Ranges:

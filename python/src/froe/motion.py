@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core
-from ._arrays import Doubles, Ids, Progress, doubles, point, rows, whole
+from ._arrays import Doubles, Ids, Progress, doubles, flat, point, rows, whole
 from ._words import counted
 from .errors import ArrayError
 from .scene import Scene, core_of
@@ -192,13 +192,19 @@ class Motion:
             whole(starts, "starts", np.uint64).ravel(),
             None if controls is None else rows(controls, "controls", self.dim, self.dim),
             None if second_controls is None else rows(second_controls, "second_controls", self.dim, self.dim),
-            None if vertices is None else whole(vertices, "vertices", np.uint32).ravel(),
-            None if bodies is None else whole(bodies, "bodies", np.uint32),
-            None if births is None else doubles(births, "births"),
-            None if deaths is None else doubles(deaths, "deaths"),
-            None if tags is None else whole(tags, "tags", np.uint64),
-            None if groups is None else whole(groups, "groups", np.uint32),
+            None if vertices is None else self._corners(whole(vertices, "vertices", np.uint32)),
+            None if bodies is None else flat(whole(bodies, "bodies", np.uint32), "bodies"),
+            None if births is None else flat(doubles(births, "births"), "births"),
+            None if deaths is None else flat(doubles(deaths, "deaths"), "deaths"),
+            None if tags is None else flat(whole(tags, "tags", np.uint64), "tags"),
+            None if groups is None else flat(whole(groups, "groups", np.uint32), "groups"),
         )
+
+    def _corners(self, vertices: npt.NDArray[np.uint32]) -> npt.NDArray[np.uint32]:
+        """One after the other; so may they be given."""
+        if vertices.ndim != 1 and (vertices.ndim != 2 or vertices.shape[1] != self.dim):
+            raise ArrayError(f"vertices must have the shape (n, {self.dim}), and has {vertices.shape}.")
+        return vertices.ravel()
 
     def add_body(
         self,

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core, _ranges
-from ._arrays import Doubles, Ids, Progress, doubles, rows, whole
+from ._arrays import Doubles, Ids, Progress, doubles, flat, rows, whole
 from ._ranges import Points, Relation, Round
 from .answers import Answers
 from .errors import ArrayError
@@ -342,7 +342,7 @@ class Questions:
         >>> tree.nearest_points([0], [[1, 2]]).tolist()
         [[1.0, 0.0]]
         """
-        ids = whole(objects, "objects", np.uint32)
+        ids = flat(whole(objects, "objects", np.uint32), "objects")
         return np.asarray(self._core.nearest_points(ids, self._rows(points, "points", 1), _ONE_THREAD, progress))
 
     @overload
@@ -424,7 +424,7 @@ class Questions:
         >>> [found.tolist() for found in tree.hit_places([0, 0], [[0, 0], [5, 0]], [[1, 0], [-1, 0]])]
         [[[2.0, 0.0], [2.0, 0.0]], [[-1.0, 0.0], [-1.0, 0.0]], [2.0, 3.0]]
         """
-        ids = whole(objects, "objects", np.uint32)
+        ids = flat(whole(objects, "objects", np.uint32), "objects")
         start, way = self._rows(origins, "origins", 1), self._rows(directions, "directions", 1)
         points, normals, distances = self._core.hit_places(ids, start, way, _ONE_THREAD, progress)
         return np.asarray(points), np.asarray(normals), np.asarray(distances)

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _core, _kinds
-from ._arrays import Doubles, Ids, Progress, doubles, rows, whole
+from ._arrays import Doubles, Ids, Progress, doubles, flat, rows, whole
 from ._words import counted
 from .errors import ArrayError, OptionError, UnsupportedError
 from .report import Report
@@ -228,7 +228,7 @@ class Scene:
         :param about: tags, groups and others, as the class says
         :cost: O(n) expected time
         """
-        self._add(_kinds.BALL, rows(centres, "centres", self.dim, self.dim), radii=doubles(radii, "radii"), **about)
+        self._add(_kinds.BALL, rows(centres, "centres", self.dim, self.dim), radii=flat(doubles(radii, "radii"), "radii"), **about)
 
     def add_hulls(self, points: npt.ArrayLike, starts: npt.ArrayLike, **about: Any) -> None:
         """Adds convex hulls. Hull ``i`` is the smallest convex set around ``points[starts[i]:starts[i + 1]]``.
@@ -238,7 +238,7 @@ class Scene:
         :param about: tags, groups and others, as the class says
         :cost: O(corners) expected time
         """
-        at = whole(starts, "starts", np.uint64)
+        at = flat(whole(starts, "starts", np.uint64), "starts")
         self._add(_kinds.HULL, rows(points, "points", self.dim, self.dim), starts=at, **about)
 
     def add_polygons(self, points: npt.ArrayLike, starts: npt.ArrayLike, **about: Any) -> None:
@@ -257,7 +257,7 @@ class Scene:
         >>> len(scene)
         1
         """
-        at = whole(starts, "starts", np.uint64)
+        at = flat(whole(starts, "starts", np.uint64), "starts")
         self._add(_kinds.POLYGON, rows(points, "points", self.dim, self.dim), starts=at, **about)
 
     def add_triangles(self, vertices: npt.ArrayLike, triangles: npt.ArrayLike | None = None, **about: Any) -> None:
@@ -306,9 +306,9 @@ class Scene:
             indices,
             starts,
             radii,
-            None if tags is None else whole(tags, "tags", np.uint64),
-            None if faces is None else whole(faces, "faces", np.uint32),
-            None if groups is None else whole(groups, "groups", np.uint32),
+            None if tags is None else flat(whole(tags, "tags", np.uint64), "tags"),
+            None if faces is None else flat(whole(faces, "faces", np.uint32), "faces"),
+            None if groups is None else flat(whole(groups, "groups", np.uint32), "groups"),
             group,
             threads,
             progress,
