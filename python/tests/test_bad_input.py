@@ -2,6 +2,8 @@
 
 import pickle
 import warnings
+from decimal import Decimal
+from fractions import Fraction
 
 import numpy as np
 import pandas
@@ -265,6 +267,44 @@ def test_bad_questions(tree, ask, kind, word):
     with pytest.raises(kind, match=word):
         ask(tree)
     assert tree.query([[0, 0, 9, 9]]).counts().tolist() == [3]
+
+
+LARGE = 2**53
+
+
+@pytest.mark.parametrize(
+    "call, name",
+    [
+        (lambda x: froe.points([[LARGE + 4, 0]]).build().nearest([[0, 0]], max_distance=x), "max_distance"),
+        (lambda x: TREE.ray([[0, 0]], [[1, 0]], x), "t_max"),
+        (lambda x: TREE.query(segments=[[0, 0, 1, 1]], eps=x), "eps"),
+        (lambda x: froe.Motion(0, x), "end"),
+        (lambda x: froe.Motion(x, 2.0**60), "begin"),
+        (lambda x: froe.Motion(0, 2.0**60, tick=x), "tick"),
+        (lambda x: MOTION.contacts(begin=x), "begin"),
+        (lambda x: MOTION.contacts(end=x), "end"),
+        (lambda x: MOTION.positions(x), "time"),
+        (lambda x: MOTION.without_bodies(x), "deviation"),
+        (lambda x: MOTION.kinetic().advance(x), "time"),
+        (lambda x: froe.read_poses("none.csv", froe.Scene(3), x, 1), "begin"),
+        (lambda x: froe.measure.directional(TREE.scene, x), "delta"),
+    ],
+)
+def test_numbers_beside_arrays_lose_nothing(call, name):
+    for number in (LARGE + 3, Fraction(1, 3), Decimal("0.1"), np.longdouble(1) / 3, 10**400):
+        with pytest.raises(ArrayError, match=rf"^{name} is .*, which float64 cannot hold\.$"):
+            call(number)
+    for other in (None, "1", np.array([1.0, 2]), 1j, []):
+        with pytest.raises(ArrayError, match=rf"^{name} is .*, and must be a number\.$"):
+            call(other)
+
+
+def test_numbers_beside_arrays_of_any_type():
+    fives = (5, 5.0, np.float32(5), np.int8(5), np.longdouble(5), Fraction(5), Decimal(5), np.array(5))
+    for far in (*fives, np.inf, np.float32(np.inf)):
+        assert TREE.nearest([[2, 5]], max_distance=far)[0].tolist() == [0]
+    with pytest.raises(InputError, match="nan"):
+        TREE.nearest([[0, 0]], max_distance=Decimal("nan"))
 
 
 def test_which_question_is_bad(tree):

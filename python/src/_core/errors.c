@@ -79,6 +79,28 @@ bool core_long(PyObject *object, const char *name, uint64_t *out) {
     return core_fail(FROE_E_ARG, "%s is %S, and must be between 0 and 2^64 - 1.", name, object);
 }
 
+/* Is the number this double, and not only near it? */
+static bool is_double(PyObject *object, double value) {
+    PyObject *made = PyFloat_FromDouble(value);
+    const int same = made ? PyObject_RichCompareBool(object, made, Py_EQ) : -1;
+    Py_XDECREF(made);
+    return same == 1;
+}
+
+bool core_double(PyObject *object, const char *name, double *out) {
+    *out = PyFloat_AsDouble(object);
+    const bool large = PyErr_Occurred() && PyErr_ExceptionMatches(PyExc_OverflowError);
+    if (PyErr_Occurred() && !large) {
+        if (!PyErr_ExceptionMatches(PyExc_TypeError)) return false;
+        PyErr_Clear();
+        return core_fail_as("ArrayError", "%s is %R, and must be a number.", name, object);
+    }
+    if (!large && (PyFloat_CheckExact(object) || *out != *out || is_double(object, *out))) return true;
+    if (PyErr_Occurred() && !large) return false;
+    PyErr_Clear();
+    return core_fail_as("ArrayError", "%s is %S, which float64 cannot hold.", name, object);
+}
+
 const char *core_text(PyObject *object, const char *name) {
     Py_ssize_t length;
     if (!PyUnicode_Check(object)) return (const char *)core_fail_as("ArrayError", "%s must be a str.", name);

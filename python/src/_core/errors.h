@@ -15,6 +15,8 @@ bool core_arguments(const char *function, Py_ssize_t given, Py_ssize_t wanted);
 bool core_unsigned(PyObject *object, const char *name, uint32_t most, uint32_t *out);
 /** A whole number from 0 to 2^64 - 1. */
 bool core_long(PyObject *object, const char *name, uint64_t *out);
+/** A number that float64 has, NaN and infinity as well. */
+bool core_double(PyObject *object, const char *name, double *out);
 /** Anything that is true or false. */
 bool core_flag(PyObject *object, bool *out);
 /** A str in UTF-8 without the character 0, which lives as long as the object; NULL: an exception is set. */

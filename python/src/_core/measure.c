@@ -106,8 +106,9 @@ PyObject *core_measure_clutter(PyObject *self, PyObject *const *args, Py_ssize_t
 PyObject *core_measure_directional(PyObject *self, PyObject *const *args, Py_ssize_t count) {
     measuring m;
     froe_directional d;
-    const double delta = count ? PyFloat_AsDouble(args[0]) : 0;
-    if (PyErr_Occurred() || !begin(&m, self, "directional", args, count, 5)) return NULL;
+    double delta = 0;
+    if ((count && !core_double(args[0], "delta", &delta)) || !begin(&m, self, "directional", args, count, 5))
+        return NULL;
     run(&m);
     if (!end(&m, froe_measure_directional(m.scene, delta, &m.options, &d, &m.call.diag))) return NULL;
     return Py_BuildValue("{s:d,s:K,s:N,s:N,s:N,s:N}", "delta", d.delta, "count", (unsigned long long)d.count, "simple",

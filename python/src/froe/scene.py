@@ -228,7 +228,8 @@ class Scene:
         :param about: tags, groups and others, as the class says
         :cost: O(n) expected time
         """
-        self._add(_kinds.BALL, rows(centres, "centres", self.dim, self.dim), radii=flat(doubles(radii, "radii"), "radii"), **about)
+        each = flat(doubles(radii, "radii"), "radii")
+        self._add(_kinds.BALL, rows(centres, "centres", self.dim, self.dim), radii=each, **about)
 
     def add_hulls(self, points: npt.ArrayLike, starts: npt.ArrayLike, **about: Any) -> None:
         """Adds convex hulls. Hull ``i`` is the smallest convex set around ``points[starts[i]:starts[i + 1]]``.

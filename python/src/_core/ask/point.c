@@ -16,10 +16,11 @@ PyObject *core_ask_near(PyObject *self, PyObject *const *args, Py_ssize_t count)
     core_ask ask;
     PyObject *answer = NULL;
     uint32_t k;
+    double bound;
     if (!core_ask_begin(&ask, self, "near", args, count, 5)) return NULL;
     const core_input *points = &ask.in[0];
-    const double bound = PyFloat_AsDouble(args[2]);
-    if (!PyErr_Occurred() && core_unsigned(args[1], "k", UINT32_MAX, &k) && core_ask_points(&ask, args[0])) {
+    if (core_double(args[2], "max_distance", &bound) && core_unsigned(args[1], "k", UINT32_MAX, &k) &&
+        core_ask_points(&ask, args[0])) {
         froe_answers answers;
         core_ask_run(&ask);
         const froe_status status =

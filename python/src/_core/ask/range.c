@@ -49,8 +49,7 @@ static bool check_starts(const core_ask *ask, size_t *count) {
 static bool take_ranges(core_ask *ask, range_batch *b, PyObject *const *args) {
     uint32_t shape, walk;
     b->like = froe_range_defaults();
-    b->like.eps = PyFloat_AsDouble(args[4]);
-    if (PyErr_Occurred() || !core_unsigned(args[0], "shape", FROE_SHAPE_COUNT - 1, &shape) ||
+    if (!core_double(args[4], "eps", &b->like.eps) || !core_unsigned(args[0], "shape", FROE_SHAPE_COUNT - 1, &shape) ||
         !core_unsigned(args[5], "walk", FROE_WALK_COUNT - 1, &walk))
         return false;
     b->like.shape = (froe_range_shape)shape;

@@ -57,10 +57,11 @@ PyObject *core_ask_rays(PyObject *self, PyObject *const *args, Py_ssize_t count)
     static PyObject *(*const modes[])(core_ask *, double) = {ask_first, ask_all, ask_any};
     core_ask ask;
     uint32_t mode;
+    double t_max;
     PyObject *answer = NULL;
     if (!core_ask_begin(&ask, self, "rays", args, count, 6)) return NULL;
-    const double t_max = PyFloat_AsDouble(args[3]);
-    if (!PyErr_Occurred() && core_unsigned(args[0], "mode", 2, &mode) && take_rays(&ask, args[1], args[2]))
+    if (core_double(args[3], "t_max", &t_max) && core_unsigned(args[0], "mode", 2, &mode) &&
+        take_rays(&ask, args[1], args[2]))
         answer = modes[mode](&ask, t_max);
     core_ask_end(&ask);
     return answer;

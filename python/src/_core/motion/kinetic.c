@@ -94,11 +94,11 @@ static PyObject *events_object(core_pile *pile) {
 /* advance(time, progress): events */
 static PyObject *advance(PyObject *object, PyObject *const *args, Py_ssize_t count) {
     core_kinetic *self = (core_kinetic *)object;
-    if (!core_arguments("advance", count, 2)) return NULL;
-    const double time = PyFloat_AsDouble(args[0]);
+    double time;
     core_pile pile = {0};
     core_call call;
-    if (PyErr_Occurred() || !begin(self, &call, args[1])) return NULL;
+    if (!core_arguments("advance", count, 2) || !core_double(args[0], "time", &time) || !begin(self, &call, args[1]))
+        return NULL;
     call.pile = &pile;
     const froe_status status = froe_kinetic_advance(self->kinetic, time, take_event, &pile, &call.diag);
     if (end(self, &call, status)) return events_object(&pile);

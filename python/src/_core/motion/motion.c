@@ -43,12 +43,11 @@ static PyObject *new_motion(PyObject *module, PyObject *const *args, Py_ssize_t 
     (void)module;
     froe_motion_options options = froe_motion_defaults();
     uint32_t dim;
-    if (!core_arguments("motion", count, 4) || !core_unsigned(args[0], "dim", UINT32_MAX, &dim)) return NULL;
+    if (!core_arguments("motion", count, 4) || !core_unsigned(args[0], "dim", UINT32_MAX, &dim) ||
+        !core_double(args[1], "begin", &options.begin) || !core_double(args[2], "end", &options.end) ||
+        !core_double(args[3], "tick", &options.tick))
+        return NULL;
     options.dim = dim;
-    options.begin = PyFloat_AsDouble(args[1]);
-    options.end = PyErr_Occurred() ? 0 : PyFloat_AsDouble(args[2]);
-    options.tick = PyErr_Occurred() ? 0 : PyFloat_AsDouble(args[3]);
-    if (PyErr_Occurred()) return NULL;
     froe_motion *motion;
     froe_diagnostic diag;
     const froe_status status = froe_motion_new(&options, &core_allocator, &motion, &diag);
@@ -187,11 +186,10 @@ static PyObject *contacts(PyObject *object, PyObject *const *args, Py_ssize_t co
     core_motion *self = (core_motion *)object;
     froe_contact_options options = froe_contact_defaults();
     if (!core_arguments("contacts", count, 6) || !core_flag(args[2], &options.first) ||
-        !core_flag(args[3], &options.apart) || !core_unsigned(args[4], "threads", UINT32_MAX, &options.threads))
+        !core_flag(args[3], &options.apart) || !core_unsigned(args[4], "threads", UINT32_MAX, &options.threads) ||
+        !core_double(args[0], "begin", &options.from) || !core_double(args[1], "end", &options.to) ||
+        !core_motion_take(self))
         return NULL;
-    options.from = PyFloat_AsDouble(args[0]);
-    options.to = PyErr_Occurred() ? 0 : PyFloat_AsDouble(args[1]);
-    if (PyErr_Occurred() || !core_motion_take(self)) return NULL;
     core_pile pile = {0};
     core_call call;
     core_call_begin(&call, args[5]);
@@ -223,9 +221,9 @@ static PyObject *counts(PyObject *object, PyObject *const *args, Py_ssize_t coun
 /* positions(time): of every vertex; NaN where its plan does not cover the time */
 static PyObject *positions(PyObject *object, PyObject *const *args, Py_ssize_t count) {
     core_motion *self = (core_motion *)object;
-    if (!core_arguments("positions", count, 1)) return NULL;
-    const double time = PyFloat_AsDouble(args[0]);
-    if (PyErr_Occurred() || !core_motion_take(self)) return NULL;
+    double time;
+    if (!core_arguments("positions", count, 1) || !core_double(args[0], "time", &time) || !core_motion_take(self))
+        return NULL;
     const size_t vertices = froe_motion_vertex_count(self->motion), dim = self->dim;
     double *at = core_allocate(vertices, dim * sizeof *at);
     for (size_t v = 0; at && v < vertices; v++)
@@ -238,12 +236,12 @@ static PyObject *positions(PyObject *object, PyObject *const *args, Py_ssize_t c
 /* without_bodies(deviation): (a motion, a bound of how far its vertices are off) */
 static PyObject *without_bodies(PyObject *object, PyObject *const *args, Py_ssize_t count) {
     core_motion *self = (core_motion *)object;
-    if (!core_arguments("without_bodies", count, 1)) return NULL;
-    const double deviation = PyFloat_AsDouble(args[0]);
     froe_motion *made = NULL;
-    double reached = 0;
+    double deviation, reached = 0;
     core_call call;
-    if (PyErr_Occurred() || !core_motion_take(self)) return NULL;
+    if (!core_arguments("without_bodies", count, 1) || !core_double(args[0], "deviation", &deviation) ||
+        !core_motion_take(self))
+        return NULL;
     core_call_begin(&call, Py_None);
     const bool done = core_call_end(
         &call, froe_motion_without_bodies(self->motion, deviation, &core_allocator, &made, &reached, &call.diag));

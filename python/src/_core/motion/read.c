@@ -23,9 +23,8 @@ static PyObject *read_motion(PyObject *module, PyObject *const *args, Py_ssize_t
 static bool take_poses(PyObject *const *args, core_scene **model, froe_motion_read_options *options, PyObject **path) {
     *options = froe_motion_read_defaults();
     options->alloc = &core_allocator;
-    options->from = PyFloat_AsDouble(args[2]);
-    options->to = PyErr_Occurred() ? 0 : PyFloat_AsDouble(args[3]);
-    return !PyErr_Occurred() && (*model = core_scene_from(args[1])) && PyUnicode_FSConverter(args[0], path);
+    return core_double(args[2], "begin", &options->from) && core_double(args[3], "end", &options->to) &&
+           (*model = core_scene_from(args[1])) && PyUnicode_FSConverter(args[0], path);
 }
 
 /* read_poses(path, scene of the model, begin, end) */
