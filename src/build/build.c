@@ -215,8 +215,13 @@ static froe_status build_by_method(froe_scene *scene, const froe_build_options *
     base_task_init(&task, o.threads, o.progress, o.user);
     status = prepare_in_any_locale(&o, method, tuned, &job);
     if (!status && !base_progress(&task, 0)) status = support_fail_cancelled(diag);
-    if (!status) status = method->build(&job, out);
-    if (!status) base_progress(&task, 1);
+    froe_tree *tree = NULL;
+    if (!status) status = method->build(&job, &tree);
+    if (!status && !base_progress(&task, 1)) {
+        froe_tree_free(tree);
+        status = support_fail_cancelled(diag);
+    }
+    if (!status) *out = tree;
     return status;
 }
 

@@ -337,7 +337,7 @@ static froe_status check_all(audit *a) {
                                 "promise '%s': It is said to be measured as %.17g, but is %.17g.", p->name, p->measured,
                                 again);
     }
-    if (!status) base_progress(a->task, 1);
+    if (!status && !base_progress(a->task, 1)) return support_fail_cancelled(a->diag);
     return status;
 }
 
