@@ -20,7 +20,7 @@ static froe_status fail_at_corner(const scene_adding *a, size_t corner, int axis
     const char *kind = froe_kind_name(a->batch->kind);
     if (axis < 0)
         return support_fail_at(a->diag, FROE_E_INPUT, (uint32_t)lo, (uint32_t)i, FROE_NONE,
-                               "corner %zu of %s %zu: There is no point %g.", i, kind, lo, value);
+                               "corner %zu of %s %zu: There is no point %.0f.", i, kind, lo, value);
     return support_fail_at(a->diag, FROE_E_INPUT, (uint32_t)lo, (uint32_t)i, (uint32_t)axis,
                            "corner %zu of %s %zu: Coordinate %d is %g, not a finite number.", i, kind, lo, axis, value);
 }

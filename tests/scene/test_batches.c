@@ -134,6 +134,9 @@ static void indices_and_starts_select_corners(void **state) {
     froe_diagnostic diag = refuse(s, b, FROE_E_INPUT);
     assert_int_equal(diag.object, 1);
     assert_int_equal(diag.corner, 1);
+    assert_string_equal(diag.message, "corner 1 of hull 1: There is no point 3.");
+    b.indices = (const uint32_t[]){0, 1, 0, 1, 2, 1234567, 0};
+    assert_string_equal(refuse(s, b, FROE_E_INPUT).message, "corner 0 of hull 1: There is no point 1234567.");
     froe_scene_free(s);
 }
 
