@@ -607,6 +607,8 @@ def test_arguments_of_other_kinds():
     for measure in (froe.measure.defects, froe.measure.fatness, froe.measure.density, froe.measure.clutter):
         with pytest.raises(TypeError, match="scene is <froe.Tree: .*>, and must be a froe.Scene"):
             measure(tree)
+    with pytest.raises(TypeError, match="scene is <froe.Tree: .*>, and must be a froe.Scene"):
+        froe.compare(tree, ["kd"])
     with pytest.raises(TypeError, match="scene is None, and must be a froe.Scene"):
         froe.measure.directional(None)
     with pytest.raises(TypeError, match="model is <froe.Tree: .*>, and must be a froe.Scene"):

@@ -513,6 +513,7 @@ def compare(scene: Scene, methods: Sequence[str], **options: Any) -> dict[str, R
     3
     """
     found = {}
+    core_of(scene, "scene")
     for method in methods:
         try:
             with scene.build(method, **options) as tree:
