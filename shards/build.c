@@ -130,6 +130,7 @@ froe_status froe_shards_add(froe_shards_builder *b, const froe_objects *batch, f
     if (!b || !batch) return support_fail_null(diag, __func__);
     if (b->failed) return fail_again(b, diag);
     if (b->scene) return support_fail(diag, FROE_E_ARG, "A scene is all that this folder is made of.");
+    if (batch->size != sizeof *batch) return support_fail_defaults(diag, "froe_objects_defaults");
     if (batch->groups || batch->group != FROE_NONE)
         return support_fail(diag, FROE_E_UNSUPPORTED, "A folder of shards takes objects with groups as a scene alone.");
     b->batch.count = 0;

@@ -445,6 +445,8 @@ static void builders_are_checked(void **state) {
     batch.kind = FROE_SEGMENT, batch.count = 1, batch.coords = corners;
     NULLS(froe_shards_add(NULL, &batch, &why));
     NULLS(froe_shards_add(builder, NULL, &why));
+    const froe_objects none = {0};
+    expect(froe_shards_add(builder, &none, &why), FROE_E_OPTIONS, "froe_objects_defaults");
     batch.group = 0;
     expect(froe_shards_add(builder, &batch, &why), FROE_E_UNSUPPORTED, "roups");
     static const uint32_t groups[] = {0};
