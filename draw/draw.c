@@ -158,7 +158,8 @@ static size_t count_outside(const draw_picture *picture, const froe_draw_options
 static froe_status make(const froe_tree *tree, froe_draw_format format, const froe_draw_options *given,
                         draw_output *output, froe_diagnostic *diag) {
     froe_draw_options o = given ? *given : froe_draw_defaults();
-    *output = (draw_output){.alloc = support_allocator(o.alloc)};
+    const bool sized = o.size == sizeof o; /* otherwise its pointers may lead nowhere */
+    *output = (draw_output){.alloc = support_allocator(sized ? o.alloc : NULL)};
     int dim = froe_scene_dim(froe_tree_scene(tree));
     froe_status status = check_options(&o, dim, diag);
     if (status == FROE_OK) status = froe_tree_check(tree, diag);

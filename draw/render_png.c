@@ -37,9 +37,9 @@ froe_status froe_render_png(const froe_tree *tree, const char *path, const froe_
     SUPPORT_FLOATS_OWN;
     const froe_render_options standard = froe_render_defaults(), *o = options ? options : &standard;
     froe_render_report found;
-    draw_output output = {.alloc = support_allocator(o->alloc)};
     if (!tree || !path) return support_fail_null(diag, __func__);
     if (o->size != sizeof *o) return support_fail_defaults(diag, "froe_render_defaults");
+    draw_output output = {.alloc = support_allocator(o->alloc)};
     /* What froe_render_paths() leaves to its caller: the size in pixels. */
     const struct {
         const char *name;

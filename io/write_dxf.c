@@ -145,6 +145,7 @@ froe_status froe_render_dxf(const froe_tree *tree, const char *path, const froe_
     froe_render_report found;
     double steps = 1;
     if (!tree || !path) return support_fail_null(diag, __func__);
+    if (o.size != sizeof o) return support_fail_defaults(diag, "froe_render_defaults");
     o.shading = FROE_SHADE_NONE;
     o.interleaved = false;
     dxf_drawing d = {

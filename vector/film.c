@@ -49,6 +49,7 @@ froe_status froe_film_cameras(const froe_motion *motion, const froe_camera *came
                               froe_camera *cameras, froe_diagnostic *diag) {
     SUPPORT_FLOATS_OWN;
     if (!motion || !camera || !cameras || !count) return support_fail_null(diag, __func__);
+    if (camera->size != sizeof *camera) return support_fail_defaults(diag, "froe_camera_defaults");
     if (froe_motion_window(motion).dim != 3)
         return support_fail(diag, FROE_E_UNSUPPORTED, "The motion is of the plane, and has no hidden surfaces.");
     for (size_t i = 0; i < count; i++) cameras[i] = *camera;
@@ -410,6 +411,7 @@ froe_status froe_film(const froe_motion *motion, const char *path, const froe_re
     if (!motion || !path) return support_fail_null(diag, __func__);
     if (strcmp(support_path_extension(path).text, "svg") != 0)
         return support_fail_ending(diag, FROE_E_OPTIONS, path, "animations", ".svg");
+    if (options && options->size != sizeof *options) return support_fail_defaults(diag, "froe_render_defaults");
     froe_status status = support_writer_open(&file, path, options ? options->alloc : NULL, diag);
     if (status) return status;
     status = froe_film_write(motion, put_to_film, &file, options, film, report, diag);

@@ -66,6 +66,7 @@ froe_status froe_camera_turns(const froe_camera *camera, size_t count, double *t
     double axis[3] = {0}, half[2];
     if (!camera || !count || !turns)
         return support_fail(diag, FROE_E_ARG, "An argument of froe_camera_turns is NULL or 0.");
+    if (camera->size != sizeof *camera) return support_fail_defaults(diag, "froe_camera_defaults");
     const froe_status status = find_axis(camera, axis, diag);
     for (size_t i = 0; i <= count && !status; i++) {
         half_angle(i < count ? i : 0, count, half);
@@ -80,6 +81,7 @@ froe_status froe_camera_turn(const froe_camera *camera, const froe_scene *scene,
     BASE_FLOATS_OWN;
     if (!camera || !scene || !cameras || !count)
         return support_fail(diag, FROE_E_ARG, "An argument of froe_camera_turn is NULL or 0.");
+    if (camera->size != sizeof *camera) return support_fail_defaults(diag, "froe_camera_defaults");
     double middle[3] = {0, 0, 0}, axis[3] = {0}, half[2], way[3], distance = 0, scale = INFINITY;
     const froe_status aimed = find_axis(camera, axis, diag);
     if (aimed) return aimed;

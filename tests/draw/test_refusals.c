@@ -63,6 +63,8 @@ static void options_out_of_range_are_refused_by_name(void **state) {
     REFUSED(flat, title, "\xff\xfe", "UTF-8");
     o = good, o.accented_count = 1;
     assert_int_equal(draw(flat, "no.svg", &o, "accented"), FROE_E_OPTIONS);
+    memset(&o, 0xA5, sizeof o); /* pointers that lead nowhere are not followed */
+    assert_int_equal(draw(flat, "no.svg", &o, "froe_draw_defaults"), FROE_E_OPTIONS);
 #undef REFUSED
     o = good;
     o.width = 30000;

@@ -178,8 +178,9 @@ static void pixels_out_of_range_are_refused_by_name(void **state) {
     o.pixels = 64;
     assert_int_equal(froe_render_png(tree, "none.png", &o, NULL, &why), FROE_E_OPTIONS);
     assert_non_null(strstr(why.message, "'width'"));
-    o.size = 1;
+    memset(&o, 0xA5, sizeof o); /* pointers that lead nowhere are not followed */
     assert_int_equal(froe_render_png(tree, "none.png", &o, NULL, &why), FROE_E_OPTIONS);
+    assert_non_null(strstr(why.message, "froe_render_defaults"));
     assert_int_equal(froe_render_png(tree, NULL, NULL, NULL, &why), FROE_E_ARG);
     assert_null(fopen("none.png", "rb"));
     froe_tree_free(tree);

@@ -296,6 +296,18 @@ static void a_gdal_without_the_driver_is_told(void **state) {
     froe_tree_free(tree);
 }
 
+static void options_that_are_none_are_refused(void **state) {
+    (void)state;
+    froe_tree *tree = boxes();
+    froe_diagnostic why;
+    froe_render_options o;
+    memset(&o, 0xA5, sizeof o); /* pointers that lead nowhere are not followed */
+    assert_int_equal(froe_render_dxf(tree, "none.dxf", &o, NULL, &why), FROE_E_OPTIONS);
+    assert_non_null(strstr(why.message, "froe_render_defaults"));
+    assert_null(fopen("none.dxf", "rb"));
+    froe_tree_free(tree);
+}
+
 static void the_same_bytes_again(void **state) {
     (void)state;
     froe_tree *tree = boxes();
@@ -349,6 +361,7 @@ int main(void) {
         cmocka_unit_test(any_name_becomes_one_of_dxf),
         cmocka_unit_test(dashes_are_types_of_lines),
         cmocka_unit_test(a_gdal_without_the_driver_is_told),
+        cmocka_unit_test(options_that_are_none_are_refused),
         cmocka_unit_test(the_same_bytes_again),
         cmocka_unit_test(bad_options_leave_no_file),
         cmocka_unit_test(every_allocation_may_fail),

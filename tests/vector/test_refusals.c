@@ -38,6 +38,8 @@ static void films_are_checked(void **state) {
     NULLS(froe_film_cameras(space, cameras, false, 1, NULL, &why));
     NULLS(froe_film_cameras(space, cameras, false, 0, cameras, &why));
     expect(froe_film_cameras(plane, cameras, false, 1, cameras, &why), FROE_E_UNSUPPORTED, "plane");
+    cameras[0].size = 0, cameras[0].fit = false;
+    REFUSED(froe_film_cameras(space, cameras, false, 1, cameras, &why), "froe_camera_defaults");
     NULLS(froe_film(NULL, "film.svg", NULL, NULL, NULL, &why));
     NULLS(froe_film(space, NULL, NULL, NULL, NULL, &why));
     NULLS(froe_film_write(NULL, take_bytes, NULL, NULL, NULL, NULL, &why));
@@ -58,6 +60,8 @@ static void films_are_checked(void **state) {
     f = froe_film_defaults(), f.size = 1;
     REFUSED(froe_film(space, "film.svg", NULL, &f, NULL, &why), "froe_film_defaults");
     o.size = 1;
+    REFUSED(froe_film(space, "film.svg", &o, NULL, NULL, &why), "froe_render_defaults");
+    memset(&o, 0xA5, sizeof o); /* pointers that lead nowhere are not followed */
     REFUSED(froe_film(space, "film.svg", &o, NULL, NULL, &why), "froe_render_defaults");
     for (int i = 0; i < 3; i++) {
         o = froe_render_defaults();

@@ -135,6 +135,12 @@ static void turntables_are_checked(void **state) {
     NULLS(froe_camera_turn(&c, NULL, 2, out, &why));
     NULLS(froe_camera_turn(&c, s.tree->scene, 2, NULL, &why));
     NULLS(froe_camera_turn(&c, s.tree->scene, 0, out, &why));
+    const froe_camera none = {0};
+    expect(froe_camera_turns(&none, 2, turns, &why), FROE_E_OPTIONS, "froe_camera_defaults");
+    expect(froe_camera_turn(&none, s.tree->scene, 2, out, &why), FROE_E_OPTIONS, "froe_camera_defaults");
+    c.size++;
+    expect(froe_camera_turns(&c, 2, turns, &why), FROE_E_OPTIONS, "froe_camera_defaults");
+    c.size--;
     for (int i = 0; i < 3; i++) {
         c.up[2] = (const double[]){0, NAN, INFINITY}[i];
         expect(froe_camera_turns(&c, 2, turns, &why), FROE_E_ARG, "axis");
