@@ -80,6 +80,9 @@ static froe_status check_options(const froe_draw_options *o, int dim, froe_diagn
     if (o->style != FROE_DRAW_AUTO && (o->style == FROE_DRAW_FLAT) != (dim == 2))
         return support_fail(diag, FROE_E_OPTIONS, "Style '%s' does not suit a tree of dimension %d.",
                             froe_draw_style_name(o->style), dim);
+    if (o->background > 0xFFFFFF && o->background < FROE_DRAW_BY_FORMAT)
+        return support_fail(diag, FROE_E_OPTIONS, "option 'background': The colour 0x%X is not like 0xRRGGBB.",
+                            o->background);
     if (o->show > 15) return support_fail(diag, FROE_E_OPTIONS, "option 'show': It has unknown bits.");
     if (!all_finite(o->lo, 3) || !all_finite(o->hi, 3) || !all_finite(o->view, 3))
         return support_fail(diag, FROE_E_OPTIONS, "The window and the direction of view must be finite.");

@@ -61,6 +61,9 @@ froe_status vector_check(const froe_scene *scene, const froe_render_options *o, 
     froe_status status = check_in_range(ranges, sizeof ranges / sizeof *ranges, diag);
     if (!status) status = vector_check_lines(o, diag);
     if (status) return status;
+    if (o->background > 0xFFFFFF && o->background < FROE_DRAW_BY_FORMAT)
+        return support_fail(diag, FROE_E_OPTIONS, "option 'background': The colour 0x%X is not like 0xRRGGBB.",
+                            o->background);
     if (o->seams == FROE_SEAMS_TWICE && o->interleaved)
         return support_fail(diag, FROE_E_OPTIONS,
                             "Shapes with lines among them cannot be painted twice. Other seams paint them once.");

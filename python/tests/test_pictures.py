@@ -61,6 +61,7 @@ def test_saved_pictures(space, tmp_path):
         ({"shading": "glossy"}, OptionError, "glossy"),
         ({"lines": ["dotted"]}, OptionError, "dotted"),
         ({"background": "blue"}, OptionError, "blue"),
+        ({"background": 0xFF0000FF}, OptionError, "0xFF0000FF is not like 0xRRGGBB"),
         ({"colour": 5}, OptionError, "colour"),
         ({"eye": (1, 2)}, ArrayError, "eye"),
         ({"eye": (0, 0, 0)}, ArgumentError, "no direction"),

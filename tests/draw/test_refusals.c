@@ -43,6 +43,7 @@ static void options_out_of_range_are_refused_by_name(void **state) {
     REFUSED(flat, style, FROE_DRAW_STYLE_COUNT, "style");
     REFUSED(flat, style, (froe_draw_style)-1, "style");
     REFUSED(flat, show, 16, "show");
+    REFUSED(flat, background, 0xFF0000FF, "0xFF0000FF is not like 0xRRGGBB");
     REFUSED(flat, width, 0, "width");
     REFUSED(flat, width, 0.0 / 0.0, "width");
     REFUSED(flat, width, 1e300, "width");

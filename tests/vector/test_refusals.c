@@ -68,6 +68,8 @@ static void films_are_checked(void **state) {
         o.layers = i == 0, o.interleaved = i == 1, o.seams = i == 2 ? FROE_SEAMS_TWICE : o.seams;
         REFUSED(froe_film(space, "film.svg", &o, NULL, NULL, &why), "no layers");
     }
+    o = froe_render_defaults(), o.background = 0xFF0000FF;
+    REFUSED(froe_film(space, "film.svg", &o, NULL, NULL, &why), "is not like 0xRRGGBB");
     assert_int_not_equal(access("film.svg", F_OK), 0);
     froe_motion_free(plane), froe_motion_free(space);
 }
@@ -100,6 +102,13 @@ static void pictures_are_checked(void **state) {
         assert_int_not_equal(froe_render_paths(tree, numbers[i], take_path, NULL, NULL, NULL, NULL), FROE_OK);
         assert_int_not_equal(froe_render_animation(tree, "picture.svg", NULL, &camera, 1, numbers[i], NULL, NULL),
                              FROE_OK);
+    }
+    static const uint32_t colours[] = {0x1000000, 0xFF0000FF, FROE_DRAW_BY_FORMAT - 1};
+    for (int i = 0; i < 3; i++) {
+        froe_render_options o = froe_render_defaults();
+        o.background = colours[i];
+        REFUSED(froe_render(tree, "picture.svg", &o, NULL, &why), "is not like 0xRRGGBB");
+        REFUSED(froe_render_animation(tree, "picture.svg", &o, &camera, 1, 1, NULL, &why), "is not like 0xRRGGBB");
     }
     assert_int_not_equal(access("picture.svg", F_OK), 0);
     assert_int_equal(froe_render(tree, "picture.svg", NULL, NULL, &why), FROE_OK); /* all the same */
