@@ -5,7 +5,7 @@
  *
  *     froe_measure_options o = froe_measure_defaults();
  *     froe_density density;
- *     froe_measure_density(scene, &o, &density, NULL);     // density.lower <= lambda <= density.upper
+ *     froe_measure_density(scene, FROE_SIZE_RADIUS, &o, &density, NULL);   // density.lower <= lambda <= density.upper
  *
  * Bounds that are called certified hold exactly for the doubles of the scene; distributions are computed in
  * doubles. Where a scene has more objects than `samples`, a random sample of so many is used, the same for the
