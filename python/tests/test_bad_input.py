@@ -8,8 +8,12 @@ from fractions import Fraction
 import numpy as np
 import pandas
 import pytest
+from matplotlib import pyplot
 
 import froe
+import froe.mpl
+from froe.compat.shapely import STRtree
+from froe.compat.trimesh import Ray
 from froe.errors import (
     ArgumentError,
     ArrayError,
@@ -596,6 +600,52 @@ def test_polygons_of_pyvista_with_negative_counts():
     mesh.faces = [0, 0, 0]
     with pytest.raises(ValueError, match="Polygon 0 of the mesh has 0 corners"):
         froe.from_pyvista(mesh)
+
+
+class Square:
+    """As meshes of trimesh and of pyvista are."""
+
+    def __init__(self, places, faces):
+        self.vertices = self.points = places
+        self.faces = faces
+
+
+FLAT = np.array([[0.0, 0, 0], [4, 0, 0], [4, 4, 0]])
+
+
+@pytest.mark.parametrize(
+    "lost, word",
+    [
+        (np.array([[2**53 + 1, 0, 0], [4, 0, 0], [4, 4, 0]]), "9007199254740993"),
+        (np.ma.masked_array(FLAT, mask=FLAT == 4), "masked"),
+        (FLAT + 1j, "complex"),
+        (FLAT.astype(str), "<U"),
+        (FLAT.astype(np.longdouble) / 3, "float64 cannot hold"),
+    ],
+)
+def test_meshes_and_what_they_are_asked_lose_nothing(lost, word):
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        for call in (
+            lambda: froe.from_trimesh(Square(lost, [[0, 1, 2]])),
+            lambda: froe.from_pyvista(Square(lost, [3, 0, 1, 2])),
+            lambda: Ray(Square(FLAT, [[0, 1, 2]])).intersects_first(lost, FLAT + 1),
+            lambda: Ray(Square(FLAT, [[0, 1, 2]])).closest_point(lost),
+        ):
+            with pytest.raises(ArrayError, match=word):
+                call()
+        index = STRtree([{"type": "Point", "coordinates": [0, 0]}])
+        with pytest.raises(ArrayError, match=word):
+            index.query([{"type": "Point", "coordinates": [0, 3]}] * 3, predicate="dwithin", distance=lost[:, 0])
+    with pytest.raises(ArrayError, match="whole numbers, and their type is float64"):
+        froe.from_pyvista(Square(FLAT, [3, 0, 1.5, 2]))
+
+
+def test_trees_of_the_plane_are_not_drawn_in_space():
+    axes = pyplot.figure().add_subplot(projection="3d")
+    with pytest.raises(ValueError, match="The tree is not one of space."):
+        froe.mpl.draw3d(axes, froe.segments(SEGMENTS).build())
+    assert not axes.collections
 
 
 def test_arguments_of_other_kinds():

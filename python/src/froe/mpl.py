@@ -90,13 +90,16 @@ def draw3d(ax: Any, triangles: npt.ArrayLike | Tree, *, color: Any = "0.8", shad
     :param style: goes to ``Poly3DCollection``
     :returns: the collection; its ``tree`` is the tree
     :raises ArrayError: the array has another shape or type
-    :raises ValueError: there are more or fewer colours than triangles, and not one for all
+    :raises ValueError: the tree is not one of space; or there are more or fewer colours than triangles, and not one for
+        all
     :cost: that of building a tree, once, and O(pieces) whenever the axes are drawn
     """
     from froe.scene import triangles as scene_of
     from froe.tree import Tree
 
     tree = triangles if isinstance(triangles, Tree) else scene_of(triangles).build(purpose="draw")
+    if tree.dim != 3:
+        raise ValueError("The tree is not one of space.")
     faces = _faces()(tree, color, shade, **style)
     ax.add_collection3d(faces)
     corners = tree.pieces().coords

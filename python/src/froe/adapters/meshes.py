@@ -16,6 +16,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from froe.errors import ArrayError
+
 if TYPE_CHECKING:
     from froe.scene import Scene
 
@@ -33,7 +35,7 @@ def from_trimesh(mesh: Any) -> Scene:
     if faces.ndim != 2 or faces.shape[1] != 3:
         raise ValueError(f"The faces of the mesh have the shape {faces.shape}, and (m, 3) is needed.")
     scene = Scene(3)
-    scene.add_triangles(np.asarray(mesh.vertices, np.float64), faces)
+    scene.add_triangles(mesh.vertices, faces)
     return scene
 
 
@@ -63,10 +65,11 @@ def from_pyvista(mesh: Any) -> Scene:
 
 def add_polygons(scene: Scene, mesh: Any, first_face: int = 0, group: int | None = None) -> int:
     """Adds the polygons of a mesh as pyvista has them to a scene. Returns the number of the face after them."""
-    triangles, polygon = _fans(np.asarray(mesh.faces, np.int64).ravel())
-    scene.add_triangles(
-        np.asarray(mesh.points, np.float64), triangles, tags=polygon, faces=first_face + polygon, group=group
-    )
+    corners = np.asarray(mesh.faces).ravel()
+    if corners.size and corners.dtype.kind not in "iu":
+        raise ArrayError(f"The faces of the mesh must be whole numbers, and their type is {corners.dtype}.")
+    triangles, polygon = _fans(corners.astype(np.int64))
+    scene.add_triangles(mesh.points, triangles, tags=polygon, faces=first_face + polygon, group=group)
     return first_face + int(polygon.max(initial=-1)) + 1
 
 

@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from froe._arrays import doubles
 from froe.adapters.features import Features
 from froe.adapters.shapely import features, is_one
 from froe.compat.nearest import Nearest
@@ -102,7 +103,7 @@ class STRtree:
         if predicate == "dwithin":
             if distance is None:
                 raise ValueError("The predicate dwithin needs a distance.")
-            distances = np.broadcast_to(np.asarray(distance, np.float64), (asked.count,))
+            distances = np.broadcast_to(doubles(distance, "distance"), (asked.count,))
             found = self._relations.within_distance(asked, distances)
         else:
             found = self._relations.related(asked, predicate)

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from froe._arrays import doubles
 from froe.adapters.meshes import from_trimesh
 
 Floats = npt.NDArray[np.float64]
@@ -152,7 +153,7 @@ class Ray:
 
 
 def _vectors(given: npt.ArrayLike, what: str) -> Floats:
-    vectors = np.asarray(given, np.float64)
+    vectors = doubles(given, what)
     if vectors.ndim != 2 or vectors.shape[1] != 3:
         raise ValueError(f"The {what} have the shape {vectors.shape}, and (n, 3) is needed.")
     return vectors
