@@ -27,12 +27,13 @@ class Tree(Questions):
 
     Questions are arrays, and one call answers all of them. Objects and ranges are closed sets, so that touching counts
     as meeting, and every answer is exact for the numbers given. A tree never changes, so that any number of Python's
-    threads may use it at once. Every call takes, by name:
+    threads may use it at once. Most questions take, by name:
 
     - ``threads``: how many may work on it at once; 0: one for each processor
     - ``progress``: a function that is called now and then with the share done, from 0 to 1; False from it ends the call
 
-    Ctrl-C ends every call, too. In a ``with`` statement the tree is closed at its end.
+    Ctrl-C ends calls that take ``progress``, too, and others once they are done. In a ``with`` statement the tree is
+    closed at its end.
 
     :raises ArrayError: an array has another shape or type, or numbers that float64 does not have
     :raises InputError: NaN or infinity, or a box whose upper corner is below its lower one; ``.object`` is its row
