@@ -4,7 +4,8 @@
  *     trifans      assimp takes a fan of triangles for a polygon
  *     rotate       assimp stretches the model where the axis has another length than 1
  *     matrix       assimp leaves out what the last row says
- *     p            assimp takes a negative index for 0
+ *     p, vcount    assimp takes a negative index for 0, and what is no number for indices 0 without an end
+ *     lines        assimp leaves out an index that is left over
  *     accessor     assimp reads beyond the numbers that there are, and without a z takes the next number for it
  *     skew         assimp ends the program
  *     count, p     assimp ends it where triangles have no indices, or polygons others than were counted, and leaves
@@ -35,7 +36,9 @@ typedef struct collada_check {
     ARRAY(size_t) ids;      /* where those of geometries, controllers and nodes begin */
     ARRAY(reference) named; /* what must be among them */
     size_t depth, geometry; /* of the element, from 1; of the geometry that it is in, or 0 */
-    bool indices;           /* in an element p */
+    bool indices, counts;   /* in an element p; in a vcount */
+    size_t given, stride;   /* whole numbers in this p; how many belong to a corner */
+    bool digit;             /* the last character of it was one */
     size_t floats;          /* in the last array */
     char array[64];         /* its id, or the first letters of it */
     bool has_x, has_z;      /* the accessor */
@@ -87,7 +90,7 @@ static void refer(collada_check *c, const char *element, const char *name, bool 
 }
 
 static const char *const lists[] = {"triangles", "polylist", "polygons", "lines", "linestrips", "tristrips"};
-enum { TRIANGLES = 1, POLYLIST, POLYGONS, LISTS = sizeof lists / sizeof *lists };
+enum { TRIANGLES = 1, POLYLIST, POLYGONS, LINES, LISTS = sizeof lists / sizeof *lists };
 
 static size_t list_of(const char *name) {
     for (size_t i = 0; i < LISTS; i++)
@@ -124,6 +127,8 @@ static void check_source(collada_check *c, const char *name, const char **attrib
     } else if (!strcmp(name, "input") && attribute(attributes, "semantic") && attribute(attributes, "source")) {
         const char *from = attribute(attributes, "source");
         const bool places = !strcmp(attribute(attributes, "semantic"), "POSITION");
+        const size_t offset = whole_number(attributes, "offset", 0);
+        if (offset >= c->stride) c->stride = offset + 1;
         for (size_t i = 0; i < c->unnamed.count && places && !c->xml.status; i++)
             if (*from == '#' && !strcmp(from + 1, c->text.data + c->unnamed.data[i]))
                 io_xml_refuse(&c->xml, FROE_E_UNSUPPORTED, "Points whose X, Y and Z have no names are not read.");
@@ -137,6 +142,7 @@ static void begin_part(collada_check *c, const char *name, const char **attribut
         c->list = list_of(name);
         c->counted = whole_number(attributes, "count", 0);
         c->filled = c->parts = 0;
+        c->stride = 1;
         c->vcount = false;
     } else if (!strcmp(name, "vcount")) {
         c->vcount = true;
@@ -146,12 +152,17 @@ static void begin_part(collada_check *c, const char *name, const char **attribut
         io_xml_refuse(&c->xml, FROE_E_FORMAT, "A polylist has no vcount before its indices.");
     }
     c->parts += indices;
-    c->text_in = false;
+    c->text_in = c->digit = false;
+    c->given = 0;
 }
 
 static void end_part(collada_check *c, const char *name) {
     c->filled += c->text_in;
     c->text_in = false;
+    if (c->list == LINES && !strcmp(name, "p") && c->given % (2 * c->stride)) {
+        io_xml_refuse(&c->xml, FROE_E_FORMAT, "The indices of lines are no pairs.");
+        return;
+    }
     if (!c->list || strcmp(name, lists[c->list - 1]) != 0) return;
     const bool others = c->list == POLYGONS ? c->parts != c->counted : c->list < POLYGONS && c->counted && !c->parts;
     c->list = 0;
@@ -191,6 +202,7 @@ static void XMLCALL begin_element(void *user, const char *name, const char **att
         c->xml.sink->report.skipped += c->geometry && c->depth == c->geometry + 1 && !strcmp(name, others[i]);
     if (!strcmp(name, "geometry")) c->geometry = c->depth;
     c->indices = !strcmp(name, "p");
+    c->counts = !strcmp(name, "vcount");
     c->turns = !strcmp(name, "rotate");
     c->matrix = !strcmp(name, "matrix");
     c->numbers.count = 0;
@@ -233,14 +245,26 @@ static void XMLCALL end_element(void *user, const char *name) {
         else
             io_xml_stop(&c->xml, support_fail_memory(c->xml.sink->diag));
     }
-    c->indices = c->turns = c->matrix = false;
+    c->indices = c->counts = c->turns = c->matrix = false;
+}
+
+/* Indices and counts are whole numbers with blanks between them. */
+static void check_whole(collada_check *c, const char *text, size_t length) {
+    for (size_t i = 0; i < length && !c->xml.status; i++) {
+        const bool digit = text[i] >= '0' && text[i] <= '9';
+        const bool blank = memchr(" \t\r\n", text[i], 4) != NULL;
+        c->given += digit && !c->digit;
+        c->digit = digit;
+        c->text_in = c->text_in || (c->indices && !blank);
+        if (!digit && !blank)
+            io_xml_refuse(&c->xml, FROE_E_FORMAT,
+                          text[i] == '-' ? "An index is negative." : "An index or a count is no whole number.");
+    }
 }
 
 static void XMLCALL read_text(void *user, const char *text, int length) {
     collada_check *c = user;
-    for (int i = 0; i < length && c->indices; i++) c->text_in = c->text_in || !strchr(" \t\r\n", text[i]);
-    if (c->indices && !c->xml.status && memchr(text, '-', (size_t)length))
-        io_xml_refuse(&c->xml, FROE_E_FORMAT, "An index is negative.");
+    if (c->indices || c->counts) check_whole(c, text, (size_t)length);
     if ((c->turns || c->matrix) && !c->xml.status &&
         !array_append(&c->xml.sink->alloc, &c->numbers, text, (size_t)length))
         io_xml_stop(&c->xml, support_fail_memory(c->xml.sink->diag));
