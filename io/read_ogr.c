@@ -463,6 +463,7 @@ static froe_status check_data(map *m) {
     froe_status status = FROE_OK;
     if (single && !strcmp(m->extension.text, "mif")) status = io_mif_check(source, m->sink);
     if (single && !strcmp(format, "GPX")) status = io_gpx_check(source, m->sink);
+    if (single && !strcmp(format, "GML")) status = io_gml_check(source, m->sink);
     if (single && !strcmp(format, "DXF")) status = io_dxf_check(source, m->sink);
     if (!status && (!strcmp(format, "ESRI Shapefile") || !strcmp(format, "MapInfo File"))) status = check_tables(m);
     if (!status && m->is_table) status = check_quotes(m);

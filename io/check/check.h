@@ -148,6 +148,8 @@ bool io_is_collada(const formats_source *source);
 froe_status io_collada_check(const formats_source *source, formats_sink *sink);
 /** FROE_E_FORMAT where a place of a GPX file is not two numbers. */
 froe_status io_gpx_check(const formats_source *source, formats_sink *sink);
+/** FROE_E_FORMAT where places of a GML file are not numbers. */
+froe_status io_gml_check(const formats_source *source, formats_sink *sink);
 /** FROE_E_FORMAT where a number of a DXF file is none. */
 froe_status io_dxf_check(const formats_source *source, formats_sink *sink);
 /** Before GDAL opens a file of KML, perhaps in an archive: FROE_E_FORMAT where places of it are not numbers. */

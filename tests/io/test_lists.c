@@ -1,5 +1,5 @@
 /* Models as text with lists that do not fit, or name what does not exist: AC3D, ASE (of 3ds Max) and DirectX; and maps
- * with lists of what are no places: KML. */
+ * with lists of what are no places: KML, GPX and GML. */
 #include "support.h"
 #include <cpl_vsi.h>
 
@@ -517,6 +517,77 @@ static void places_of_gpx_are_numbers(void **state) {
     assert_true(test_memory_each(read_with_memory, "good.gpx") > 2);
 }
 
+/* ------------------------------------------------------------------------- GML -- */
+
+static void write_gml(const char *path, const char *geometry) {
+    char text[700];
+    snprintf(text, sizeof text,
+             "<?xml version=\"1.0\"?>\n<FeatureCollection xmlns:gml=\"http://www.opengis.net/gml\" "
+             "xmlns=\"http://example.com/f\">\n<gml:featureMember><road><pos>left, 2</pos><gml:shape>\n%s\n"
+             "</gml:shape></road></gml:featureMember></FeatureCollection>\n",
+             geometry);
+    write_text(path, text);
+}
+
+#define STRING(parts) "<gml:LineString>" parts "</gml:LineString>"
+#define POINT(parts) "<gml:Point>" parts "</gml:Point>"
+
+/* GDAL would make other places of them. */
+static void places_of_gml_are_numbers(void **state) {
+    (void)state;
+    static const char numbers[] = "A place is not numbers with decimal points and blanks between them.",
+                      pairs[] = "A place is not two or three numbers with decimal points.";
+    static const struct {
+        const char *geometry, *sentence;
+    } bad[] = {
+        {STRING("<gml:posList>1,5 2,5 3,5 4,5</gml:posList>"), numbers},
+        {STRING("<gml:posList>1 2 3 x</gml:posList>"), numbers},
+        {STRING("<gml:posList>1 2 3 4m</gml:posList>"), numbers},
+        {STRING("<gml:posList>1 2 NaN 4</gml:posList>"), numbers},
+        {STRING("<gml:posList>1 2 . 4</gml:posList>"), numbers},
+        {STRING("<gml:pos>1,5 2,5</gml:pos><gml:pos>3,5 4,5</gml:pos>"), numbers},
+        {POINT("<gml:coord><gml:X>1,5</gml:X><gml:Y>2</gml:Y></gml:coord>"), numbers},
+        {STRING("<gml:coordinates>1,5,2,5 3,5,4,5</gml:coordinates>"), pairs},
+        {STRING("<gml:coordinates>1,x 3,4</gml:coordinates>"), pairs},
+        {STRING("<gml:coordinates>1,2;3,4</gml:coordinates>"), pairs},
+        {STRING("<gml:coordinates>1,2, 3,4</gml:coordinates>"), pairs},
+        {STRING("<gml:coordinates>1,2 3</gml:coordinates>"), pairs},
+        {STRING("<gml:coordinates decimal=\",\" cs=\" \" ts=\";\">1,5 2.5;3,5 4,5</gml:coordinates>"), pairs},
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        char sentence[120];
+        snprintf(sentence, sizeof sentence, "bad.gml: line 4: %s", bad[i].sentence);
+        write_gml("bad.gml", bad[i].geometry);
+        refuse("bad.gml", FROE_E_FORMAT, sentence);
+    }
+}
+
+static void what_places_of_gml_may_be_is_read(void **state) {
+    (void)state;
+    static const char *const good[] = {
+        STRING("<gml:posList>1 2 3 4</gml:posList>"),
+        STRING("<gml:posList srsDimension=\"3\">\n1.e0 +2\t0\n3E+0 .4e1 -0 </gml:posList>"),
+        STRING("<gml:posList>1 2<!-- and --> 3 4</gml:posList>"),
+        STRING("<gml:pos>1 2</gml:pos><gml:pos>3 4</gml:pos>"),
+        STRING("<gml:coordinates>\n1,2 3,4\n</gml:coordinates>"),
+        STRING("<gml:coordinates>1,2,0 3,4,0</gml:coordinates>"),
+        STRING("<gml:coordinates>1 2,3 4</gml:coordinates>"),
+        STRING("<gml:coordinates decimal=\",\" cs=\" \" ts=\";\">1,0 2;3 4,0</gml:coordinates>"),
+        STRING("<gml:coordinates cs=\";\" ts=\" \">1;2 3;4</gml:coordinates>"),
+        STRING("<gml:coord><gml:X>1</gml:X><gml:Y>2</gml:Y></gml:coord>"
+               "<gml:coord><gml:X>3</gml:X><gml:Y>4</gml:Y></gml:coord>"),
+    };
+    for (size_t i = 0; i < sizeof good / sizeof *good; i++) {
+        write_gml("good.gml", good[i]);
+        froe_scene *scene = read_scene("good.gml", NULL);
+        assert_int_equal(froe_scene_object_count(scene), 1);
+        for (int k = 0; k < 2; k++)
+            if (corner(scene, 0, k)[0] != 1 + 2 * k || corner(scene, 0, k)[1] != 2 + 2 * k) fail_msg("%s", good[i]);
+        froe_scene_free(scene);
+    }
+    assert_true(test_memory_each(read_with_memory, "good.gml") > 5);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_assimp_takes_for_something_else_is_refused),
@@ -538,6 +609,8 @@ int main(void) {
         cmocka_unit_test(what_places_of_kml_may_be_is_read),
         cmocka_unit_test(places_in_archives_of_kml_are_numbers),
         cmocka_unit_test(places_of_gpx_are_numbers),
+        cmocka_unit_test(places_of_gml_are_numbers),
+        cmocka_unit_test(what_places_of_gml_may_be_is_read),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
