@@ -503,9 +503,12 @@ froe_status io_read_ogr(const formats_source *source, formats_sink *sink) {
     if (m.data) GDALClose(m.data);
     io_gdal_end(&m.heard);
     const char *left = m.heard.left.text; /* whole names, each of less than 32 letters */
+    const size_t used = strlen(sink->report.sorts_left), between = used ? 2 : 0;
     size_t fit = strlen(left);
-    while (fit >= sizeof sink->report.sorts_left || (left[fit] && left[fit] != ',')) fit--;
-    if (fit) snprintf(sink->report.sorts_left, sizeof sink->report.sorts_left, "%.*s", (int)fit, left);
+    while (fit && (used + between + fit >= sizeof sink->report.sorts_left || (left[fit] && left[fit] != ','))) fit--;
+    if (fit)
+        snprintf(sink->report.sorts_left + used, sizeof sink->report.sorts_left - used, "%s%.*s", used ? ", " : "",
+                 (int)fit, left);
     io_shapes_free(&sink->alloc, &m.shapes);
     array_free(&sink->alloc, &m.texts);
     return status;

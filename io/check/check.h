@@ -150,7 +150,7 @@ froe_status io_collada_check(const formats_source *source, formats_sink *sink);
 froe_status io_gpx_check(const formats_source *source, formats_sink *sink);
 /** FROE_E_FORMAT where places of a GML file are not numbers. */
 froe_status io_gml_check(const formats_source *source, formats_sink *sink);
-/** FROE_E_FORMAT where a number of a DXF file is none. */
+/** FROE_E_FORMAT where a number of a DXF file is none. That it inserts blocks which are not there is in the report. */
 froe_status io_dxf_check(const formats_source *source, formats_sink *sink);
 /** Before GDAL opens a file of KML, perhaps in an archive: FROE_E_FORMAT where places of it are not numbers. */
 froe_status io_kml_check(const formats_source *source, formats_sink *sink);

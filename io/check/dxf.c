@@ -1,4 +1,5 @@
-/* dxf.c: whether the numbers of a DXF file are numbers. GDAL takes what they begin with, and none for 0: so 1,5 is 1.
+/* dxf.c: whether the numbers of a DXF file are numbers, and the blocks that are inserted are there. GDAL takes what
+ * numbers begin with, and none for 0: so 1,5 is 1. Where a block is not there it inserts nothing.
  *
  *      10            a group: a code, and what it says of the entity; from 10 to 59 and from 210 to 239 a number
  *     1.5
@@ -28,10 +29,9 @@ static bool begins_with(const char *at, const char *word) {
 }
 
 /* Numbers elsewhere than in entities, and in blocks of these, draw nothing. */
-static io_fault find_dxf_fault(formats_sink *sink, const char *text) {
+static io_fault find_dxf_fault(const char *text) {
     const char *at = text;
     bool begun = false, drawn = false; /* a section, of entities */
-    (void)sink;
     for (size_t line = 2; *at; line += 2) {
         char *end;
         const long code = strtol(at, &end, 10);
@@ -47,6 +47,76 @@ static io_fault find_dxf_fault(formats_sink *sink, const char *text) {
     return (io_fault){.sentence = NULL};
 }
 
+/* ---------------------------------------------------------------- blocks -- */
+
+typedef struct dxf_name {
+    const char *at;
+    size_t length;
+} dxf_name;
+
+typedef struct dxf_blocks {
+    ARRAY(dxf_name) blocks, inserts; /* their names */
+    bool nameless, elsewhere;        /* there is an insert without a name, a block of another drawing */
+} dxf_blocks;
+
+static int order_names(const void *x, const void *y) {
+    const dxf_name *a = x, *b = y;
+    const int order = memcmp(a->at, b->at, a->length < b->length ? a->length : b->length);
+    return order ? order : (a->length > b->length) - (a->length < b->length);
+}
+
+/* Lists the names of blocks and inserts; false: there is no memory. */
+static bool list_blocks(formats_sink *sink, const char *at, dxf_blocks *b) {
+    enum { REFERENCE = 4 };
+    const froe_allocator *alloc = &sink->alloc;
+    bool block = false, insert = false, room = true; /* in one, whose name is not yet known */
+    bool head = false;                               /* of a block */
+    while (*at && room) {
+        char *end;
+        const long code = strtol(at, &end, 10);
+        if (end == at || !strchr(" \t\r\n", *end)) break;
+        at = line_behind(at);
+        at += strspn(at, " \t");
+        dxf_name name = {at, strcspn(at, "\r\n")};
+        while (name.length && strchr(" \t", at[name.length - 1])) name.length--;
+        if (code == 0) {
+            b->nameless = b->nameless || insert;
+            head = block = name.length == strlen("BLOCK") && begins_with(at, "BLOCK");
+            insert = name.length == strlen("INSERT") && begins_with(at, "INSERT");
+        }
+        if (head && code == 70) b->elsewhere = b->elsewhere || strtol(at, NULL, 10) & REFERENCE;
+        if (block && code == 2) room = array_push(alloc, &b->blocks, name), block = false;
+        if (insert && code == 2) room = array_push(alloc, &b->inserts, name), insert = false;
+        at = line_behind(at);
+    }
+    return room;
+}
+
+/* Of blocks that do not exist, or stand in another drawing, GDAL inserts nothing. */
+static froe_status tell_blocks(formats_sink *sink, const char *text) {
+    static const char unknown[] = "INSERT of unknown blocks", elsewhere[] = "XREF";
+    dxf_blocks b = {.nameless = false};
+    const bool room = list_blocks(sink, text, &b);
+    bool lost = b.nameless;
+    if (b.blocks.count) qsort(b.blocks.data, b.blocks.count, sizeof *b.blocks.data, order_names);
+    for (size_t i = 0; i < b.inserts.count && !lost; i++)
+        lost = !b.blocks.count ||
+               !bsearch(b.inserts.data + i, b.blocks.data, b.blocks.count, sizeof *b.blocks.data, order_names);
+    if (lost) io_leave(sink, unknown, strlen(unknown));
+    if (b.elsewhere) io_leave(sink, elsewhere, strlen(elsewhere));
+    array_free(&sink->alloc, &b.blocks);
+    array_free(&sink->alloc, &b.inserts);
+    return room ? FROE_OK : support_fail_memory(sink->diag);
+}
+
 froe_status io_dxf_check(const formats_source *source, formats_sink *sink) {
-    return io_text_look(source, sink, true, find_dxf_fault);
+    formats_text text = {0};
+    froe_status status = formats_load(source, sink, true, &text);
+    const io_fault fault = status ? (io_fault){.sentence = NULL} : find_dxf_fault(text.data);
+    if (fault.sentence)
+        status = support_fail(sink->diag, fault.status, "%s: line %zu: %s", support_short(source->path), fault.line,
+                              fault.sentence);
+    if (!status) status = tell_blocks(sink, text.data);
+    array_free(&sink->alloc, &text);
+    return status;
 }

@@ -1,6 +1,6 @@
 /* places.c: whether places in GPX (version 1.1, and 1.0) and GML (versions 2 and 3) are numbers. GDAL takes what they
- * begin with, so that 48,5 is 48, and what is none for 0. Of GPX it leaves out places of a track without a latitude or a
- * longitude; between the numbers of a list of GML it takes a comma for a blank.
+ * begin with, so that 48,5 is 48, and what is none for 0. Of GPX it leaves out places of a track without a latitude or
+ * a longitude; between the numbers of a list of GML it takes a comma for a blank.
  *
  *     <trkpt lat="48.25" lon="11.5"/>                                      and so wpt and rtept
  *     <gml:Point><gml:pos>11.5 48.25</gml:pos></gml:Point>

@@ -471,6 +471,26 @@ static void numbers_of_dxf_are_numbers(void **state) {
     }
 }
 
+/* GDAL inserts nothing of a block that is not there; its other sorts come behind. */
+static void blocks_of_dxf_are_there(void **state) {
+    (void)state;
+    static const char head[] = "0\nSECTION\n2\nHEADER\n0\nENDSEC\n0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\n B "
+                               "\n10\n0\n20\n0\n0\nPOINT\n8\n0\n10\n1\n20\n2\n"
+                               "0\nENDBLK\n0\nBLOCK\n2\nA\n70\n4\n0\nENDBLK\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n"
+                               "0\nPOINT\n8\n0\n10\n1\n20\n2\n0\nMESH\n8\n0\n",
+                      insert[] = "0\nINSERT\n8\n0\n2\n%s\n10\n1\n20\n2\n0\nENDSEC\n0\nEOF\n";
+    for (int there = 0; there < 2; there++) {
+        char text[700], inserted[100];
+        froe_read_report report;
+        snprintf(inserted, sizeof inserted, insert, there ? "B" : "BB");
+        snprintf(text, sizeof text, "%s%s", head, inserted);
+        write_text("blocks.dxf", text);
+        froe_scene_free(read_scene("blocks.dxf", &report));
+        assert_string_equal(report.sorts_left, there ? "XREF, MESH" : "INSERT of unknown blocks, XREF, MESH");
+    }
+    assert_true(test_memory_each(read_with_memory, "blocks.dxf") > 4);
+}
+
 /* GDAL passes over entities, and froe names their sorts: each once, and as many as there is room for. Windows of a
  * sheet are nothing to draw. */
 static void sorts_of_entities_that_are_not_read_are_named(void **state) {
@@ -520,6 +540,7 @@ int main(void) {
         cmocka_unit_test(models_of_fbx_have_a_first_one),
         cmocka_unit_test(broken_records_of_fbx_end),
         cmocka_unit_test(numbers_of_dxf_are_numbers),
+        cmocka_unit_test(blocks_of_dxf_are_there),
         cmocka_unit_test(sorts_of_entities_that_are_not_read_are_named),
         cmocka_unit_test(imports_of_others_are_not_listened_to),
     };
