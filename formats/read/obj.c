@@ -254,6 +254,8 @@ static froe_status read_line(obj *o) {
     if (starts(line, "fo")) return read_element(o, 'f', line + 2); /* a face of version 2 */
     if (starts(line, "mtllib")) return read_libraries(o, line + 6);
     if (is_left_out(line)) return ++o->sink->report.skipped, FROE_OK;
+    if (*line && strchr("VFLP", *line) && is_blank(line[1]))
+        return broken_obj(o, "Words such as 'v' and 'f' are not read in capital letters.");
     const bool material = starts(line, "usemtl"), name = starts(line, "o") || starts(line, "g");
     if (material) o->material = words_after(line + 6);
     if (name) o->name = words_after(line + 1);

@@ -356,6 +356,10 @@ static void broken_obj_is_refused_with_its_line(void **state) {
         {"v 0 0 0\nf 1 1 -99999999999999999999\n", "line 2: An index names a vertex that does not exist."},
         {"v 0 0 0\nf 1 1 18446744073709551617\n", "line 2: An index names a vertex that does not exist."},
         {"vt 0 0\n", "The file has no vertices, and is not OBJ."},
+        {"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nF 1 2 3\n", "broken.obj: line 5: Words such as 'v' and 'f' are not"},
+        {"v 0 0 0\nV\t1 0 0\n", "broken.obj: line 2: Words such as 'v' and 'f' are not read in capital letters."},
+        {"v 0 0 0\nv 1 0 0\n L 1 2\n", "broken.obj: line 3: Words such as 'v' and 'f' are not"},
+        {"v 0 0 0\nP 1\n", "broken.obj: line 2: Words such as 'v' and 'f' are not"},
     };
     for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
         write_text("broken.obj", files[i][0]);
