@@ -115,7 +115,7 @@ froe_status io_fbx_check(const formats_source *source, formats_sink *sink);
 bool io_is_lwo(const formats_source *source);
 /** Before the import: FROE_E_FORMAT where assimp would pass over polygons of it, or name points that do not exist. */
 froe_status io_lwo_check(const formats_source *source, formats_sink *sink);
-/** Is it DirectX as text, by its first bytes? */
+/** Is it DirectX, as text or binary, by its first bytes? */
 bool io_is_x(const formats_source *source);
 /** Before the import: FROE_E_FORMAT where faces of it name vertices or materials that do not exist. */
 froe_status io_x_check(const formats_source *source, formats_sink *sink);
