@@ -20,6 +20,7 @@ typedef struct moving_model {
     ARRAY(io_part) parts;
     froe_motion_report report;
     size_t halvings; /* that are left */
+    double flaw;     /* by what share of them scales of nodes that rest change at most */
     /* the motion */
     ARRAY(formats_life) lives;
     ARRAY(size_t) starts;
@@ -87,6 +88,23 @@ static froe_status find_owners(moving_model *m) {
     return FROE_OK;
 }
 
+/* Scales of nodes that stand, or rest in a part, and have meshes, themselves or below: a scale is that of the first key. */
+static froe_status check_scales(moving_model *m) {
+    const size_t count = m->nodes.count;
+    ARRAY(bool) carries = {0};
+    if (!array_reserve(&m->animation.sink->alloc, &carries, count)) return no_memory(m);
+    froe_status status = FROE_OK;
+    for (size_t n = 0; n < count; n++) carries.data[n] = m->nodes.data[n].node->mNumMeshes > 0;
+    for (size_t n = count; n-- > 0;)
+        if (carries.data[n] && m->nodes.data[n].parent != SIZE_MAX) carries.data[m->nodes.data[n].parent] = true;
+    for (size_t n = 0; n < count && !status; n++)
+        if (carries.data[n] && m->channel_of.data[n] && m->owner.data[n] != n)
+            status =
+                io_channel_scale(&m->animation, m->channel_of.data[n], m->nodes.data[n].node->mName.data, &m->flaw);
+    array_free(&m->animation.sink->alloc, &carries);
+    return status;
+}
+
 /* A part for each node that moves and carries meshes, itself or below. */
 static froe_status make_parts(moving_model *m) {
     for (size_t n = 0; n < m->nodes.count; n++) {
@@ -139,6 +157,7 @@ static froe_status arrange(void *user, const formats_source *source, formats_sin
     if (!status) status = refuse_skins(m, scene);
     if (!status) status = find_window(m);
     if (!status) status = find_owners(m);
+    if (!status) status = check_scales(m);
     if (!status) status = make_parts(m);
     if (!status) place_nodes(m);
     return status;
@@ -258,6 +277,7 @@ static froe_status make_motion(moving_model *m, const froe_scene *scene, froe_mo
         room = array_push(alloc, &m->starts, first);
         if (room) status = add_lives(m, *out, m->parts.data + p);
     }
+    m->report.deviation += m->flaw * m->report.extent;
     const size_t lives = m->lives.count;
     room = room && array_push(alloc, &m->starts, lives);
     if (status || !room) return status ? status : no_memory(m);

@@ -102,8 +102,7 @@ void io_channel_matrix(const io_animation *a, const io_channel *c, double out[12
     }
 }
 
-/* How much the scale changes, as a share of it; more than a thousandth is refused. */
-static froe_status check_scale(const io_animation *a, const io_channel *c, const char *name, double *flaw) {
+froe_status io_channel_scale(const io_animation *a, const io_channel *c, const char *name, double *flaw) {
     const io_track *track = &c->scale;
     for (size_t i = 1; i < track->count; i++) {
         const double *first = io_track_value(a->numbers.data, track, 0),
@@ -138,7 +137,7 @@ static froe_status make_joint(const io_animation *a, const io_nodes *nodes, cons
         for (int i = 0; i < 9; i++) out->linear[i] = i % 4 ? 0 : scale[i / 4];
     }
     out->size = io_length(out->linear, 9);
-    return channel ? check_scale(a, channel, nodes->data[n].node->mName.data, flaw) : FROE_OK;
+    return channel ? io_channel_scale(a, channel, nodes->data[n].node->mName.data, flaw) : FROE_OK;
 }
 
 /* Maps above the last turn keep angles; the others, with their turns, are one. */

@@ -323,6 +323,30 @@ static void tiny_deviations_are_refused(void **state) {
     assert_ptr_equal(strstr(diag.message, "tiny.gltf: animation 'go': At the time "), diag.message);
 }
 
+/* Nodes that stand while others move, or rest below one that moves; a node without faces may have any scale. */
+static void scales_of_nodes_that_rest_are_refused(void **state) {
+    (void)state;
+    static animated_model m;
+    for (int parent = -1; parent < 1; parent++) {
+        make_door(&m);
+        m.node[1].parent = parent;
+        m.node[1].track[2] = (animated_track){
+            .count = 3, .between = LINEAR, .times = {0, 1, 2}, .values = {{1, 1, 1}, {3, 3, 3}, {1, 1, 1}}};
+        animated_write(&m, "grows.gltf");
+        expect("grows.gltf", NULL, FROE_E_UNSUPPORTED,
+               "grows.gltf: animation 'go': node 'node 1': Its scale changes from 1 1 1 to 3 3 3 at the time 1, and "
+               "parts move as rigid bodies.");
+        for (int k = 0; k < 3; k++) m.node[1].track[2].values[1][k] = 1.0001f;
+        animated_write(&m, "drifts.gltf");
+        const compared c = compare(&m, "drifts.gltf", NULL);
+        assert_true(c.most <= c.reported && c.reported <= 1.2e-3 * c.extent);
+        for (int k = 0; k < 3; k++) m.node[1].track[2].values[1][k] = 9;
+        m.node[1].mesh = false;
+        animated_write(&m, "empty.gltf");
+        compare(&m, "empty.gltf", NULL);
+    }
+}
+
 static void a_scale_along_a_spline_between_equal_keys_is_refused(void **state) {
     (void)state;
     static animated_model m;
@@ -624,6 +648,7 @@ int main(void) {
         cmocka_unit_test(collada_and_fbx_move_by_the_keys_that_assimp_has),
         cmocka_unit_test(keys_that_are_none_are_refused),
         cmocka_unit_test(what_is_not_rigid_is_refused),
+        cmocka_unit_test(scales_of_nodes_that_rest_are_refused),
         cmocka_unit_test(a_scale_along_a_spline_between_equal_keys_is_refused),
         cmocka_unit_test(quaternions_rounded_to_bytes_are_read),
         cmocka_unit_test(a_name_that_is_cut_within_a_character_is_quoted_as_text),
