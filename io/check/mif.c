@@ -1,5 +1,5 @@
-/* mif.c: whether lines and regions of a MIF file (of MapInfo) have as many points as they count. GDAL takes what is no
- * number for 0, and leaves out what is more.
+/* mif.c: whether lines and regions of a MIF file (of MapInfo) have as many points as they count, and these and other
+ * objects numbers. GDAL takes what is no number for 0, and 1,5 for 1, and leaves out what is more.
  *
  *     Data
  *     Pline 2         or Pline Multiple 2, Region 2: as many parts, each a count and its points
@@ -28,14 +28,24 @@ static bool is_number(const char *at) {
     return *at >= '0' && *at <= '9';
 }
 
-static bool is_point(const char *at) {
-    for (int i = 0; i < 2; i++) {
-        char *end;
+/* How many numbers stand there, up to the end of the line; a comma may be behind one. SIZE_MAX: what is there is none. */
+static size_t numbers_at(const char *at) {
+    size_t count = 0;
+    for (char *end; *at && !strchr("\r\n", *at); at = end + strspn(end, " \t"), count++) {
         support_decimal(at, &end);
-        if (end == at || !strchr(" \t,\r\n", *end)) return false;
-        at = end + strspn(end, " \t,");
+        if (end == at) return SIZE_MAX;
+        end += *end == ',';
+        if (!strchr(" \t\r\n", *end)) return SIZE_MAX;
     }
-    return true;
+    return count;
+}
+
+/* Is the line of an object with numbers behind its word, of which one is none? */
+static bool is_broken(const char *line) {
+    static const char *const words[] = {"point", "line", "rect", "ellipse", "arc", "roundrect"};
+    const char *next = NULL;
+    for (size_t i = 0; i < sizeof words / sizeof *words && !next; i++) next = behind(line, words[i]);
+    return numbers_at(next ? next : line) == SIZE_MAX && (next || strchr("+-.0123456789", *line));
 }
 
 /* The line of a word: is it of an object with points? */
@@ -60,14 +70,18 @@ static void look_at_object(mif_check *c, const char *line) {
 }
 
 static const char *look_at_line(mif_check *c, const char *line) {
-    if (c->points) return is_point(line) ? c->points--, NULL : "A point is missing, or it is not two numbers.";
+    if (c->points) {
+        c->points--;
+        const size_t count = numbers_at(line);
+        return count >= 2 && count != SIZE_MAX ? NULL : "A point is missing, or it is not two numbers.";
+    }
     if (c->parts) {
         c->parts--, c->points = strtoul(line, NULL, 10);
         return is_number(line) ? NULL : "A count of points is missing.";
     }
     if (c->listed && *line && strchr("+-.0123456789", *line)) return "There are more points than were counted.";
     look_at_object(c, line);
-    return NULL;
+    return c->listed || !is_broken(line) ? NULL : "A coordinate is not a number with a decimal point.";
 }
 
 static io_fault find_mif_fault(formats_sink *sink, const char *text) {
