@@ -468,7 +468,7 @@ static froe_status check_data(map *m) {
     if (!status && (!strcmp(format, "ESRI Shapefile") || !strcmp(format, "MapInfo File"))) status = check_tables(m);
     if (!status && m->is_table) status = check_quotes(m);
     if (!status && m->shapes.cuts && strcmp(format, "GeoJSONSeq") != 0) status = io_json_check(name, m->sink);
-    if (!status && !strcmp(format, "TopoJSON")) status = io_topojson_check(name, m->sink);
+    if (!status && !strcmp(format, "TopoJSON")) status = io_topojson_check(name, source->options->layer, m->sink);
     return status;
 }
 

@@ -161,7 +161,8 @@ froe_status io_stored_check(const formats_source *source, formats_sink *sink);
 /** FROE_E_FORMAT where there is more in a file of JSON than one object. The path may be one in the virtual file systems
  * of GDAL. FROE_E_MEMORY. */
 froe_status io_json_check(const char *path, formats_sink *sink);
-/** FROE_E_FORMAT where geometries of a TopoJSON file name arcs that do not exist. The path may be one in the virtual
- * file systems of GDAL. FROE_E_MEMORY. */
-froe_status io_topojson_check(const char *path, formats_sink *sink);
+/** FROE_E_FORMAT where geometries of a TopoJSON file name arcs that do not exist. What GDAL leaves out of the layer of
+ * that name, or of the first where it is NULL, is in the report. The path may be one in the virtual file systems of
+ * GDAL. FROE_E_MEMORY. */
+froe_status io_topojson_check(const char *path, const char *layer, formats_sink *sink);
 #endif

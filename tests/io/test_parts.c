@@ -194,6 +194,36 @@ static void arcs_that_exist_are_read(void **state) {
     }
 }
 
+static void what_gdal_leaves_out_of_topojson_is_told(void **state) {
+    (void)state;
+    static const struct {
+        const char *geometry, *left;
+        unsigned without;
+    } cases[] = {
+        {"{\"type\": \"GeometryCollection\", \"geometries\": [{\"type\": \"LineString\", \"arcs\": [1]}]}",
+         "GeometryCollection", 0},
+        {"{\"type\": \"GeometryCollection\", \"geometries\": []}", "", 1},
+        {"{\"type\": null, \"properties\": {\"name\": \"nowhere\"}}", "", 1},
+        {"{\"type\": \"Polygon\"}", "", 1},
+        {"{\"type\": \"Point\", \"coordinates\": [1, 2]}", "", 0},
+        {"{\"type\": \"Polygon\", \"arcs\": [[1]]}", "", 0},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[600];
+        froe_read_report report;
+        snprintf(
+            text, sizeof text,
+            "{\"type\": \"Topology\", \"objects\": {\"a\": {\"type\": \"GeometryCollection\", \"geometries\": [%s, "
+            "{\"type\": \"LineString\", \"arcs\": [0]}]}, \"b\": {\"type\": \"GeometryCollection\", \"geometries\": "
+            "[{\"type\": null}]}},\n\"arcs\": [[[0, 0], [1, 2]], [[5, 0], [9, 0], [5, 0]]]}",
+            cases[i].geometry);
+        write_text("left.json", text);
+        froe_scene_free(read_scene("left.json", &report));
+        assert_string_equal(report.sorts_left, cases[i].left);
+        assert_int_equal(report.no_geometry, cases[i].without);
+    }
+}
+
 static void archives_are_looked_into(void **state) {
     (void)state;
     static const char text[] =
@@ -540,6 +570,7 @@ int main(void) {
         cmocka_unit_test(arcs_that_do_not_exist_are_refused),
         cmocka_unit_test(arcs_that_exist_are_read),
         cmocka_unit_test(archives_are_looked_into),
+        cmocka_unit_test(what_gdal_leaves_out_of_topojson_is_told),
         cmocka_unit_test(memory_may_end_in_topojson),
         cmocka_unit_test(ways_without_all_their_nodes_are_refused),
         cmocka_unit_test(relations_without_all_their_ways_are_told_of),
