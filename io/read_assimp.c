@@ -191,6 +191,25 @@ static froe_status list_nodes(model *w) {
     return room ? FROE_OK : support_fail_memory(w->sink->diag);
 }
 
+/* Of 3DS with a list of what moves, assimp makes nodes of what is in the list. */
+static froe_status tell_lost_meshes(model *w) {
+    static const char left[] = "meshes without a node";
+    const froe_allocator *alloc = &w->sink->alloc;
+    const unsigned count = strncmp(w->sink->report.format, "Discreet 3DS", 12) ? 0 : w->scene->mNumMeshes;
+    ARRAY(bool) found = {0};
+    if (!array_reserve(alloc, &found, count)) return support_fail_memory(w->sink->diag);
+    for (unsigned i = 0; i < count; i++) found.data[i] = false;
+    for (size_t n = 0; n < w->nodes->count; n++) {
+        const struct aiNode *node = w->nodes->data[n].node;
+        for (unsigned i = 0; i < node->mNumMeshes; i++)
+            if (node->mMeshes[i] < count) found.data[node->mMeshes[i]] = true;
+    }
+    for (unsigned i = 0; i < count; i++)
+        if (!found.data[i]) io_leave(w->sink, left, strlen(left));
+    array_free(alloc, &found);
+    return FROE_OK;
+}
+
 static froe_status read_nodes(model *w) {
     froe_status status = FROE_OK;
     for (size_t n = 0; n < w->nodes->count && !status; n++) {
@@ -314,6 +333,7 @@ static froe_status read_scene(const formats_source *source, formats_sink *sink, 
     sink->report.layers = 1;
     status = read_paints(&w, source->file);
     if (!status) status = scene->mRootNode ? list_nodes(&w) : corrupt(&w, "The file has no nodes.");
+    if (!status) status = tell_lost_meshes(&w);
     if (!status && arrange) status = arrange(user, source, sink, scene, nodes);
     if (!status) status = read_nodes(&w);
     if (!status) status = formats_sink_end_feature(sink);

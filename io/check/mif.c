@@ -28,7 +28,7 @@ static bool is_number(const char *at) {
     return *at >= '0' && *at <= '9';
 }
 
-/* How many numbers stand there, up to the end of the line; a comma may be behind one. SIZE_MAX: there is another word. */
+/* How many numbers stand up to the end of the line; a comma may be behind each. SIZE_MAX: there is another word. */
 static size_t numbers_at(const char *at) {
     size_t count = 0;
     for (char *end; *at && !strchr("\r\n", *at); at = end + strspn(end, " \t"), count++) {
