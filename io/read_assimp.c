@@ -230,8 +230,9 @@ static froe_status read_nodes(model *w) {
 /* assimp reports the exception that ended an import by its text alone. */
 static froe_status refuse_import(const formats_source *source, formats_sink *sink) {
     char reason[160];
-    const char *said = aiGetErrorString();
-    snprintf(reason, sizeof reason, "%.150s", strstr(said, source->file) ? "" : said);
+    const char *said = aiGetErrorString(), *named = strstr(said, source->file), *behind = NULL;
+    if (named) behind = strstr(named + strlen(source->file), " - "); /* FILE:LINE - REASON, as of BVH */
+    snprintf(reason, sizeof reason, "%.150s", behind ? behind + 3 : named ? "" : said);
     reason[strcspn(reason, "\r\n")] = '\0';
     if (strstr(reason, "bad_alloc")) return support_fail_memory(sink->diag);
     if (*reason)

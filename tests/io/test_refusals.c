@@ -56,6 +56,14 @@ static void files_of_the_wrong_type_are_refused(void **state) {
     }
 }
 
+/* assimp tells them behind the name of the file. */
+static void reasons_of_bvh_are_told(void **state) {
+    (void)state;
+    write_text("bones.bvh", "HIERARCHY\nROOT Hips\n{\n  OFFSET 0 0 0\n  CHANNELS 1 Wposition\n}\n");
+    refuse("bones.bvh", FROE_E_FORMAT,
+           "bones.bvh: The reader assimp reports 'Invalid channel specifier \"Wposition\".'");
+}
+
 /* As programs of Windows save it. */
 static void text_in_utf16_is_named(void **state) {
     (void)state;
@@ -469,6 +477,7 @@ int main(void) {
         cmocka_unit_test(missing_files_and_folders_are_refused),
         cmocka_unit_test(folders_that_must_not_be_read_say_so),
         cmocka_unit_test(files_of_the_wrong_type_are_refused),
+        cmocka_unit_test(reasons_of_bvh_are_told),
         cmocka_unit_test(text_in_utf16_is_named),
         cmocka_unit_test(broken_json_is_refused),
         cmocka_unit_test(numbers_that_are_none_name_their_feature),
