@@ -370,7 +370,8 @@ froe_status io_read_arranged(const formats_source *source, formats_sink *sink, i
     const struct aiScene *scene = NULL;
     if (!status) status = import(source, sink, part, &found.masked, &scene);
     if (!status) status = io_gltf_is_whole(sink, scene, &found);
-    if (!status && io_is_collada(source) && scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE) /* what it has is made up */
+    const bool incomplete = !status && scene->mFlags & AI_SCENE_FLAGS_INCOMPLETE; /* what it has is made up */
+    if (incomplete && (io_is_collada(source) || io_is_ase(source)))
         status = support_fail(sink->diag, FROE_E_INPUT, "%s: The file holds no objects.", support_short(source->path));
     array_free(&sink->alloc, &found.masked);
     if (!status) status = read_scene(source, sink, scene, nodes, arrange, user);

@@ -274,6 +274,16 @@ static void what_fits_in_ase_is_read(void **state) {
 }
 
 /* assimp takes the zeros in it for ends. */
+/* assimp makes a body of a skeleton where there is nothing. */
+static void what_has_no_objects_is_refused(void **state) {
+    (void)state;
+    static const char *const texts[] = {"hello, this is another file\n", "*3DSMAX_ASCIIEXPORT 200\n*SCENE {\n}\n"};
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+        write_text("nothing.ase", texts[i]);
+        refuse("nothing.ase", FROE_E_INPUT, "nothing.ase: The file holds no objects.");
+    }
+}
+
 static void text_of_two_bytes_a_letter_is_refused(void **state) {
     (void)state;
     char wide[2 * sizeof ase_whole + 2] = "\xff\xfe";
@@ -701,6 +711,7 @@ int main(void) {
         cmocka_unit_test(memory_may_end_in_ac),
         cmocka_unit_test(what_does_not_fit_is_refused),
         cmocka_unit_test(what_fits_in_ase_is_read),
+        cmocka_unit_test(what_has_no_objects_is_refused),
         cmocka_unit_test(text_of_two_bytes_a_letter_is_refused),
         cmocka_unit_test(memory_may_end_in_ase),
         cmocka_unit_test(what_assimp_leaves_out_is_refused),
