@@ -88,7 +88,7 @@ static froe_status find_owners(moving_model *m) {
     return FROE_OK;
 }
 
-/* Scales of nodes that stand, or rest in a part, and have meshes, themselves or below: a scale is that of the first key. */
+/* Of nodes that stand or rest in a part, and have meshes, themselves or below: their scale is that of the first key. */
 static froe_status check_scales(moving_model *m) {
     const size_t count = m->nodes.count;
     ARRAY(bool) carries = {0};

@@ -44,8 +44,8 @@ void io_part_free(io_part *part);
 enum { IO_HALVINGS = 1 << 16 };
 /** Does a node with this channel move? */
 bool io_channel_moves(const io_animation *animation, const io_channel *channel);
-/** Makes *flaw as large as the scale of the node of that name changes, as a share of it. FROE_E_UNSUPPORTED: that is more
- * than a thousandth. */
+/** Makes *flaw as large as the scale of the node of that name changes, as a share of it. FROE_E_UNSUPPORTED: that is
+ * more than a thousandth. */
 froe_status io_channel_scale(const io_animation *animation, const io_channel *channel, const char *name, double *flaw);
 /** The matrix of a node that stands still with a channel. */
 void io_channel_matrix(const io_animation *animation, const io_channel *channel, double out[12]);

@@ -59,7 +59,7 @@ typedef struct dxf_blocks {
     bool nameless, elsewhere;        /* there is an insert without a name, a block of another drawing */
 } dxf_blocks;
 
-static int order_names(const void *x, const void *y) {
+static int order_blocks(const void *x, const void *y) {
     const dxf_name *a = x, *b = y;
     const int order = memcmp(a->at, b->at, a->length < b->length ? a->length : b->length);
     return order ? order : (a->length > b->length) - (a->length < b->length);
@@ -98,10 +98,10 @@ static froe_status tell_blocks(formats_sink *sink, const char *text) {
     dxf_blocks b = {.nameless = false};
     const bool room = list_blocks(sink, text, &b);
     bool lost = b.nameless;
-    if (b.blocks.count) qsort(b.blocks.data, b.blocks.count, sizeof *b.blocks.data, order_names);
+    if (b.blocks.count) qsort(b.blocks.data, b.blocks.count, sizeof *b.blocks.data, order_blocks);
     for (size_t i = 0; i < b.inserts.count && !lost; i++)
         lost = !b.blocks.count ||
-               !bsearch(b.inserts.data + i, b.blocks.data, b.blocks.count, sizeof *b.blocks.data, order_names);
+               !bsearch(b.inserts.data + i, b.blocks.data, b.blocks.count, sizeof *b.blocks.data, order_blocks);
     if (lost) io_leave(sink, unknown, strlen(unknown));
     if (b.elsewhere) io_leave(sink, elsewhere, strlen(elsewhere));
     array_free(&sink->alloc, &b.blocks);

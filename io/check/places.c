@@ -13,7 +13,7 @@
 
 static const char blanks[] = " \t\r\n";
 
-static const char *local(const char *name) {
+static const char *without_prefix(const char *name) {
     const char *colon = strchr(name, ':');
     return colon ? colon + 1 : name;
 }
@@ -33,7 +33,8 @@ static void XMLCALL look_at_point(void *user, const char *name, const char **att
     static const char *const points[] = {"wpt", "trkpt", "rtept"};
     io_xml *xml = user;
     for (size_t i = 0; i < sizeof points / sizeof *points && !xml->status; i++)
-        if (!strcmp(local(name), points[i]) && !(is_degrees(attributes, "lat") && is_degrees(attributes, "lon")))
+        if (!strcmp(without_prefix(name), points[i]) &&
+            !(is_degrees(attributes, "lat") && is_degrees(attributes, "lon")))
             io_xml_refuse(xml, FROE_E_FORMAT, "A place has no lat and lon that are numbers with decimal points.");
 }
 
@@ -71,7 +72,7 @@ static char mark_of(const char **attributes, const char *name, char otherwise) {
 static void XMLCALL begin_gml_element(void *user, const char *name, const char **attributes) {
     gml_check *c = user;
     if (c->xml.status) return;
-    name = local(name);
+    name = without_prefix(name);
     c->depth++;
     c->inside = NOTHING;
     c->text.count = 0;
@@ -106,7 +107,7 @@ static const char *pass_number(const char *at, char point) {
 }
 
 /* Between numbers are blanks, or what is in `other`. */
-static bool is_list(const char *at, char point, const char *other) {
+static bool are_numbers(const char *at, char point, const char *other) {
     for (at += strspn(at, blanks); *at;) {
         at = pass_number(at, point);
         if (!at || (*at && !strchr(blanks, *at) && !strchr(other, *at))) return false;
@@ -121,7 +122,7 @@ static bool is_pairs(const char *at, char point, char other) {
     const char between[] = {',', other, '\0'};
     const char *first = at + strspn(at, blanks), *behind = pass_number(first, point);
     if (point != '.' || other != ',' || (behind && *behind && strchr(blanks, *behind)))
-        return is_list(at, point, between + (point == ','));
+        return are_numbers(at, point, between + (point == ','));
     for (at = first; *at; at += strspn(at, blanks)) {
         size_t count = 0;
         for (bool comma = true; comma; count++, at += comma) {
@@ -142,7 +143,7 @@ static void XMLCALL end_gml_element(void *user, const char *name) {
         io_xml_stop(&c->xml, support_fail_memory(c->xml.sink->diag));
         return;
     }
-    if ((c->inside == LIST || c->inside == NUMBER) && !is_list(c->text.data, '.', ""))
+    if ((c->inside == LIST || c->inside == NUMBER) && !are_numbers(c->text.data, '.', ""))
         io_xml_refuse(&c->xml, FROE_E_FORMAT, "A place is not numbers with decimal points and blanks between them.");
     if (c->inside == PAIRS && !is_pairs(c->text.data, c->point, c->other))
         io_xml_refuse(&c->xml, FROE_E_FORMAT, "A place is not two or three numbers with decimal points.");

@@ -188,8 +188,8 @@ froe_status io_x_check(const formats_source *source, formats_sink *sink) {
     const size_t real = !strncmp(source->head + HEAD - 4, "0064", 4) ? 8 : 4;
     x_check x = {.real = real};
     if (!status && text.count >= HEAD) x.at = text.data + HEAD, x.end = text.data + text.count;
-    const char *fault = x.at ? find_x_fault(&x) : NULL;
-    if (fault) status = support_fail(sink->diag, FROE_E_FORMAT, "%s: %s", support_short(source->path), fault);
+    const char *sentence = x.at ? find_x_fault(&x) : NULL;
+    if (sentence) status = support_fail(sink->diag, FROE_E_FORMAT, "%s: %s", support_short(source->path), sentence);
     array_free(&sink->alloc, &text);
     return status;
 }
