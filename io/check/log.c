@@ -25,6 +25,7 @@ static const rule rules[] = {
     {"Collada: Unable to find geometry for ID", NULL, NULL},
     {"3DS: Vertex index overflow", NULL, NULL},
     {"3DS: Chunk overflow", NULL, NULL},
+    {"MD2: Vertex index is outside the allowed range", NULL, NULL},
     {"AC3D: Unexpected ", NULL, NULL},
     {"AC3D: material index is out of range", NULL, NULL},
     {"has an invalid index. It will be ignored", NULL, NULL}, /* ASE */
