@@ -1,5 +1,6 @@
 /* test_extremes.c: motions at the ends of what doubles are: coordinates next to the largest and the smallest, windows
- * of one tick, of 2^52 and of any length. All is answered, or refused with a sentence. */
+ * of one tick, of 2^52 and of any length. All is answered, or refused with a sentence. The unit of time changes nothing
+ * of what happens. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -7,6 +8,7 @@
 
 #include <cmocka.h>
 #include <float.h>
+#include <math.h>
 
 #include "support/fuzz.h"
 #include <froe/kinetic.h>
@@ -225,10 +227,92 @@ static void test_contacts_in_tiny_windows_are_close(void **state) {
     }
 }
 
+/* ---------------------------------------------------------------- units of time -- */
+
+enum { BARS = 8, NOTED = 512 };
+
+typedef struct diary {
+    size_t count;
+    froe_event events[NOTED];
+} diary;
+
+static bool note(void *user, const froe_event *event) {
+    diary *d = user;
+    assert_true(d->count < NOTED);
+    d->events[d->count++] = *event;
+    return true;
+}
+
+/* Bars on a grid that fly straight, on parabolas and on cubics, with times in units of 2^power. */
+static froe_motion *bars_of(uint64_t seed, int power) {
+    fuzz_source r = {seed};
+    size_t starts[2 * BARS + 1] = {0};
+    double times[4 * BARS], coords[8 * BARS], controls[8 * BARS], seconds[8 * BARS];
+    for (size_t i = 0; i < 4 * BARS; i++) {
+        const int degree = fuzz_int(&r, 1, 3);
+        times[i] = i % 2 ? ldexp(4, power) : 0;
+        starts[i / 2 + 1] = 2 * (i / 2 + 1);
+        for (size_t k = 2 * i; k < 2 * i + 2; k++) {
+            coords[k] = fuzz_int(&r, 0, 4);
+            controls[k] = degree > 1 ? fuzz_int(&r, 0, 4) : (double)NAN;
+            seconds[k] = degree > 2 ? fuzz_int(&r, 0, 4) : (double)NAN;
+        }
+    }
+    froe_motion_options w = froe_motion_defaults();
+    froe_motion *m = NULL;
+    w.begin = 0, w.end = ldexp(4, power);
+    assert_int_equal(froe_motion_new(&w, NULL, &m, NULL), FROE_OK);
+    froe_moving b = froe_moving_defaults();
+    b.vertex_count = 2 * BARS, b.count = BARS, b.starts = starts, b.times = times, b.coords = coords;
+    b.controls = controls, b.second_controls = seconds;
+    assert_int_equal(froe_motion_add(m, &b, NULL), FROE_OK);
+    return m;
+}
+
+static void keep_diary(froe_motion *m, diary *out) {
+    const double end = froe_motion_window(m).end;
+    froe_kinetic_options o = froe_kinetic_defaults();
+    froe_kinetic *k = NULL;
+    froe_diagnostic why = {0};
+    assert_int_equal(froe_kinetic_new(m, &o, NULL, &k, NULL), FROE_OK);
+    for (int i = 1; i <= 8; i++) {
+        assert_int_equal(froe_kinetic_advance(k, end * i / 8, note, out, NULL), FROE_OK);
+        if (froe_kinetic_audit(k, &why)) fail_msg("until %g: %s", end * i / 8, why.message);
+    }
+    froe_kinetic_free(k);
+}
+
+/* Powers of such times, and their products with coordinates, are no doubles: places were unknown then, repairs left
+ * out what was near, and partitions were wrong. */
+static void test_events_do_not_depend_on_the_unit_of_time(void **state) {
+    (void)state;
+    const int powers[] = {0, 90, 110, 300, 600, 1000, -90, -110, -340, -600, -1000};
+    size_t events = 0;
+    for (uint64_t seed = 1; seed <= 12; seed++) {
+        diary first = {0};
+        for (size_t i = 0; i < sizeof powers / sizeof *powers; i++) {
+            diary d = {0};
+            froe_motion *m = bars_of(seed, powers[i]);
+            keep_diary(m, i ? &d : &first);
+            froe_motion_free(m);
+            if (!i) continue;
+            assert_int_equal(d.count, first.count);
+            for (size_t j = 0; j < d.count; j++) {
+                const froe_event *a = d.events + j, *b = first.events + j;
+                assert_true(a->kind == b->kind && a->tick == b->tick && a->object_count == b->object_count);
+                for (unsigned n = 0; n < a->object_count && n < 4; n++) assert_int_equal(a->objects[n], b->objects[n]);
+            }
+        }
+        events += first.count;
+    }
+    assert_true(events > 300);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_all_is_answered_or_refused),
                                        cmocka_unit_test(test_a_segment_near_the_largest_double),
                                        cmocka_unit_test(test_contacts_in_the_shortest_window),
-                                       cmocka_unit_test(test_contacts_in_tiny_windows_are_close)};
+                                       cmocka_unit_test(test_contacts_in_tiny_windows_are_close),
+                                       cmocka_unit_test(test_events_do_not_depend_on_the_unit_of_time)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -213,15 +213,18 @@ static void check_curve(num_arena *arena, const froe_motion *m, const motion_pie
     mpq_t x, s, c, w;
     mpq_inits(x, s, c, w, NULL);
     set_dyadic(w, curve.w);
-    mpq_set_si(s, tick - from, 1);
     const num_dyadic *exact[] = {curve.x, curve.y, curve.z};
     const num_ball *near[] = {balls.x, balls.y, balls.z};
     for (int k = 0; k < m->dim; k++) {
         mpq_set_ui(x, 0, 1);
         for (int i = MOTION_DEGREE; i >= 0; i--) {
+            const int power = balls.power;
             set_dyadic(c, exact[k][i]);
+            if (power > 0) mpq_div_2exp(s, c, (mp_bitcnt_t)power);
+            if (power <= 0) mpq_mul_2exp(s, c, (mp_bitcnt_t)-power);
             num_ball ball = near[k][i];
-            assert_within(ball.x, ball.e, c);
+            assert_within(ball.x, ball.e, s);
+            mpq_set_si(s, tick - from, 1);
             mpq_mul(x, x, s);
             mpq_add(x, x, c);
             if (i > piece->degree) assert_int_equal(mpq_sgn(c), 0);

@@ -143,6 +143,7 @@ typedef struct motion_dyadic_curve {
 } motion_dyadic_curve;
 typedef struct motion_ball_curve {
     num_ball x[MOTION_TERMS], y[MOTION_TERMS], z[MOTION_TERMS], w;
+    int power; /**< they are to be multiplied by 2^power, all of them */
 } motion_ball_curve;
 /** The same in the units of motion_whole(). */
 typedef struct motion_whole_curve {

@@ -5,6 +5,7 @@
 #include "base/floats.h"
 #include "kinetic/motion/motion.h"
 #include <float.h>
+#include <stdlib.h>
 #include <string.h>
 
 #define T num_dyadic
@@ -99,8 +100,26 @@ void motion_curve_dyadic(num_arena *arena, const froe_motion *m, const motion_pi
     curve_dyadic(arena, m, piece, dyadic_ticks(arena, m, tick), dyadic_ticks(arena, m, 1), out);
 }
 
+/* x 2^power */
+static num_ball times_power(num_ball x, int power) {
+    return (num_ball){ldexp(x.x, power), ldexp(x.e, power) + NUM_BALL_TINY};
+}
+
+/* Times that are very long or short are counted in the length of the piece: their powers might not be doubles. */
 void motion_curve_ball(const froe_motion *m, const motion_piece *piece, int64_t tick, motion_ball_curve *out) {
-    curve_ball(NULL, m, piece, ball_ticks(m, tick), ball_ticks(m, 1), out);
+    enum { USUAL = 100 };
+    num_ball passed = ball_ticks(m, tick), h = ball_ticks(m, 1);
+    int top = 0;
+    if (!piece->degree) {
+        curve_ball(NULL, m, piece, passed, h, out);
+        return;
+    }
+    weights_ball w = weigh_ball(NULL, m, piece, passed);
+    frexp(w.a.x + w.b.x, &top);
+    if (abs(top) <= USUAL) top = 0;
+    if (top) w.a = times_power(w.a, -top), w.b = times_power(w.b, -top), h = times_power(h, -top);
+    curve_of_ball(NULL, m, piece, w, h, out);
+    out->power = piece->degree * top;
 }
 
 void motion_span_dyadic(num_arena *arena, const froe_motion *m, const motion_piece *piece, double from, double to,
