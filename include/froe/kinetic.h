@@ -387,8 +387,9 @@ FROE_API froe_status froe_kinetic_remove(froe_kinetic *kinetic, uint32_t object,
  * where they are at the tick, and an infinitesimal while later. So what touches at the tick alone, because it is about
  * to part or to cross, is told apart as it is afterwards. The points of a question do not move. Only `on` is about the
  * tick itself. Of segments that lie in one line where they overlap, the first in the order of cuts
- * is the answer. Segments without length are not met. Questions use memory of the partition's, so they are for one
- * thread at a time. FROE_E_ARG: a coordinate is NaN or infinite. FROE_E_MEMORY. */
+ * is the answer. Segments without length are not met; those that die at the tick itself are still there. Questions use
+ * memory of the partition's, so they are for one thread at a time. FROE_E_ARG: a coordinate is NaN or infinite.
+ * FROE_E_MEMORY. */
 
 /** Where a point is among the segments. */
 typedef struct froe_kinetic_place {
@@ -404,6 +405,7 @@ FROE_API froe_status froe_kinetic_locate(froe_kinetic *kinetic, const double at[
 /** The same in space, of triangles, straight up and down in z. `on` contains the point at the tick, borders included.
  * A point above or below a border is taken as moved in y, and by much less back in x, by less than any number: so it
  * meets one of two triangles that share an edge, and no upright one. From far above, `below` is what is seen there.
+ * Triangles without area whose corners are straight above one another, or in one place, are not met, not even by `on`.
  * FROE_E_UNSUPPORTED: the partition is one of the plane. Expected O(log^2 n), and where something coincides at the tick
  * the number of walls, and of triangles in one plane, through the point. */
 FROE_API froe_status froe_kinetic_locate_in_space(froe_kinetic *kinetic, const double at[3], froe_kinetic_place *out,
