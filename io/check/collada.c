@@ -252,7 +252,7 @@ static void XMLCALL end_element(void *user, const char *name) {
 static void check_whole(collada_check *c, const char *text, size_t length) {
     for (size_t i = 0; i < length && !c->xml.status; i++) {
         const bool digit = text[i] >= '0' && text[i] <= '9';
-        const bool blank = memchr(" \t\r\n", text[i], 4) != NULL;
+        const bool blank = text[i] && strchr(" \t\r\n", text[i]);
         c->given += digit && !c->digit;
         c->digit = digit;
         c->text_in = c->text_in || (c->indices && !blank);
