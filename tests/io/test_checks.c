@@ -144,6 +144,7 @@ static void what_collada_says_of_its_numbers_is_looked_at(void **state) {
         /* the first fault is told: of an empty element the end is told to the reader, too */
         {Y_PARAM, "<skew/>", FROE_E_UNSUPPORTED, "line 2: Skews are not read. A matrix is."},
         {"<p>0 1 2</p>", "<p>0 1 -2</p>", FROE_E_FORMAT, "line 2: An index is negative."},
+        {"<p>0 1 2</p>", "<p>0 1 02</p>", FROE_OK, NULL},
         {"</technique_common></source>",
          "</technique_common></source><source id=\"q\"><float_array id=\"b\" count=\"1\">0</float_array>"
          "<technique_common><accessor source=\"#b\" count=\"0\"><param/></accessor></technique_common></source>",

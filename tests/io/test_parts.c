@@ -322,6 +322,7 @@ static void points_of_mapinfo_fit_their_counts(void **state) {
         {"Arc 0 0 2 2", "Arc 0 0 2,5 2", 30, "A coordinate is not a number with a decimal point."},
         {"Arc 0 0 2 2\n0 90", "Arc 0 0 2 2\n0,5 90", 31, "A coordinate is not a number with a decimal point."},
         {"Point 9 9", "Point 9,5 9", 32, "A coordinate is not a number with a decimal point."},
+        {"2 -2.5", "2", 10, "A point is missing, or it is not two numbers."},
         {"Point 9 9", "point x 9", 32, "A coordinate is not a number with a decimal point."},
         {"Arc 0 0 2 2\n0 90", "Line 0 0 1,5 1", 30, "A coordinate is not a number with a decimal point."},
         {"Point 9 9", "Point 9, 9\n    Symbol (35,0,12)", 0, NULL},

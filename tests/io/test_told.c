@@ -476,17 +476,23 @@ static void blocks_of_dxf_are_there(void **state) {
     (void)state;
     static const char head[] = "0\nSECTION\n2\nHEADER\n0\nENDSEC\n0\nSECTION\n2\nBLOCKS\n0\nBLOCK\n2\n B "
                                "\n10\n0\n20\n0\n0\nPOINT\n8\n0\n10\n1\n20\n2\n"
-                               "0\nENDBLK\n0\nBLOCK\n2\nA\n70\n4\n0\nENDBLK\n0\nENDSEC\n0\nSECTION\n2\nENTITIES\n"
+                               "0\nENDBLK\n0\nBLOCK\n2\nA\n70\n4\n0\nENDBLK\n0\nBLOCK\n2\nC\n70\n4\n0\nENDBLK\n"
+                               "0\nENDSEC\n0\nSECTION\n2\nENTITIES\n"
                                "0\nPOINT\n8\n0\n10\n1\n20\n2\n0\nMESH\n8\n0\n",
-                      insert[] = "0\nINSERT\n8\n0\n2\n%s\n10\n1\n20\n2\n0\nENDSEC\n0\nEOF\n";
-    for (int there = 0; there < 2; there++) {
+                      insert[] = "0\nINSERT\n8\n0\n%s10\n1\n20\n2\n0\nENDSEC\n0\nEOF\n";
+    static const struct {
+        const char *name, *left;
+    } cases[] = {{"2\nBB\n", "INSERT of unknown blocks, XREF, MESH"},
+                 {"10\n0\n0\nINSERT\n8\n0\n2\nB\n", "INSERT of unknown blocks, XREF, MESH"},
+                 {"2\nB\n", "XREF, MESH"}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         char text[700], inserted[100];
         froe_read_report report;
-        snprintf(inserted, sizeof inserted, insert, there ? "B" : "BB");
+        snprintf(inserted, sizeof inserted, insert, cases[i].name);
         snprintf(text, sizeof text, "%s%s", head, inserted);
         write_text("blocks.dxf", text);
         froe_scene_free(read_scene("blocks.dxf", &report));
-        assert_string_equal(report.sorts_left, there ? "XREF, MESH" : "INSERT of unknown blocks, XREF, MESH");
+        assert_string_equal(report.sorts_left, cases[i].left);
     }
     assert_true(test_memory_each(read_with_memory, "blocks.dxf") > 4);
 }
