@@ -424,10 +424,14 @@ static void put_number(x_bytes *b, size_t bytes, uint64_t number) {
     for (; bytes--; number >>= 8) b->at[b->count++] = (char)(number & 255);
 }
 
+static void put_letters(x_bytes *b, size_t token, const char *letters) {
+    put_number(b, 2, token), put_number(b, 4, strlen(letters));
+    memcpy(b->at + b->count, letters, strlen(letters));
+    b->count += strlen(letters);
+}
+
 static void put_name(x_bytes *b, const char *name) {
-    put_number(b, 2, 1), put_number(b, 4, strlen(name));
-    memcpy(b->at + b->count, name, strlen(name));
-    b->count += strlen(name);
+    put_letters(b, 1, name);
 }
 
 static void put_whole(x_bytes *b, const uint32_t *items, size_t count) {
@@ -446,7 +450,8 @@ static void put_reals(x_bytes *b, const double *items, size_t count, size_t byte
 
 enum { X_BEGIN = 10, X_END = 11, X_SEMICOLON = 20, X_TEMPLATE = 31, X_DWORD = 41 };
 
-/* Two triangles of four vertices, with materials, behind a template and a name; with other numbers in their places. */
+/* Two triangles of four vertices, with materials, behind a template, a text and a name; with other numbers in their
+ * places. */
 static void write_binary_x(const char *path, size_t real, uint32_t vertices, uint32_t corner, uint32_t material) {
     static const double places[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, colours[11] = {1, 1, 1, 1};
     const uint32_t faces[] = {2, 3, 0, 1, 2, 3, 1, corner, 2}, materials[] = {2, 2, 0, material};
@@ -455,6 +460,8 @@ static void write_binary_x(const char *path, size_t real, uint32_t vertices, uin
     put_number(&b, 2, X_TEMPLATE), put_name(&b, "Mesh"), put_number(&b, 2, X_BEGIN);
     put_number(&b, 2, 5), put_number(&b, 8, 7), put_number(&b, 8, 7); /* an identifier */
     put_number(&b, 2, X_DWORD), put_name(&b, "nVertices"), put_number(&b, 2, X_SEMICOLON), put_number(&b, 2, X_END);
+    put_name(&b, "Note"), put_number(&b, 2, X_BEGIN), put_letters(&b, 2, "{ in two words");
+    put_number(&b, 2, X_SEMICOLON), put_number(&b, 2, X_END);
     put_name(&b, "Mesh"), put_name(&b, "Mesh"), put_number(&b, 2, X_BEGIN);
     put_number(&b, 2, 3), put_number(&b, 4, vertices); /* a whole number alone */
     put_reals(&b, places, sizeof places / sizeof *places, real);
