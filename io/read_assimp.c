@@ -195,8 +195,9 @@ static froe_status list_nodes(model *w) {
 static froe_status tell_lost_meshes(model *w) {
     static const char left[] = "meshes without a node";
     const froe_allocator *alloc = &w->sink->alloc;
-    const unsigned count = strncmp(w->sink->report.format, "Discreet 3DS", 12) ? 0 : w->scene->mNumMeshes;
+    const unsigned count = w->scene->mNumMeshes;
     ARRAY(bool) found = {0};
+    if (strncmp(w->sink->report.format, "Discreet 3DS", 12) != 0) return FROE_OK;
     if (!array_reserve(alloc, &found, count)) return support_fail_memory(w->sink->diag);
     for (unsigned i = 0; i < count; i++) found.data[i] = false;
     for (size_t n = 0; n < w->nodes->count; n++) {

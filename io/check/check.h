@@ -30,6 +30,8 @@ typedef struct io_xml_handlers {
     XML_EndElementHandler end;
     XML_CharacterDataHandler text;
 } io_xml_handlers;
+/** The name of an element without the prefix of its namespace. */
+const char *io_xml_local(const char *name);
 /** Ends it, with a status whose sentence has been said. */
 void io_xml_stop(io_xml *xml, froe_status status);
 /** Refuses it for what stands in the present line. */
@@ -53,6 +55,8 @@ typedef struct io_fault {
     size_t line;
     froe_status status;
 } io_fault;
+/** FROE_OK where there is none. */
+froe_status io_text_refuse(const formats_source *source, formats_sink *sink, const io_fault *fault);
 /** Looks for the first fault of a text, which ends with a NUL. What the library leaves out may go to the report. */
 typedef io_fault io_find_fault(formats_sink *sink, const char *text);
 /** Loads a text, as formats_load() does, and refuses it for what is found. */

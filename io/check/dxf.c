@@ -28,21 +28,28 @@ static bool begins_with(const char *at, const char *word) {
     return !strncmp(at, word, strlen(word));
 }
 
+/* Passes a group: its code, and where what it says begins. False: there is none. */
+static bool next_group(const char **at, long *code, const char **says) {
+    char *end;
+    if (!**at) return false;
+    *code = strtol(*at, &end, 10);
+    if (end == *at || !strchr(" \t\r\n", *end)) return false;
+    *says = line_behind(*at);
+    *at = line_behind(*says);
+    return true;
+}
+
 /* Numbers elsewhere than in entities, and in blocks of these, draw nothing. */
 static io_fault find_dxf_fault(const char *text) {
-    const char *at = text;
+    const char *at = text, *says;
+    long code;
     bool begun = false, drawn = false; /* a section, of entities */
-    for (size_t line = 2; *at; line += 2) {
-        char *end;
-        const long code = strtol(at, &end, 10);
-        if (end == at || !strchr(" \t\r\n", *end)) break;
-        at = line_behind(at);
+    for (size_t line = 2; next_group(&at, &code, &says); line += 2) {
         const bool number = (code >= 10 && code < 60) || (code >= 210 && code < 240);
-        if (drawn && number && *at && !is_number(at))
+        if (drawn && number && *says && !is_number(says))
             return (io_fault){"This is not a number with a decimal point.", line, FROE_E_FORMAT};
-        if (begun && code == 2) drawn = begins_with(at, "ENTITIES") || begins_with(at, "BLOCKS");
-        begun = code == 0 && begins_with(at, "SECTION");
-        at = line_behind(at);
+        if (begun && code == 2) drawn = begins_with(says, "ENTITIES") || begins_with(says, "BLOCKS");
+        begun = code == 0 && begins_with(says, "SECTION");
     }
     return (io_fault){.sentence = NULL};
 }
@@ -71,23 +78,19 @@ static bool list_blocks(formats_sink *sink, const char *at, dxf_blocks *b) {
     const froe_allocator *alloc = &sink->alloc;
     bool block = false, insert = false, room = true; /* in one, whose name is not yet known */
     bool head = false;                               /* of a block */
-    while (*at && room) {
-        char *end;
-        const long code = strtol(at, &end, 10);
-        if (end == at || !strchr(" \t\r\n", *end)) break;
-        at = line_behind(at);
-        at += strspn(at, " \t");
-        dxf_name name = {at, strcspn(at, "\r\n")};
-        while (name.length && strchr(" \t", at[name.length - 1])) name.length--;
+    long code;
+    for (const char *says; room && next_group(&at, &code, &says);) {
+        says += strspn(says, " \t");
+        dxf_name name = {says, strcspn(says, "\r\n")};
+        while (name.length && strchr(" \t", says[name.length - 1])) name.length--;
         if (code == 0) {
             b->nameless = b->nameless || insert;
-            head = block = name.length == strlen("BLOCK") && begins_with(at, "BLOCK");
-            insert = name.length == strlen("INSERT") && begins_with(at, "INSERT");
+            head = block = name.length == strlen("BLOCK") && begins_with(says, "BLOCK");
+            insert = name.length == strlen("INSERT") && begins_with(says, "INSERT");
         }
-        if (head && code == 70) b->elsewhere = b->elsewhere || strtol(at, NULL, 10) & REFERENCE;
+        if (head && code == 70) b->elsewhere = b->elsewhere || strtol(says, NULL, 10) & REFERENCE;
         if (block && code == 2) room = array_push(alloc, &b->blocks, name), block = false;
         if (insert && code == 2) room = array_push(alloc, &b->inserts, name), insert = false;
-        at = line_behind(at);
     }
     return room;
 }
@@ -112,10 +115,10 @@ static froe_status tell_blocks(formats_sink *sink, const char *text) {
 froe_status io_dxf_check(const formats_source *source, formats_sink *sink) {
     formats_text text = {0};
     froe_status status = formats_load(source, sink, true, &text);
-    const io_fault fault = status ? (io_fault){.sentence = NULL} : find_dxf_fault(text.data);
-    if (fault.sentence)
-        status = support_fail(sink->diag, fault.status, "%s: line %zu: %s", support_short(source->path), fault.line,
-                              fault.sentence);
+    if (!status) {
+        const io_fault fault = find_dxf_fault(text.data);
+        status = io_text_refuse(source, sink, &fault);
+    }
     if (!status) status = tell_blocks(sink, text.data);
     array_free(&sink->alloc, &text);
     return status;

@@ -17,16 +17,11 @@ typedef struct kml_check {
     size_t places, times; /* of a track */
 } kml_check;
 
-static const char *local(const char *name) {
-    const char *colon = strchr(name, ':');
-    return colon ? colon + 1 : name;
-}
-
 static void XMLCALL begin_kml_element(void *user, const char *name, const char **attributes) {
     kml_check *c = user;
     (void)attributes;
     if (c->xml.status) return;
-    name = local(name);
+    name = io_xml_local(name);
     c->inside = !strcmp(name, "coordinates") ? LIST : !strcmp(name, "coord") ? PLACE : NOTHING;
     c->text.count = 0;
     if (!strcmp(name, "Track")) c->places = c->times = 0;
@@ -89,7 +84,7 @@ static void XMLCALL end_kml_element(void *user, const char *name) {
     else if (place && !is_place(c->text.data))
         io_xml_refuse(&c->xml, FROE_E_FORMAT,
                       "A place of a track is not two or three numbers with one blank between them.");
-    else if (!strcmp(local(name), "Track") && c->places > c->times)
+    else if (!strcmp(io_xml_local(name), "Track") && c->places > c->times)
         io_xml_refuse(&c->xml, FROE_E_FORMAT, "A track has more places (gx:coord) than times (when).");
 }
 

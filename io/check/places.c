@@ -13,11 +13,6 @@
 
 static const char blanks[] = " \t\r\n";
 
-static const char *without_prefix(const char *name) {
-    const char *colon = strchr(name, ':');
-    return colon ? colon + 1 : name;
-}
-
 /* ------------------------------------------------------------------- GPX -- */
 
 static bool is_degrees(const char **attributes, const char *name) {
@@ -33,8 +28,7 @@ static void XMLCALL look_at_point(void *user, const char *name, const char **att
     static const char *const points[] = {"wpt", "trkpt", "rtept"};
     io_xml *xml = user;
     for (size_t i = 0; i < sizeof points / sizeof *points && !xml->status; i++)
-        if (!strcmp(without_prefix(name), points[i]) &&
-            !(is_degrees(attributes, "lat") && is_degrees(attributes, "lon")))
+        if (!strcmp(io_xml_local(name), points[i]) && !(is_degrees(attributes, "lat") && is_degrees(attributes, "lon")))
             io_xml_refuse(xml, FROE_E_FORMAT, "A place has no lat and lon that are numbers with decimal points.");
 }
 
@@ -72,7 +66,7 @@ static char mark_of(const char **attributes, const char *name, char otherwise) {
 static void XMLCALL begin_gml_element(void *user, const char *name, const char **attributes) {
     gml_check *c = user;
     if (c->xml.status) return;
-    name = without_prefix(name);
+    name = io_xml_local(name);
     c->depth++;
     c->inside = NOTHING;
     c->text.count = 0;

@@ -1,6 +1,11 @@
 /* xml.c: texts of XML that are looked through before assimp reads them. */
 #include "check/check.h"
 
+const char *io_xml_local(const char *name) {
+    const char *colon = strchr(name, ':');
+    return colon ? colon + 1 : name;
+}
+
 void io_xml_stop(io_xml *xml, froe_status status) {
     xml->status = status;
     XML_StopParser(xml->parser, XML_FALSE);
