@@ -108,13 +108,9 @@ static num_ball times_power(num_ball x, int power) {
 /* Times that are very long or short are counted in the length of the piece: their powers might not be doubles. */
 void motion_curve_ball(const froe_motion *m, const motion_piece *piece, int64_t tick, motion_ball_curve *out) {
     enum { USUAL = 100 };
-    num_ball passed = ball_ticks(m, tick), h = ball_ticks(m, 1);
-    int top = 0;
-    if (!piece->degree) {
-        curve_ball(NULL, m, piece, passed, h, out);
-        return;
-    }
-    weights_ball w = weigh_ball(NULL, m, piece, passed);
+    num_ball h = ball_ticks(m, 1);
+    weights_ball w = weights_at_ball(NULL, m, piece, ball_ticks(m, tick));
+    int top = 0; /* frexp() need not set it for what is infinite */
     frexp(w.a.x + w.b.x, &top);
     if (abs(top) <= USUAL) top = 0;
     if (top) w.a = times_power(w.a, -top), w.b = times_power(w.b, -top), h = times_power(h, -top);
